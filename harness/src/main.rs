@@ -1,0 +1,2 @@
+//! riprap
+fn main() {}

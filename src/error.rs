@@ -1,0 +1,113 @@
+//! Every way in which the library can refuse or fail, made once where it is known.
+
+use std::path::PathBuf;
+
+/// What went wrong, where, and what to change.
+#[non_exhaustive]
+#[derive(thiserror::Error, Debug)]
+pub enum Error {
+    /// A scene, or a value in it, cannot be used.
+    #[error("{place}: {message}")]
+    Scene {
+        /// Where in the scene: a file with line, or a key such as `boundaries.x_min`.
+        place: String,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// A file cannot be read or written.
+    #[error("{}: {message}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said, and the remedy.
+        message: String,
+    },
+    /// A kernel does not compile.
+    #[error("{file}:{line}: {message}")]
+    Shader {
+        /// File under `kernels/`.
+        file: String,
+        /// Line in that file, from 1.
+        line: u32,
+        /// The compiler's words.
+        message: String,
+    },
+    /// The adapter cannot hold or run what was asked.
+    #[error("{name}: wants {wants}, the adapter has {has}; {remedy}")]
+    Limit {
+        /// Name of the limit.
+        name: String,
+        /// What is needed.
+        wants: u64,
+        /// What there is.
+        has: u64,
+        /// What to change.
+        remedy: String,
+    },
+    /// A buffer bound to a kernel does not exist under that name, or is missing.
+    #[error("kernel {kernel}: binding {binding}: {message}")]
+    Binding {
+        /// Entry point.
+        kernel: String,
+        /// Name of the variable in WGSL.
+        binding: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// The flow left the range in which the method is stable.
+    #[error(
+        "diverged at step {step} (t = {time} s) in cell ({}, {}, {}) at ({:.4}, {:.4}, {:.4}) m: {cause}; {remedy}",
+        cell[0], cell[1], cell[2], position[0], position[1], position[2]
+    )]
+    Diverged {
+        /// Step, from 0.
+        step: u64,
+        /// Time of that step, s.
+        time: f64,
+        /// Cell, counted from the lower corner of the domain.
+        cell: [u32; 3],
+        /// Centre of that cell, m.
+        position: [f64; 3],
+        /// Likely cause.
+        cause: String,
+        /// What to change.
+        remedy: String,
+    },
+    /// The device did not answer in time.
+    #[error("the device did not finish {what} within {seconds} s; {remedy}")]
+    Timeout {
+        /// What was waited for.
+        what: String,
+        /// How long.
+        seconds: f64,
+        /// What to change.
+        remedy: String,
+    },
+    /// The device is gone.
+    #[error("device lost: {0}")]
+    DeviceLost(String),
+    /// The device refused an allocation or a command.
+    #[error("device: {0}")]
+    Device(String),
+}
+
+impl Error {
+    /// An error of a scene at `place`.
+    pub fn scene(place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::Scene {
+            place: place.into(),
+            message: message.into(),
+        }
+    }
+
+    /// An error of a file.
+    pub fn file(path: impl Into<PathBuf>, message: impl ToString) -> Self {
+        Self::File {
+            path: path.into(),
+            message: message.to_string(),
+        }
+    }
+}
+
+/// `std::result::Result` with the library's [`Error`].
+pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -1,0 +1,14 @@
+//! GPU compute kernels for rock blocks in water.
+//!
+//! The data goes one way: [`scene`] → [`units`] → `lattice` → [`output`].
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod error;
+pub mod output;
+pub mod scene;
+pub mod units;
+
+pub use error::{Error, Result};
+pub use wgpu;

@@ -1,0 +1,1 @@
+//! Files that others read: VTI and PVD for ParaView, CSV for probes.

@@ -6,7 +6,11 @@
 #![deny(missing_docs)]
 
 pub mod error;
+pub mod kernel;
+pub mod lattice;
+pub mod link;
 pub mod output;
+pub mod readback;
 pub mod scene;
 pub mod units;
 

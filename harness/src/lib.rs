@@ -1,0 +1,3 @@
+//! What the `riprap` binary is made of.
+
+pub mod gpu;

@@ -1,0 +1,38 @@
+// d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
+// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step reads
+// h* = h + R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
+// needs moments, stream, velocity, $where, $cells, $equilibrium, $eddy, $force, $relax, $keep, $guard
+
+@compute @workgroup_size(64)
+fn collide_stream(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let turn = group.x + group.y * groups.x;
+    if (turn >= BRICKS) {
+        return;
+    }
+    let p = place(brick_of(turn), local);
+    if (p.outside) {
+        return;
+    }
+    let cell = cell_class(p);
+    var h = load(p);
+    to_moments(&h);
+    let rho = 1.0 + h[0u];
+    let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
+    guard(p, cell, rho, u);
+    let shear_rate = 1.0 / relaxation_time(p, cell);
+    keep_velocity(p, cell, u);
+    var d = equilibrium(rho, u);
+    for (var k = 1u; k < 27u; k++) { // unroll
+        d[k] -= h[k];
+    }
+    take_half_source(p, u, &d);
+    relax(cell, shear_rate, &d, &h);
+    add_source(p, u, &h);
+    from_moments(&h);
+    clear_solid(cell, &h);
+    store(p, &h);
+}

@@ -1,0 +1,8 @@
+// Laminar: one relaxation time, nu = (tau - 1/2) / 3.
+// needs grid, $lanes
+
+override TAU: f32;
+
+fn relaxation_time(p: Place, cell: u32) -> Real {
+    return Real(TAU);
+}

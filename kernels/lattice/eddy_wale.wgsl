@@ -1,0 +1,32 @@
+// Gardner & Sitar 2018, eq. 7: tau = 1/2 + 3 (nu + nu_t), nu_t by WALE from central differences of the
+// velocity of the previous step.
+// needs grid, velocity, wale, $cells
+
+@group(0) @binding(30) var<storage, read> velocity_before: array<Real>;
+
+override TAU: f32;
+override C_WALE: f32;
+
+fn relaxation_time(p: Place, cell: u32) -> Real {
+    let elements = NX * NY * SLICES;
+    let g = Gradient(
+        component_gradient(p, cell, 0u),
+        component_gradient(p, cell, elements),
+        component_gradient(p, cell, 2u * elements),
+    );
+    let nu_t = wale(g, C_WALE);
+    return select(TAU + 3.0 * nu_t, Real(TAU), solid(cell));
+}
+
+fn component_gradient(p: Place, cell: u32, start: u32) -> Vector {
+    let here = velocity_before[start + p.element];
+    return Vector(
+        difference(cell, 0u, before(p, start, vec3(-1, 0, 0)), here, before(p, start, vec3(1, 0, 0))),
+        difference(cell, 2u, before(p, start, vec3(0, -1, 0)), here, before(p, start, vec3(0, 1, 0))),
+        difference(cell, 4u, before(p, start, vec3(0, 0, -1)), here, before(p, start, vec3(0, 0, 1))),
+    );
+}
+
+fn before(p: Place, start: u32, c: vec3<i32>) -> Real {
+    return from_neighbour(p, c, velocity_before[start + neighbour(p, c)]);
+}

@@ -1,0 +1,44 @@
+// One cell an invocation.
+
+alias Real = f32;
+alias Mask = bool;
+const LANES = 1u;
+
+fn mask_any(m: Mask) -> bool {
+    return m;
+}
+
+// A neighbour value seen from the top slice, whose upper neighbour is the bottom slice; and back.
+fn rotate_up(v: Real) -> Real {
+    return v;
+}
+
+fn rotate_down(v: Real) -> Real {
+    return v;
+}
+
+// Bit `bit` of each lane's byte.
+fn flag(word: u32, bit: u32) -> Mask {
+    return (word & (1u << bit)) != 0u;
+}
+
+fn lane(v: Real, l: u32) -> f32 {
+    return v;
+}
+
+fn pack_lanes(values: array<f32, 4>) -> Real {
+    return values[0];
+}
+
+// Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
+fn above(v: Real, limit: f32) -> Mask {
+    return bitcast<u32>(v) >= bitcast<u32>(limit);
+}
+
+fn not_positive(v: Real) -> Mask {
+    return bitcast<u32>(v) - u32(1u) >= u32(0x7f7fffffu);
+}
+
+fn mask_lane(m: Mask, l: u32) -> bool {
+    return m;
+}

@@ -1,0 +1,44 @@
+// Henretty et al. 2011, dimension lifting: two cells an invocation, z and z + SLICES.
+
+alias Real = vec2<f32>;
+alias Mask = vec2<bool>;
+const LANES = 2u;
+
+fn mask_any(m: Mask) -> bool {
+    return any(m);
+}
+
+// A neighbour value seen from the top slice, whose upper neighbour is the bottom slice; and back.
+fn rotate_up(v: Real) -> Real {
+    return v.yx;
+}
+
+fn rotate_down(v: Real) -> Real {
+    return v.yx;
+}
+
+// Bit `bit` of each lane's byte.
+fn flag(word: u32, bit: u32) -> Mask {
+    return (vec2(word) & (vec2(1u, 0x100u) << vec2(bit))) != vec2(0u);
+}
+
+fn lane(v: Real, l: u32) -> f32 {
+    return v[l];
+}
+
+fn pack_lanes(values: array<f32, 4>) -> Real {
+    return vec2(values[0], values[1]);
+}
+
+// Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
+fn above(v: Real, limit: f32) -> Mask {
+    return bitcast<vec2<u32>>(v) >= vec2<u32>(bitcast<u32>(limit));
+}
+
+fn not_positive(v: Real) -> Mask {
+    return bitcast<vec2<u32>>(v) - vec2<u32>(1u) >= vec2<u32>(0x7f7fffffu);
+}
+
+fn mask_lane(m: Mask, l: u32) -> bool {
+    return m[l];
+}

@@ -1,0 +1,45 @@
+// Henretty et al. 2011, dimension lifting: four cells an invocation, z + l SLICES in lane l.
+
+alias Real = vec4<f32>;
+alias Mask = vec4<bool>;
+const LANES = 4u;
+
+fn mask_any(m: Mask) -> bool {
+    return any(m);
+}
+
+// A neighbour value seen from the top slice, whose upper neighbour is the bottom slice of the
+// next lane; and back.
+fn rotate_up(v: Real) -> Real {
+    return v.yzwx;
+}
+
+fn rotate_down(v: Real) -> Real {
+    return v.wxyz;
+}
+
+// Bit `bit` of each lane's byte.
+fn flag(word: u32, bit: u32) -> Mask {
+    return (vec4(word) & (vec4(1u, 0x100u, 0x10000u, 0x1000000u) << vec4(bit))) != vec4(0u);
+}
+
+fn lane(v: Real, l: u32) -> f32 {
+    return v[l];
+}
+
+fn pack_lanes(values: array<f32, 4>) -> Real {
+    return vec4(values[0], values[1], values[2], values[3]);
+}
+
+// Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
+fn above(v: Real, limit: f32) -> Mask {
+    return bitcast<vec4<u32>>(v) >= vec4<u32>(bitcast<u32>(limit));
+}
+
+fn not_positive(v: Real) -> Mask {
+    return bitcast<vec4<u32>>(v) - vec4<u32>(1u) >= vec4<u32>(0x7f7fffffu);
+}
+
+fn mask_lane(m: Mask, l: u32) -> bool {
+    return m[l];
+}

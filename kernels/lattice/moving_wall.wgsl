@@ -1,0 +1,56 @@
+// Ladd 1994, J. Fluid Mech. 271:285, eq. 4.4: half-way bounce-back at a wall that moves with u_w, a velocity
+// inlet included: f_opposite = f* - 6 w rho (c.u_w), c into the wall. rho is the density that the
+// cell has with these populations: rho = (1 + known + reflected) / (1 + 6 sum w c.u_w).
+// needs scalar_grid, incoming, weights
+
+// A padded cell and the directions that lead through a moving face normal to x, y, z.
+struct MovingCell {
+    cell: u32,
+    through_x: u32,
+    through_y: u32,
+    through_z: u32,
+}
+
+@group(0) @binding(40) var<storage, read> moving_cells: array<MovingCell>;
+// For each of them the velocity of its face normal to x, y, z.
+@group(0) @binding(41) var<storage, read> wall_velocity: array<f32>;
+
+@compute @workgroup_size(64)
+fn move_wall(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n >= arrayLength(&moving_cells)) {
+        return;
+    }
+    let here = moving_cells[n];
+    let cell = padded_cell(here.cell);
+    let moving = here.through_x | here.through_y | here.through_z;
+    var sum = 1.0 + read_incoming(cell, 0u);
+    var flux = 0.0;
+    for (var q = 1u; q < 27u; q++) { // unroll
+        if ((moving & (1u << q)) != 0u) {
+            sum += read_incoming(neighbour_cell(cell, C[q]), q);
+            flux += push(here, n, q);
+        } else {
+            sum += read_incoming(cell, opposite(q));
+        }
+    }
+    let rho = sum / (1.0 + flux);
+    for (var q = 1u; q < 27u; q++) { // unroll
+        if ((moving & (1u << q)) != 0u) {
+            let reflected = read_incoming(neighbour_cell(cell, C[q]), q);
+            write_incoming(cell, opposite(q), reflected - rho * push(here, n, q));
+        }
+    }
+}
+
+// 6 w (c.u_w) of the face that direction q leads through.
+fn push(here: MovingCell, n: u32, q: u32) -> f32 {
+    let axis = select(select(2u, 1u, (here.through_y & (1u << q)) != 0u), 0u, (here.through_x & (1u << q)) != 0u);
+    let at = 9u * n + 3u * axis;
+    let u = vec3(wall_velocity[at], wall_velocity[at + 1u], wall_velocity[at + 2u]);
+    return 6.0 * weight(q) * dot(vec3<f32>(C[q]), u);
+}

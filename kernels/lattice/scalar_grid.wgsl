@@ -1,0 +1,43 @@
+// Cells one by one: for the kernels that run on surfaces, at the start, or for output.
+// needs lattice
+
+override NX: u32;
+override NY: u32;
+override SLICES: u32;
+override LANES_OF_ELEMENT: u32;
+override CELLS_X: u32;
+override CELLS_Y: u32;
+override CELLS_Z: u32;
+// Parity of the step that loads.
+override ODD: u32;
+
+// Invocations of a workgroup of 64, folded over two dimensions.
+fn invocation(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
+    return (group.x + group.y * groups.x) * 64u + local;
+}
+
+// Cell n of the domain, x fastest.
+fn domain_cell(n: u32) -> vec3<u32> {
+    return vec3(n % CELLS_X, (n / CELLS_X) % CELLS_Y, n / (CELLS_X * CELLS_Y));
+}
+
+// Cell n of the padded grid, x fastest.
+fn padded_cell(n: u32) -> vec3<u32> {
+    return vec3(n % NX, (n / NX) % NY, n / (NX * NY));
+}
+
+// Index of a padded cell among the scalars of a direction.
+fn scalar_of(cell: vec3<u32>) -> u32 {
+    let element = cell.x + NX * (cell.y + NY * (cell.z % SLICES));
+    return element * LANES_OF_ELEMENT + cell.z / SLICES;
+}
+
+// The neighbour on the torus.
+fn neighbour_cell(cell: vec3<u32>, c: vec3<i32>) -> vec3<u32> {
+    let n = vec3(NX, NY, SLICES * LANES_OF_ELEMENT);
+    return (cell + n + vec3<u32>(c)) % n;
+}
+
+fn opposite(q: u32) -> u32 {
+    return select(((q - 1u) ^ 1u) + 1u, 0u, q == 0u);
+}

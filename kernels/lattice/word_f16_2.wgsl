@@ -1,0 +1,10 @@
+// Two cells in a word: the lower one in the low half.
+// needs lanes_2
+
+fn pack(value: Real) -> u32 {
+    return pack2x16float(value);
+}
+
+fn unpack(word: u32) -> Real {
+    return unpack2x16float(word);
+}

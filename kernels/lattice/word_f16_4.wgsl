@@ -1,0 +1,10 @@
+// Four cells in two words, low halves first.
+// needs lanes_4
+
+fn pack(value: Real) -> vec2<u32> {
+    return vec2(pack2x16float(value.xy), pack2x16float(value.zw));
+}
+
+fn unpack(word: vec2<u32>) -> Real {
+    return vec4(unpack2x16float(word.x), unpack2x16float(word.y));
+}

@@ -1,0 +1,140 @@
+//! Populations in canonical order: what a checkpoint holds.
+
+use super::{Lattice, constants, fluid, fluid::GUARD_START};
+use crate::{Error, Result, kernel::Kernel, readback::Readback};
+
+/// The full state of a fluid: no parity, no padding, no lanes, shifted by the weights, so that it
+/// restarts under any storage, lane or binding count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Populations {
+    /// Steps done.
+    pub step: u64,
+    /// Cells an axis.
+    pub cells: [u32; 3],
+    /// f_q − w_q of each cell, direction by direction, x fastest.
+    pub values: Vec<f32>,
+    /// Velocity of the last step for the eddy viscosity, component by component; empty without.
+    pub velocity: Vec<f32>,
+}
+
+impl Lattice {
+    /// Reads the state between two steps.
+    ///
+    /// # Errors
+    /// If the device is lost or does not hold one direction more.
+    pub async fn populations(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Populations> {
+        let cells = self.grid.cell_count();
+        let buffer = fluid::result_buffer(device, "canonical", 4 * cells as u64);
+        let mut readback = Readback::default();
+        let mut values = Vec::with_capacity(27 * cells);
+        let out = self.exchange(device, "take_out", 0.0)?;
+        for q in 0..27u32 {
+            let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                self.close(&mut pass);
+                self.record_exchange(device, &out, &mut pass, &direction, &buffer)?;
+            }
+            queue.submit([encoder.finish()]);
+            values.extend(readback.read::<f32>(device, queue, &buffer, cells).await?);
+        }
+        let mut velocity = Vec::new();
+        if let Some(buffers) = &self.buffers.velocity {
+            let scalars = (self.grid.element_count() * self.grid.lanes) as usize;
+            let all: Vec<f32> = readback
+                .read(device, queue, &buffers[self.parity()], 3 * scalars)
+                .await?;
+            for a in 0..3 {
+                let of = |cell| all[a * scalars + self.grid.scalar_of(cell) as usize];
+                velocity.extend(self.grid.domain().map(of));
+            }
+        }
+        Ok(Populations {
+            step: self.step,
+            cells: self.grid.cells,
+            values,
+            velocity,
+        })
+    }
+
+    /// Goes on from a state; the same setup on the same device goes on to the same bits.
+    ///
+    /// # Errors
+    /// If the state is of another grid, or lacks what the eddy viscosity needs.
+    pub fn set_populations(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        state: &Populations,
+    ) -> Result<()> {
+        let cells = self.grid.cell_count();
+        let wrong = |message: String| Err(Error::scene("restart", message));
+        if state.cells != self.grid.cells || state.values.len() != 27 * cells {
+            return wrong(format!(
+                "the saved grid has {:?} cells, this scene {:?}",
+                state.cells, self.grid.cells
+            ));
+        }
+        if self.buffers.velocity.is_some() && state.velocity.len() != 3 * cells {
+            return wrong("the saved state has no velocity, which the eddy viscosity needs".into());
+        }
+        self.step = state.step;
+        self.closed = true;
+        if let Some(guard) = &self.buffers.guard {
+            let [_, _, step, cell] = GUARD_START;
+            let done = state.step as u32;
+            queue.write_buffer(guard, 0, bytemuck::cast_slice(&[done, done, step, cell]));
+        }
+        if let [x, y, z] = state.velocity.chunks(cells.max(1)).collect::<Vec<_>>()[..] {
+            self.set_velocity_before(queue, &[x.to_vec(), y.to_vec(), z.to_vec()]);
+        }
+        let halves = self.halves().iter();
+        let into: Vec<_> = halves
+            .map(|&half| self.exchange(device, "bring_in", half))
+            .collect::<Result<_>>()?;
+        for (q, values) in (0..27u32).zip(state.values.chunks(cells)) {
+            let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
+            let buffer = fluid::storage(device, "canonical", bytemuck::cast_slice(values));
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                for kernel in &into {
+                    self.record_exchange(device, kernel, &mut pass, &direction, &buffer)?;
+                }
+            }
+            queue.submit([encoder.finish()]);
+        }
+        Ok(())
+    }
+
+    fn exchange(&self, device: &wgpu::Device, entry: &str, half: f64) -> Result<Kernel> {
+        let mut constants = constants(&self.setup, &self.grid, self.parity() == 1);
+        constants.push(("HALF", half));
+        Kernel::new(
+            device,
+            &self.cell_program("exchange").link()?,
+            entry,
+            &constants,
+        )
+    }
+
+    fn record_exchange(
+        &self,
+        device: &wgpu::Device,
+        kernel: &Kernel,
+        pass: &mut wgpu::ComputePass<'_>,
+        direction: &wgpu::Buffer,
+        canonical: &wgpu::Buffer,
+    ) -> Result<()> {
+        let mut buffers = vec![("direction", direction), ("canonical", canonical)];
+        buffers.extend(self.buffers.named(self.parity() == 1));
+        let bind = kernel.bind(device, &buffers)?;
+        kernel.record(pass, &bind, (self.grid.cell_count() as u32).div_ceil(64));
+        Ok(())
+    }
+}

@@ -1,0 +1,513 @@
+//! The fluid on a device: its buffers, its kernels, and what a step records.
+
+use super::{
+    Face, Force, Geometry, Grid, Setup, Storage,
+    geometry::{FaceCell, Link, MovingCell},
+    populations,
+    program::{self, Reach},
+};
+use crate::{Error, Result, kernel::Kernel, link::Program};
+use wgpu::util::DeviceExt;
+
+/// A dispatch that is ready to be recorded.
+#[derive(Debug)]
+pub(super) struct Dispatch {
+    kernel: Kernel,
+    bind: wgpu::BindGroup,
+    groups: u32,
+}
+
+impl Dispatch {
+    /// Records it.
+    pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernel.record(pass, &self.bind, self.groups);
+    }
+}
+
+/// A D3Q27 lattice Boltzmann fluid.
+///
+/// It owns buffers and pipelines; device, queue and encoder are the caller's. A step is recorded
+/// by [`Lattice::record`]; nothing is read back unless asked.
+#[derive(Debug)]
+pub struct Lattice {
+    pub(super) setup: Setup,
+    pub(super) grid: Grid,
+    pub(super) geometry: Geometry,
+    pub(super) bindings: u32,
+    pub(super) buffers: Buffers,
+    /// Boundary passes of even and odd steps.
+    boundary: [Vec<Dispatch>; 2],
+    /// Collision and streaming of even and odd steps.
+    stream: [Vec<Dispatch>; 2],
+    /// Steps recorded.
+    pub(super) step: u64,
+    /// Whether the boundary passes of the coming step have been recorded.
+    pub(super) closed: bool,
+}
+
+/// The device memory of a fluid; what a setup does not use is not there.
+#[derive(Debug)]
+pub(super) struct Buffers {
+    pub(super) populations: Vec<wgpu::Buffer>,
+    pub(super) names: Vec<String>,
+    /// Velocity of the last and the coming step, exchanged each step.
+    pub(super) velocity: Option<[wgpu::Buffer; 2]>,
+    pub(super) flags: Option<wgpu::Buffer>,
+    pub(super) force: Option<wgpu::Buffer>,
+    pub(super) guard: Option<wgpu::Buffer>,
+    pub(super) wall_velocity: Option<wgpu::Buffer>,
+}
+
+impl Buffers {
+    /// All by their names in WGSL, for a step of the given parity.
+    pub(super) fn named(&self, odd: bool) -> Vec<(&str, &wgpu::Buffer)> {
+        let names = self.names.iter().map(String::as_str);
+        let mut all: Vec<_> = names.zip(&self.populations).collect();
+        if let Some(velocity) = &self.velocity {
+            all.push(("velocity_before", &velocity[usize::from(odd)]));
+            all.push(("velocity_after", &velocity[usize::from(!odd)]));
+        }
+        let optional = [
+            ("flags", &self.flags),
+            ("force_field", &self.force),
+            ("guard_state", &self.guard),
+            ("wall_velocity", &self.wall_velocity),
+        ];
+        all.extend(
+            optional
+                .into_iter()
+                .filter_map(|(n, b)| Some((n, b.as_ref()?))),
+        );
+        all
+    }
+}
+
+/// The guard's memory before the first step: no step counted, none bad.
+pub(super) const GUARD_START: [u32; 4] = [0, 0, u32::MAX, u32::MAX];
+
+impl Lattice {
+    /// Makes buffers and pipelines; the populations are those of rest at ρ = 1 until an initial
+    /// state is given.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
+    /// hold it.
+    pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
+        check(&setup)?;
+        let grid = Grid::new(&setup)?;
+        let geometry = Geometry::new(&setup, &grid);
+        let memory = super::memory(&setup, &grid, &device.limits())?;
+        let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings);
+        let mut lattice = Self {
+            bindings: memory.bindings,
+            boundary: [Vec::new(), Vec::new()],
+            stream: [Vec::new(), Vec::new()],
+            setup,
+            grid,
+            geometry,
+            buffers,
+            step: 0,
+            closed: false,
+        };
+        for odd in [false, true] {
+            lattice.boundary[usize::from(odd)] = lattice.boundary_passes(device, odd)?;
+            lattice.stream[usize::from(odd)] = lattice.stream_passes(device, odd)?;
+        }
+        Ok(lattice)
+    }
+
+    /// What it was made from.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// How it lies in memory.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// What surrounds its cells.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Storage bindings that hold the populations.
+    pub fn population_bindings(&self) -> usize {
+        self.buffers.populations.len()
+    }
+
+    /// Steps recorded since the start of the run.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Records one step into the caller's pass.
+    pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.close(pass);
+        for dispatch in &self.stream[self.parity()] {
+            dispatch.record(pass);
+        }
+        self.step += 1;
+        self.closed = false;
+    }
+
+    /// Records the boundary passes of the coming step, unless that is done: after it the
+    /// populations of every fluid cell are complete.
+    pub(super) fn close(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        if !self.closed {
+            for dispatch in &self.boundary[self.parity()] {
+                dispatch.record(pass);
+            }
+            self.closed = true;
+        }
+    }
+
+    pub(super) fn parity(&self) -> usize {
+        (self.step % 2) as usize
+    }
+
+    /// Gives the cells of a velocity face new velocities, in lattice units, lower axis fastest;
+    /// they hold from the next submission on.
+    ///
+    /// # Errors
+    /// If the face is not a velocity face or the number of cells differs.
+    pub fn set_face_velocity(
+        &mut self,
+        queue: &wgpu::Queue,
+        axis: usize,
+        side: usize,
+        velocity: Vec<[f32; 3]>,
+    ) -> Result<()> {
+        let face = &mut self.setup.faces[axis][side];
+        match face {
+            Face::Velocity(old) if old.len() == velocity.len() => *old = velocity,
+            _ => {
+                let message = format!("this face takes no list of {} velocities", velocity.len());
+                return Err(Error::scene(face_name(axis, side), message));
+            }
+        }
+        if let Some(buffer) = &self.buffers.wall_velocity {
+            let table = wall_velocities(&self.setup, &self.grid, &self.geometry.moving);
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&table));
+        }
+        Ok(())
+    }
+
+    /// A program for single cells, with the slots that the setup decides.
+    pub(super) fn cell_program(&self, entry: &str) -> Program {
+        let either = |condition, yes, no| if condition { yes } else { no };
+        Program::new(entry)
+            .text(
+                "scalars",
+                populations::scalars(self.bindings, self.setup.storage),
+            )
+            .slot("lanes", "lanes_1")
+            .slot(
+                "beside",
+                either(self.buffers.flags.is_some(), "beside_flags", "beside_none"),
+            )
+            .slot("equilibrium", program::equilibrium(self.setup.equilibrium))
+            .slot(
+                "cell_force",
+                match self.setup.force {
+                    Force::None => "cell_force_none",
+                    Force::Constant(_) => "cell_force_constant",
+                    Force::Field(_) => "cell_force_field",
+                },
+            )
+    }
+
+    /// A dispatch of a kernel for single cells; `extra` adds buffers and numbers.
+    pub(super) fn cell_dispatch(
+        &self,
+        device: &wgpu::Device,
+        program: &Program,
+        entry: &str,
+        odd: bool,
+        extra: (&[(&str, &wgpu::Buffer)], &[(&'static str, f64)]),
+        invocations: u32,
+    ) -> Result<Dispatch> {
+        let mut constants = program::constants(&self.setup, &self.grid, odd);
+        constants.extend(extra.1);
+        let kernel = Kernel::new(device, &program.link()?, entry, &constants)?;
+        let mut buffers = extra.0.to_vec();
+        buffers.extend(self.buffers.named(odd));
+        let bind = kernel.bind(device, &buffers)?;
+        Ok(Dispatch {
+            kernel,
+            bind,
+            groups: invocations.div_ceil(64),
+        })
+    }
+
+    /// For each half of the words that 16-bit storage shares between cells, or once.
+    pub(super) fn halves(&self) -> &'static [f64] {
+        match self.setup.storage {
+            Storage::F32 => &[0.0],
+            Storage::F16 => &[0.0, 1.0],
+        }
+    }
+
+    fn boundary_passes(&self, device: &wgpu::Device, odd: bool) -> Result<Vec<Dispatch>> {
+        let mut passes = Vec::new();
+        let limit = device.limits().max_storage_buffer_binding_size as usize;
+        let geometry = &self.geometry;
+        let program = self.cell_program("links");
+        for links in geometry.links.chunks(limit / size_of::<Link>()) {
+            let list = storage(device, "links", bytemuck::cast_slice(links));
+            for &half in self.halves() {
+                let extra: (&[_], &[_]) = (&[("links", &list)], &[("HALF", half)]);
+                let n = links.len() as u32;
+                passes.push(self.cell_dispatch(device, &program, "reflect", odd, extra, n)?);
+            }
+        }
+        if !geometry.moving.is_empty() {
+            let program = self.cell_program("moving_wall");
+            let list = storage(
+                device,
+                "moving cells",
+                bytemuck::cast_slice(&geometry.moving),
+            );
+            for &half in self.halves() {
+                let extra: (&[_], &[_]) = (&[("moving_cells", &list)], &[("HALF", half)]);
+                let n = geometry.moving.len() as u32;
+                passes.push(self.cell_dispatch(device, &program, "move_wall", odd, extra, n)?);
+            }
+        }
+        let program = self.cell_program("pressure_face");
+        for (axis, side, cells) in &geometry.pressure {
+            let Face::Pressure { density, hold } = self.setup.faces[*axis][*side] else {
+                continue;
+            };
+            if cells.is_empty() {
+                continue;
+            }
+            let list = storage(
+                device,
+                "face cells",
+                bytemuck::cast_slice::<FaceCell, u8>(cells),
+            );
+            for &half in self.halves() {
+                let numbers = [("HALF", half), ("FACE_DENSITY", density), ("HOLD", hold)];
+                let extra: (&[_], &[_]) = (&[("face_cells", &list)], &numbers);
+                let n = cells.len() as u32;
+                passes.push(self.cell_dispatch(
+                    device,
+                    &program,
+                    "hold_pressure",
+                    odd,
+                    extra,
+                    n,
+                )?);
+            }
+        }
+        Ok(passes)
+    }
+
+    fn stream_passes(&self, device: &wgpu::Device, odd: bool) -> Result<Vec<Dispatch>> {
+        let geometry = &self.geometry;
+        let plain = Reach {
+            listed: true,
+            flagged: false,
+        };
+        let mixed = Reach {
+            listed: true,
+            flagged: true,
+        };
+        let everywhere = Reach {
+            listed: false,
+            flagged: false,
+        };
+        let all: u32 = self.grid.bricks().iter().product();
+        let wanted: Vec<(Reach, &[u32], u32)> = if self.setup.is_all_fluid() {
+            vec![(everywhere, &[], all)]
+        } else {
+            let lists = [(mixed, &geometry.mixed), (plain, &geometry.plain)];
+            let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
+            lists
+                .map(|(reach, list)| (reach, list.as_slice(), list.len() as u32))
+                .collect()
+        };
+        // One dispatch of a step counts it for the guard: the one that has element 0, or the first.
+        let mut passes = Vec::new();
+        for (n, (reach, list, groups)) in wanted.into_iter().enumerate() {
+            let linked = program::collide_stream(&self.setup, self.bindings, reach).link()?;
+            let mut constants = program::constants(&self.setup, &self.grid, odd);
+            let counts = f64::from(u8::from(n == 0));
+            constants.extend([("BRICKS", f64::from(groups)), ("GUARD_COUNTS", counts)]);
+            let kernel = Kernel::new(device, &linked, "collide_stream", &constants)?;
+            let list =
+                (!list.is_empty()).then(|| storage(device, "bricks", bytemuck::cast_slice(list)));
+            let mut buffers = self.buffers.named(odd);
+            buffers.extend(list.iter().map(|list| ("bricks", list)));
+            let bind = kernel.bind(device, &buffers)?;
+            passes.push(Dispatch {
+                kernel,
+                bind,
+                groups,
+            });
+        }
+        Ok(passes)
+    }
+}
+
+/// A read-only storage buffer with this content.
+pub(super) fn storage(device: &wgpu::Device, label: &str, contents: &[u8]) -> wgpu::Buffer {
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(label),
+        contents,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+    })
+}
+
+/// A storage buffer that can be read back.
+pub(super) fn result_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+fn make_buffers(
+    device: &wgpu::Device,
+    setup: &Setup,
+    grid: &Grid,
+    geometry: &Geometry,
+    bindings: u32,
+) -> Buffers {
+    let scalars = u64::from(grid.element_count()) * u64::from(grid.lanes);
+    let word = super::bytes_a_population(setup.storage);
+    let each = populations::Q.div_ceil(bindings);
+    let populations: Vec<_> = (0..populations::Q.div_ceil(each))
+        .map(|b| {
+            let directions = u64::from(each.min(populations::Q - b * each));
+            result_buffer(device, "populations", directions * scalars * word)
+        })
+        .collect();
+    let names = (0..populations.len())
+        .map(|b| format!("populations_{b}"))
+        .collect();
+    let velocity = || result_buffer(device, "velocity", 12 * scalars);
+    let force = match &setup.force {
+        Force::Field(field) => {
+            let mut values = vec![0f32; 3 * scalars as usize];
+            for (cell, force) in grid.domain().zip(field) {
+                for a in 0..3 {
+                    values[a * scalars as usize + grid.scalar_of(cell) as usize] = force[a];
+                }
+            }
+            Some(storage(
+                device,
+                "force field",
+                bytemuck::cast_slice(&values),
+            ))
+        }
+        _ => None,
+    };
+    let moving = wall_velocities(setup, grid, &geometry.moving);
+    let list = |label, values: &[u32]| {
+        (!values.is_empty()).then(|| storage(device, label, bytemuck::cast_slice(values)))
+    };
+    Buffers {
+        populations,
+        names,
+        velocity: setup.wale.map(|_| [velocity(), velocity()]),
+        flags: list("flags", &geometry.flags),
+        force,
+        guard: (setup.max_speed > 0.0).then(|| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("guard"),
+                contents: bytemuck::cast_slice(&GUARD_START),
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_DST
+                    | wgpu::BufferUsages::COPY_SRC,
+            })
+        }),
+        wall_velocity: (!moving.is_empty())
+            .then(|| storage(device, "wall velocity", bytemuck::cast_slice(&moving))),
+    }
+}
+
+/// Velocities of the moving faces of each cell: normal to x, y, z, three components each.
+fn wall_velocities(setup: &Setup, grid: &Grid, moving: &[MovingCell]) -> Vec<[[f32; 3]; 3]> {
+    let [nx, ny, _] = grid.padded();
+    let of = |cell: &MovingCell, axis: usize| {
+        let at = [cell.cell % nx, (cell.cell / nx) % ny, cell.cell / (nx * ny)];
+        // Both sides of a domain one cell thick are its own faces; the lower one decides.
+        let through = cell.through[axis];
+        let low = (1..27).any(|q| through & (1 << q) != 0 && super::geometry::C[q][axis] < 0);
+        let side = usize::from(!low);
+        let (a, b) = in_plane(axis);
+        match &setup.faces[axis][side] {
+            Face::Wall(velocity) => velocity.map(|v| v as f32),
+            Face::Velocity(list) => list[(at[a] + grid.cells[a] * at[b]) as usize],
+            _ => [0.0; 3],
+        }
+    };
+    moving
+        .iter()
+        .map(|cell| [0, 1, 2].map(|axis| of(cell, axis)))
+        .collect()
+}
+
+/// The axes of a face normal to `axis`, lower one first.
+pub fn in_plane(axis: usize) -> (usize, usize) {
+    match axis {
+        0 => (1, 2),
+        1 => (0, 2),
+        _ => (0, 1),
+    }
+}
+
+/// The name of a face in scenes.
+pub fn face_name(axis: usize, side: usize) -> String {
+    format!(
+        "boundaries.{}_{}",
+        ["x", "y", "z"][axis],
+        ["min", "max"][side]
+    )
+}
+
+fn check(setup: &Setup) -> Result<()> {
+    if !(setup.nu.is_finite() && setup.nu > 0.0) {
+        let message = format!("the viscosity must be positive, not {}", setup.nu);
+        return Err(Error::scene("fluid.viscosity", message));
+    }
+    let cells: usize = setup.cells.iter().map(|&n| n as usize).product();
+    let same = |name: &str, n: usize, cells: usize| {
+        let message = format!("{n} values for {cells} cells");
+        if n == cells {
+            Ok(())
+        } else {
+            Err(Error::scene(name, message))
+        }
+    };
+    if !setup.solid.is_empty() {
+        same("solids", setup.solid.len(), cells)?;
+    }
+    if let Force::Field(field) = &setup.force {
+        same("fluid.acceleration", field.len(), cells)?;
+    }
+    for (axis, faces) in setup.faces.iter().enumerate() {
+        let periodic = faces.iter().filter(|face| **face == Face::Periodic).count();
+        if periodic == 1 {
+            let message = "a face is periodic only together with the opposite one";
+            return Err(Error::scene(face_name(axis, 0), message));
+        }
+        let (a, b) = in_plane(axis);
+        for (side, face) in faces.iter().enumerate() {
+            if let Face::Velocity(list) = face {
+                let plane = setup.cells[a] as usize * setup.cells[b] as usize;
+                same(&face_name(axis, side), list.len(), plane)?;
+            }
+        }
+    }
+    if setup.brick.iter().product::<u32>() != 64 {
+        return Err(Error::scene("brick", "a brick has 64 elements"));
+    }
+    Ok(())
+}

@@ -1,0 +1,358 @@
+//! What surrounds each cell: flags, reflecting links, moving and pressure faces, bricks.
+
+use super::{Face, Grid, Setup};
+
+/// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
+pub const C: [[i32; 3]; 27] = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [-1, 0, 0],
+    [0, 1, 0],
+    [0, -1, 0],
+    [0, 0, 1],
+    [0, 0, -1],
+    [1, 1, 0],
+    [-1, -1, 0],
+    [1, 0, 1],
+    [-1, 0, -1],
+    [0, 1, 1],
+    [0, -1, -1],
+    [1, -1, 0],
+    [-1, 1, 0],
+    [1, 0, -1],
+    [-1, 0, 1],
+    [0, 1, -1],
+    [0, -1, 1],
+    [1, 1, 1],
+    [-1, -1, -1],
+    [1, 1, -1],
+    [-1, -1, 1],
+    [1, -1, 1],
+    [-1, 1, -1],
+    [-1, 1, 1],
+    [1, -1, -1],
+];
+
+/// The cell is beside a wall: bit of its flags.
+pub const BESIDE_WALL: u8 = 1 << 6;
+/// The cell is not fluid: bit of its flags.
+pub const SOLID: u8 = 1 << 7;
+
+fn opposite(q: usize) -> usize {
+    if q == 0 { 0 } else { ((q - 1) ^ 1) + 1 }
+}
+
+/// What a direction leads to from a fluid cell.
+#[derive(Clone, Copy, PartialEq)]
+enum Beyond {
+    Fluid,
+    /// Static solid or a wall at rest.
+    Wall,
+    /// A wall or inlet with a velocity, normal to this axis.
+    Moving(usize),
+    Pressure(usize, usize),
+    /// Free-slip faces normal to these axes.
+    Slip([bool; 3]),
+}
+
+/// A cell whose face moves, as `moving_wall.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct MovingCell {
+    /// Index in the padded grid.
+    pub cell: u32,
+    /// Directions through the moving faces normal to x, y, z, one bit each.
+    pub through: [u32; 3],
+}
+
+/// A cell at a pressure face, as `pressure_face.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FaceCell {
+    /// Index in the padded grid.
+    pub cell: u32,
+    /// The next cell inside.
+    pub inner: u32,
+    /// Directions that enter through the face, one bit each.
+    pub entering: u32,
+}
+
+/// A reflected population, as `links.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Link {
+    /// Scalar read.
+    pub from: u32,
+    /// Scalar written.
+    pub to: u32,
+    /// Directions of both words in an even step, 5 bits each.
+    pub directions: u32,
+}
+
+/// The surroundings of all cells.
+#[derive(Debug, Default)]
+pub struct Geometry {
+    /// A byte for each lane of an element, as `cells_flagged.wgsl` explains them; empty where
+    /// all cells are fluid without neighbours of another kind.
+    pub flags: Vec<u32>,
+    /// Populations that walls at rest and free-slip faces return.
+    pub links: Vec<Link>,
+    /// Cells at moving walls and velocity faces.
+    pub moving: Vec<MovingCell>,
+    /// Axis and side of each pressure face with its cells.
+    pub pressure: Vec<(usize, usize, Vec<FaceCell>)>,
+    /// Bricks of plain fluid.
+    pub plain: Vec<u32>,
+    /// Bricks with flagged cells.
+    pub mixed: Vec<u32>,
+    /// Bricks without a fluid cell.
+    pub solid_bricks: u32,
+    /// Fluid cells.
+    pub fluid_cells: u64,
+}
+
+struct Survey<'a> {
+    setup: &'a Setup,
+    grid: &'a Grid,
+    periodic: [bool; 3],
+}
+
+impl Geometry {
+    /// Surveys the grid of a setup.
+    pub fn new(setup: &Setup, grid: &Grid) -> Self {
+        if setup.is_all_fluid() {
+            return Self {
+                fluid_cells: grid.cell_count() as u64,
+                ..Self::default()
+            };
+        }
+        let survey = Survey {
+            setup,
+            grid,
+            periodic: setup.periodic_axes(),
+        };
+        let mut geometry = Self {
+            flags: vec![0x8080_8080; grid.element_count() as usize],
+            ..Self::default()
+        };
+        for axis in 0..3 {
+            for side in 0..2 {
+                if matches!(setup.faces[axis][side], Face::Pressure { .. }) {
+                    geometry.pressure.push((axis, side, Vec::new()));
+                }
+            }
+        }
+        for cell in grid.domain() {
+            if survey.is_solid(cell) {
+                continue;
+            }
+            geometry.fluid_cells += 1;
+            let bits = if survey.is_inside(cell) {
+                0
+            } else {
+                geometry.survey_cell(&survey, cell)
+            };
+            let (element, lane) = grid.element_of(cell);
+            let word = &mut geometry.flags[element as usize];
+            *word = *word & !(0xff << (8 * lane)) | u32::from(bits) << (8 * lane);
+        }
+        geometry.sort_bricks(grid);
+        geometry
+    }
+
+    /// Adds the links of a cell and returns its flags.
+    fn survey_cell(&mut self, survey: &Survey<'_>, cell: [u32; 3]) -> u8 {
+        let grid = survey.grid;
+        let mut bits = 0;
+        let mut moving = MovingCell {
+            cell: survey.padded_index(cell),
+            through: [0; 3],
+        };
+        for q in 1..27 {
+            let beyond = survey.beyond(cell, q);
+            if beyond != Beyond::Fluid && q < 7 {
+                // Directions 1..6 are +x, -x, +y, ...; flags go -x, +x, -y, ...
+                bits |= 1 << ((q - 1) ^ 1);
+            }
+            if matches!(beyond, Beyond::Wall | Beyond::Moving(_)) {
+                bits |= BESIDE_WALL;
+            }
+            let enters = opposite(q);
+            match beyond {
+                Beyond::Fluid => {}
+                Beyond::Wall => self.links.push(survey.link(cell, q, cell, enters)),
+                Beyond::Moving(axis) => moving.through[axis] |= 1 << q,
+                Beyond::Slip(axes) => {
+                    let link = survey.slip(cell, q, axes);
+                    self.links.push(link);
+                }
+                Beyond::Pressure(axis, side) => {
+                    let found = self
+                        .pressure
+                        .iter_mut()
+                        .find(|f| (f.0, f.1) == (axis, side));
+                    if let Some((_, _, cells)) = found {
+                        let here = survey.padded_index(cell);
+                        if cells.last().is_none_or(|last| last.cell != here) {
+                            let mut inward = [0; 3];
+                            inward[axis] = if side == 0 { 1 } else { -1 };
+                            let inner = grid.neighbour(cell, inward);
+                            let fluid = grid.contains(inner) && !survey.is_solid(inner);
+                            cells.push(FaceCell {
+                                cell: here,
+                                inner: if fluid {
+                                    survey.padded_index(inner)
+                                } else {
+                                    here
+                                },
+                                entering: 0,
+                            });
+                        }
+                        if let Some(last) = cells.last_mut() {
+                            last.entering |= 1 << enters;
+                        }
+                    }
+                }
+            }
+        }
+        if moving.through != [0; 3] {
+            self.moving.push(moving);
+        }
+        bits
+    }
+
+    fn sort_bricks(&mut self, grid: &Grid) {
+        let [bx, by, bz] = grid.bricks();
+        let [nx, ny, nz] = grid.elements;
+        let all_solid = (0..grid.lanes).fold(0, |word, l| word | u32::from(SOLID) << (8 * l));
+        let used = if grid.lanes == 4 {
+            u32::MAX
+        } else {
+            (1 << (8 * grid.lanes)) - 1
+        };
+        for (brick, [x, y, z]) in (0..)
+            .zip((0..bz).flat_map(|z| (0..by).flat_map(move |y| (0..bx).map(move |x| [x, y, z]))))
+        {
+            let range = |at: u32, size: u32, n: u32| at * size..((at + 1) * size).min(n);
+            let (mut flagged, mut solid) = (false, true);
+            for k in range(z, grid.brick[2], nz) {
+                for j in range(y, grid.brick[1], ny) {
+                    for i in range(x, grid.brick[0], nx) {
+                        let word = self.flags[(i + nx * (j + ny * k)) as usize] & used;
+                        flagged |= word != 0;
+                        solid &= word & all_solid == all_solid;
+                    }
+                }
+            }
+            match (flagged, solid) {
+                (_, true) => self.solid_bricks += 1,
+                (true, _) => self.mixed.push(brick),
+                (false, _) => self.plain.push(brick),
+            }
+        }
+    }
+}
+
+impl Survey<'_> {
+    fn is_solid(&self, cell: [u32; 3]) -> bool {
+        let solid = &self.setup.solid;
+        !solid.is_empty() && solid[self.grid.index(cell)]
+    }
+
+    /// Whether no neighbour can be anything but fluid.
+    fn is_inside(&self, cell: [u32; 3]) -> bool {
+        self.setup.solid.is_empty()
+            && (0..3).all(|a| {
+                self.periodic[a] || (1..self.grid.cells[a].saturating_sub(1)).contains(&cell[a])
+            })
+    }
+
+    fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {
+        let [nx, ny, _] = self.grid.padded();
+        x + nx * (y + ny * z)
+    }
+
+    /// What direction `q` leads to. Where it crosses several faces the first of: wall, moving
+    /// wall, velocity, pressure, free slip decides.
+    fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
+        let mut to = cell;
+        let mut crossed = [None; 3];
+        for a in 0..3 {
+            let n = i64::from(self.grid.cells[a]);
+            let at = i64::from(cell[a]) + i64::from(C[q][a]);
+            if (0..n).contains(&at) || self.periodic[a] {
+                to[a] = at.rem_euclid(n) as u32;
+            } else {
+                crossed[a] = Some(usize::from(at >= n));
+            }
+        }
+        let mut found = Beyond::Fluid;
+        let mut best = 0;
+        let mut slip = [false; 3];
+        for (axis, side) in (0..3).filter_map(|a| Some((a, crossed[a]?))) {
+            let (rank, beyond) = match &self.setup.faces[axis][side] {
+                Face::Wall([0.0, 0.0, 0.0]) => (5, Beyond::Wall),
+                Face::Wall(_) => (4, Beyond::Moving(axis)),
+                Face::Velocity(_) => (3, Beyond::Moving(axis)),
+                Face::Pressure { .. } => (2, Beyond::Pressure(axis, side)),
+                Face::FreeSlip | Face::Periodic => {
+                    slip[axis] = true;
+                    (1, Beyond::Slip(slip))
+                }
+            };
+            if rank > best || rank == 1 && best == 1 {
+                (best, found) = (rank, beyond);
+            }
+        }
+        if best == 0 && self.is_solid(to) {
+            return Beyond::Wall;
+        }
+        found
+    }
+
+    /// Where the population lies that `cell` loads in direction `q` in an even step.
+    fn incoming(&self, cell: [u32; 3], q: usize) -> (u32, u32) {
+        if q % 2 == 1 {
+            (self.grid.scalar_of(cell), q as u32 + 1)
+        } else {
+            let owner = self.grid.neighbour(cell, C[q - 1]);
+            (self.grid.scalar_of(owner), q as u32 - 1)
+        }
+    }
+
+    /// What `sender` sent in direction `sent` returns to `receiver` in direction `received`.
+    fn link(&self, sender: [u32; 3], sent: usize, receiver: [u32; 3], received: usize) -> Link {
+        let arrived = self.grid.neighbour(sender, C[sent]);
+        let (from, direction_from) = self.incoming(arrived, sent);
+        let (to, direction_to) = self.incoming(receiver, received);
+        Link {
+            from,
+            to,
+            directions: direction_from | direction_to << 5,
+        }
+    }
+
+    /// Specular reflection at the faces normal to `axes`: what enters `cell` against `q` left the
+    /// cell beside it towards the same faces; bounce-back where that one is not fluid.
+    fn slip(&self, cell: [u32; 3], q: usize, axes: [bool; 3]) -> Link {
+        let entering = opposite(q);
+        // The entering direction with its normal components turned towards the face again.
+        let sent = [0, 1, 2].map(|a| if axes[a] { C[q][a] } else { C[entering][a] });
+        let tangential = [0, 1, 2].map(|a| if axes[a] { 0 } else { C[q][a] });
+        let along = tangential.iter().position(|&t| t != 0).map_or(0, |_| {
+            C.iter().position(|c| *c == tangential).unwrap_or_default()
+        });
+        let direction = C.iter().position(|c| *c == sent).unwrap_or_default();
+        if along == 0 {
+            return self.link(cell, direction, cell, entering);
+        }
+        if self.beyond(cell, along) != Beyond::Fluid {
+            return self.link(cell, q, cell, entering);
+        }
+        let sender = [0, 1, 2].map(|a| {
+            let n = i64::from(self.grid.cells[a]);
+            (i64::from(cell[a]) + i64::from(tangential[a])).rem_euclid(n) as u32
+        });
+        self.link(sender, direction, cell, entering)
+    }
+}

@@ -1,0 +1,92 @@
+//! What a fluid takes on a device, and over how many bindings it is spread.
+
+use super::{Face, Force, Grid, Setup, Storage, populations::Q};
+use crate::{Error, Result};
+
+/// Bytes and bindings of a fluid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// Storage bindings of the populations.
+    pub bindings: u32,
+    /// Bytes of the populations.
+    pub populations: u64,
+    /// Bytes of everything else that stays on the device.
+    pub others: u64,
+    /// Bytes of the largest binding.
+    pub largest_binding: u64,
+    /// Storage bindings of the kernel that has the most.
+    pub most_bindings: u32,
+}
+
+/// Bytes of a population in memory.
+pub fn bytes_a_population(storage: Storage) -> u64 {
+    match storage {
+        Storage::F32 => 4,
+        Storage::F16 => 2,
+    }
+}
+
+/// The bytes that a fluid takes, spread so that the limits hold.
+///
+/// # Errors
+/// [`Error::Limit`] that names the limit and how many cells would fit.
+pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memory> {
+    let scalars = u64::from(grid.element_count()) * u64::from(grid.lanes);
+    let direction = scalars * bytes_a_population(setup.storage);
+    let binding_limit = limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size);
+    let fluid = setup.is_all_fluid();
+    let moving = setup.faces.iter().flatten().any(|f| match f {
+        Face::Wall(velocity) => *velocity != [0.0; 3],
+        Face::Velocity(_) => true,
+        _ => false,
+    });
+    // Bindings beside the populations: of collide_stream, of a boundary pass, of macroscopic.
+    let field = u32::from(matches!(setup.force, Force::Field(_)));
+    let flags = u32::from(!fluid);
+    let step =
+        field + 2 * flags + 2 * u32::from(setup.wale.is_some()) + u32::from(setup.max_speed > 0.0);
+    let boundary = if moving { 2 } else { flags };
+    let beside = step.max(boundary).max(4 + flags + field);
+    let free = limits
+        .max_storage_buffers_per_shader_stage
+        .saturating_sub(beside);
+    let each = (binding_limit / direction.max(1)).min(Q.into()) as u32;
+    let wanted = match setup.bindings {
+        Some(n) => n.clamp(1, Q),
+        None if each == 0 => Q,
+        None => Q.div_ceil(each),
+    };
+    if each == 0 || wanted > free || Q.div_ceil(wanted) > each {
+        // The largest number of directions a binding that the free bindings leave.
+        let fit = binding_limit / u64::from(Q.div_ceil(free.clamp(1, Q)));
+        return Err(Error::Limit {
+            name: format!("bytes of one storage binding ({free} of them free for the populations)"),
+            wants: direction * u64::from(Q.div_ceil(wanted.min(free).max(1))),
+            has: binding_limit,
+            remedy: format!(
+                "the adapter holds about {} cells in one grid; use a larger cell, 16-bit storage, \
+                 or another adapter",
+                fit / bytes_a_population(setup.storage)
+            ),
+        });
+    }
+    let others = [
+        (setup.wale.is_some(), 24 * scalars),
+        (!fluid, 4 * u64::from(grid.element_count())),
+        (field == 1, 12 * scalars),
+    ];
+    Ok(Memory {
+        bindings: wanted,
+        populations: direction * u64::from(Q),
+        others: others
+            .iter()
+            .filter(|(used, _)| *used)
+            .map(|(_, bytes)| bytes)
+            .sum(),
+        largest_binding: (direction * u64::from(Q.div_ceil(wanted)))
+            .max(12 * scalars * u64::from(field)),
+        most_bindings: wanted + beside,
+    })
+}

@@ -1,0 +1,22 @@
+//! The lattice Boltzmann fluid: D3Q27, in place, on any device.
+
+mod exchange;
+mod fluid;
+mod geometry;
+mod grid;
+mod memory;
+mod observe;
+mod populations;
+mod program;
+mod setup;
+mod start;
+
+pub use exchange::Populations;
+pub use fluid::{Lattice, face_name, in_plane};
+pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
+pub use grid::Grid;
+pub use memory::{Memory, bytes_a_population, memory};
+pub use observe::{Derived, Fault, Observer, Sums};
+pub use program::{Reach, collide_stream, constants};
+pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
+pub use start::State;

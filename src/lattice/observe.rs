@@ -1,0 +1,273 @@
+//! Density, velocity and what follows from them: fields, sums, the guard.
+
+use super::{
+    Lattice, State,
+    fluid::{Dispatch, result_buffer},
+};
+use crate::{Result, readback::Readback};
+
+/// A number that follows from the velocity gradient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derived {
+    /// Q-criterion (Hunt, Wray & Moin 1988).
+    QCriterion,
+    /// Eddy viscosity of WALE.
+    EddyViscosity,
+    /// A component of the vorticity, 0 to 2.
+    Vorticity(u32),
+}
+
+/// Sums over the fluid cells, lattice units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// Σ (ρ − 1).
+    pub excess: f64,
+    /// Σ ρu.
+    pub momentum: [f64; 3],
+    /// Σ ρu²/2.
+    pub kinetic_energy: f64,
+    /// Σ (curl u)²/2.
+    pub enstrophy: f64,
+    /// Largest |u|.
+    pub max_speed: f64,
+    /// Fluid cells.
+    pub cells: f64,
+}
+
+/// The first cell in which the guard found a flow outside of the method's range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Step, from 0.
+    pub step: u64,
+    /// Domain cell.
+    pub cell: [u32; 3],
+}
+
+/// Reads a [`Lattice`]: buffers and kernels that only output needs.
+#[derive(Debug)]
+pub struct Observer {
+    density: wgpu::Buffer,
+    velocity: [wgpu::Buffer; 3],
+    /// Made when first asked for.
+    derived: Option<wgpu::Buffer>,
+    derive: Vec<(Derived, Dispatch)>,
+    sums: Option<(wgpu::Buffer, Dispatch)>,
+    macroscopic: [Dispatch; 2],
+    readback: Readback,
+}
+
+const VELOCITY_OUT: [&str; 3] = ["velocity_x_out", "velocity_y_out", "velocity_z_out"];
+const VELOCITY_IN: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
+
+impl Observer {
+    /// Makes the buffers for density and velocity of `lattice`.
+    ///
+    /// # Errors
+    /// If the device does not hold them.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
+        let cells = lattice.grid.cell_count();
+        let field = |label| result_buffer(device, label, 4 * cells as u64);
+        let density = field("density");
+        let velocity = ["velocity x", "velocity y", "velocity z"].map(field);
+        let mut buffers = vec![("density_out", &density)];
+        buffers.extend(VELOCITY_OUT.into_iter().zip(&velocity));
+        let program = lattice.cell_program("macroscopic");
+        let make = |odd| {
+            let extra: (&[_], &[_]) = (&buffers, &[("HALF", 0.0)]);
+            lattice.cell_dispatch(device, &program, "macroscopic", odd, extra, cells as u32)
+        };
+        let macroscopic = [make(false)?, make(true)?];
+        Ok(Self {
+            density,
+            velocity,
+            derived: None,
+            derive: Vec::new(),
+            sums: None,
+            macroscopic,
+            readback: Readback::default(),
+        })
+    }
+
+    /// Records the density and velocity of the present state into [`Observer::density`] and
+    /// [`Observer::velocity`].
+    pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) {
+        lattice.close(pass);
+        self.macroscopic[lattice.parity()].record(pass);
+    }
+
+    /// Density minus one on the domain cells, f32, x fastest.
+    pub fn density(&self) -> &wgpu::Buffer {
+        &self.density
+    }
+
+    /// Components of the velocity on the domain cells, f32, x fastest.
+    pub fn velocity(&self) -> &[wgpu::Buffer; 3] {
+        &self.velocity
+    }
+
+    fn submit(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        then: Option<&Dispatch>,
+    ) {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            self.record(lattice, &mut pass);
+            if let Some(dispatch) = then {
+                dispatch.record(&mut pass);
+            }
+        }
+        queue.submit([encoder.finish()]);
+    }
+
+    /// Reads density and velocity.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<State> {
+        self.submit(device, queue, lattice, None);
+        let cells = lattice.grid.cell_count();
+        let excess = self
+            .readback
+            .read(device, queue, &self.density, cells)
+            .await?;
+        let mut velocity = [Vec::new(), Vec::new(), Vec::new()];
+        for (component, buffer) in velocity.iter_mut().zip(&self.velocity) {
+            *component = self.readback.read(device, queue, buffer, cells).await?;
+        }
+        Ok(State { excess, velocity })
+    }
+
+    /// Reads a field that follows from the velocity gradient, lattice units.
+    ///
+    /// # Errors
+    /// If the device is lost or does not hold the field.
+    pub async fn derived(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        quantity: Derived,
+    ) -> Result<Vec<f32>> {
+        let cells = lattice.grid.cell_count();
+        let buffer = match &self.derived {
+            Some(kept) => kept.clone(),
+            None => result_buffer(device, "derived", 4 * cells as u64),
+        };
+        let at = match self.derive.iter().position(|(made, _)| *made == quantity) {
+            Some(at) => at,
+            None => {
+                let dispatch = self.derive_dispatch(device, lattice, quantity, &buffer)?;
+                self.derive.push((quantity, dispatch));
+                self.derive.len() - 1
+            }
+        };
+        self.submit(device, queue, lattice, Some(&self.derive[at].1));
+        let values = self.readback.read(device, queue, &buffer, cells).await;
+        self.derived = Some(buffer);
+        values
+    }
+
+    fn derive_dispatch(
+        &self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        quantity: Derived,
+        buffer: &wgpu::Buffer,
+    ) -> Result<Dispatch> {
+        let (file, axis) = match quantity {
+            Derived::QCriterion => ("quantity_q_criterion", 0),
+            Derived::EddyViscosity => ("quantity_eddy_viscosity", 0),
+            Derived::Vorticity(axis) => ("quantity_vorticity", axis),
+        };
+        let mut buffers = vec![("derived", buffer)];
+        buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
+        let program = lattice.cell_program("derive").slot("quantity", file);
+        let numbers = [("AXIS", f64::from(axis))];
+        let cells = lattice.grid.cell_count() as u32;
+        lattice.cell_dispatch(
+            device,
+            &program,
+            "derive",
+            false,
+            (&buffers, &numbers),
+            cells,
+        )
+    }
+
+    /// Reads the sums over the fluid cells.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn sums(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<Sums> {
+        let turns = lattice.grid.cell_count().div_ceil(64);
+        let (buffer, dispatch) = match self.sums.take() {
+            Some(made) => made,
+            None => {
+                let buffer = result_buffer(device, "partial sums", 32 * turns as u64);
+                let mut buffers = vec![("partial_sums", &buffer), ("density", &self.density)];
+                buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
+                let program = lattice.cell_program("sums");
+                let extra: (&[_], &[_]) = (&buffers, &[]);
+                let n = turns as u32;
+                let dispatch =
+                    lattice.cell_dispatch(device, &program, "sum_cells", false, extra, n)?;
+                (buffer, dispatch)
+            }
+        };
+        self.submit(device, queue, lattice, Some(&dispatch));
+        let partial: Vec<[f32; 8]> = self.readback.read(device, queue, &buffer, turns).await?;
+        self.sums = Some((buffer, dispatch));
+        let mut sums = Sums::default();
+        for part in partial {
+            let part = part.map(f64::from);
+            sums.excess += part[0];
+            for a in 0..3 {
+                sums.momentum[a] += part[1 + a];
+            }
+            sums.kinetic_energy += part[4];
+            sums.enstrophy += part[5];
+            sums.max_speed = sums.max_speed.max(part[6].sqrt());
+            sums.cells += part[7];
+        }
+        Ok(sums)
+    }
+
+    /// What the guard has found so far.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn fault(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &Lattice,
+    ) -> Result<Option<Fault>> {
+        let Some(guard) = &lattice.buffers.guard else {
+            return Ok(None);
+        };
+        let found: Vec<u32> = self.readback.read(device, queue, guard, 4).await?;
+        if found[2] == u32::MAX {
+            return Ok(None);
+        }
+        let [nx, ny, _] = lattice.grid.elements;
+        let cell = found[3];
+        Ok(Some(Fault {
+            step: found[2].into(),
+            cell: [cell % nx, (cell / nx) % ny, cell / (nx * ny)],
+        }))
+    }
+}

@@ -1,0 +1,125 @@
+//! Which files and numbers make the kernels of a setup.
+
+use super::{Collision, Equilibrium, Force, Grid, Setup, Storage, populations};
+use crate::link::Program;
+
+/// Which cells a collide–stream kernel is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reach {
+    /// Only listed bricks, or all.
+    pub listed: bool,
+    /// With the flags of each cell, or all plain fluid.
+    pub flagged: bool,
+}
+
+/// A kernel over elements, with the storage, lanes and bindings of the setup.
+fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
+    let program = Program::new(entry)
+        .slot("lanes", &format!("lanes_{}", setup.lanes))
+        .text(
+            "populations",
+            populations::accessors(bindings, setup.storage, setup.lanes),
+        );
+    let program = match setup.storage {
+        Storage::F32 => program.slot("store", "store_f32"),
+        Storage::F16 => program
+            .slot("store", "store_f16")
+            .slot("word", &format!("word_f16_{}", setup.lanes)),
+    };
+    match setup.force {
+        Force::None => program.slot("force", "force_none"),
+        Force::Constant(_) => program
+            .slot("force", "guo")
+            .slot("body_force", "force_constant"),
+        Force::Field(_) => program
+            .slot("force", "guo")
+            .slot("body_force", "force_field"),
+    }
+}
+
+/// The fused collision and streaming of a setup.
+pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
+    let either = |condition, yes, no| if condition { yes } else { no };
+    base("collide_stream", setup, bindings)
+        .slot("where", either(reach.listed, "where_listed", "where_all"))
+        .slot(
+            "cells",
+            either(reach.flagged, "cells_flagged", "cells_plain"),
+        )
+        .slot("equilibrium", equilibrium(setup.equilibrium))
+        .slot(
+            "relax",
+            match setup.collision {
+                Collision::Bgk => "relax_bgk",
+                Collision::Hermite => "relax_hermite",
+                Collision::Suga => "relax_suga",
+            },
+        )
+        .slot(
+            "eddy",
+            either(setup.wale.is_some(), "eddy_wale", "eddy_none"),
+        )
+        .slot(
+            "keep",
+            either(setup.wale.is_some(), "keep_velocity", "keep_none"),
+        )
+        .slot(
+            "guard",
+            either(setup.max_speed > 0.0, "guard_on", "guard_none"),
+        )
+}
+
+/// The file of an equilibrium.
+pub fn equilibrium(kind: Equilibrium) -> &'static str {
+    match kind {
+        Equilibrium::Product => "equilibrium_product",
+        Equilibrium::SecondOrder => "equilibrium_second_order",
+    }
+}
+
+/// The numbers of a setup, for every kernel of it; `odd` is the parity of the step.
+pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f64)> {
+    let everywhere = setup.lambda.map(|lambda| setup.odd_rate(lambda));
+    let rates = setup.rates;
+    let bulk = |rate| everywhere.unwrap_or(rate);
+    let mut all = vec![
+        ("NX", grid.elements[0].into()),
+        ("NY", grid.elements[1].into()),
+        ("SLICES", grid.elements[2].into()),
+        ("LANES_OF_ELEMENT", grid.lanes.into()),
+        ("CELLS_X", grid.cells[0].into()),
+        ("CELLS_Y", grid.cells[1].into()),
+        ("CELLS_Z", grid.cells[2].into()),
+        ("BRICK_X", grid.brick[0].into()),
+        ("BRICK_Y", grid.brick[1].into()),
+        ("BRICK_Z", grid.brick[2].into()),
+        ("ODD", f64::from(u8::from(odd))),
+        ("GUARD_ODD", f64::from(u8::from(odd))),
+        ("MAX_SPEED_SQUARED", setup.max_speed * setup.max_speed),
+        ("TAU", setup.tau()),
+        ("S4", rates.s4),
+        ("S10", bulk(rates.s10)),
+        ("S13", bulk(rates.s13)),
+        ("S16", rates.s16),
+        ("S17", rates.s17),
+        ("S18", rates.s18),
+        ("S20", rates.s20),
+        ("S23", bulk(rates.s23)),
+        ("S26", bulk(rates.s26)),
+    ];
+    let beside_walls = setup.lambda.or(setup.wall_lambda);
+    let wall = |rate| beside_walls.map_or(rate, |lambda| setup.odd_rate(lambda));
+    all.extend([
+        ("W10", wall(rates.s10)),
+        ("W13", wall(rates.s13)),
+        ("W23", wall(rates.s23)),
+        ("W26", wall(rates.s26)),
+    ]);
+    if let Some(constant) = setup.wale {
+        all.push(("C_WALE", constant));
+    }
+    if let Force::Constant([x, y, z]) = setup.force {
+        all.extend([("FORCE_X", x), ("FORCE_Y", y), ("FORCE_Z", z)]);
+    }
+    all
+}

@@ -1,0 +1,204 @@
+//! What a lattice fluid is, in lattice units (Δx = Δt = 1, ρ₀ = 1).
+
+/// Collision operator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Collision {
+    /// One rate for every moment (Bhatnagar, Gross & Krook 1954).
+    Bgk,
+    /// Suga's moments made orthogonal with the lattice weights: stable at rest at every viscosity.
+    Hermite,
+    /// The published operator of Suga et al. 2015; linearly unstable at rest for τ > 0.559.
+    Suga,
+}
+
+/// Equilibrium of the populations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Equilibrium {
+    /// All 27 moments, Galilean invariant to order 6.
+    Product,
+    /// To second order in the velocity, as the paper has it.
+    SecondOrder,
+}
+
+/// How populations lie in memory; arithmetic is f32 in both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// 4 bytes a population.
+    F32,
+    /// 2 bytes a population; wants 2 or 4 lanes.
+    F16,
+}
+
+/// Body force per volume.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Force {
+    /// None: its code is absent.
+    None,
+    /// The same everywhere.
+    Constant([f64; 3]),
+    /// One for each cell, x fastest.
+    Field(Vec<[f32; 3]>),
+}
+
+/// What lies beyond a face of the domain.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Face {
+    /// The opposite face.
+    Periodic,
+    /// A no-slip wall half a cell beyond the last cells, with its velocity.
+    Wall([f64; 3]),
+    /// Specular reflection half a cell beyond the last cells.
+    FreeSlip,
+    /// Prescribed velocity at each cell of the face, lower axis fastest; can be changed while
+    /// running by `Lattice::set_face_velocity`.
+    Velocity(Vec<[f32; 3]>),
+    /// Prescribed density ρ = 1 + 3p.
+    Pressure {
+        /// Density at the face.
+        density: f64,
+        /// Share of the way to `density` that the face goes in a step: 1 holds the pressure and
+        /// reflects sound, a small value lets sound and vortices out.
+        hold: f64,
+    },
+}
+
+/// Relaxation rates of the moments other than shear (Suga et al. 2015, eq. 10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    /// Energy: bulk viscosity ζ = 2/9 (1/s4 − ½).
+    pub s4: f64,
+    /// Third order, symmetric.
+    pub s10: f64,
+    /// Fifth order.
+    pub s13: f64,
+    /// Fourth order, trace.
+    pub s16: f64,
+    /// Sixth order.
+    pub s17: f64,
+    /// Fourth order, deviators.
+    pub s18: f64,
+    /// Fourth order, off-diagonal.
+    pub s20: f64,
+    /// Third order, antisymmetric.
+    pub s23: f64,
+    /// xyz.
+    pub s26: f64,
+}
+
+impl Rates {
+    /// The published constants.
+    pub const SUGA: Self = Self {
+        s4: 1.54,
+        s10: 1.5,
+        s13: 1.83,
+        s16: 1.4,
+        s17: 1.61,
+        s18: 1.98,
+        s20: 1.98,
+        s23: 1.74,
+        s26: 1.74,
+    };
+
+    /// One rate for all.
+    pub fn equal(s: f64) -> Self {
+        Self {
+            s4: s,
+            s10: s,
+            s13: s,
+            s16: s,
+            s17: s,
+            s18: s,
+            s20: s,
+            s23: s,
+            s26: s,
+        }
+    }
+}
+
+/// Everything that decides which kernels run and with which numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// Fluid cells an axis.
+    pub cells: [u32; 3],
+    /// Kinematic viscosity, (τ − ½)/3.
+    pub nu: f64,
+    /// Collision operator.
+    pub collision: Collision,
+    /// Its constant rates.
+    pub rates: Rates,
+    /// Magic parameter Λ of the odd rates beside walls; `None` keeps `rates` there too.
+    pub wall_lambda: Option<f64>,
+    /// Magic parameter of the odd rates everywhere; `None` keeps `rates` away from walls.
+    pub lambda: Option<f64>,
+    /// Lower bound of the odd rates that follow from a magic parameter.
+    pub odd_rate_floor: f64,
+    /// Equilibrium.
+    pub equilibrium: Equilibrium,
+    /// WALE constant; `None` is laminar.
+    pub wale: Option<f64>,
+    /// Body force per volume.
+    pub force: Force,
+    /// Lower and upper face of x, y, z.
+    pub faces: [[Face; 2]; 3],
+    /// Static solid cells, x fastest; empty if there are none.
+    pub solid: Vec<bool>,
+    /// Storage of the populations.
+    pub storage: Storage,
+    /// Cells an invocation: 1, 2 or 4.
+    pub lanes: u32,
+    /// Speed above which the guard stops the run; 0 leaves the guard out.
+    pub max_speed: f64,
+    /// Elements of a brick along x, y, z; their product is the workgroup, 64.
+    pub brick: [u32; 3],
+    /// Storage bindings over which the populations are spread; `None` takes as many as the
+    /// device's limits ask.
+    pub bindings: Option<u32>,
+}
+
+impl Setup {
+    /// A periodic box with the library's defaults: Hermite MRT, product equilibrium, f32, laminar.
+    pub fn periodic(cells: [u32; 3], nu: f64) -> Self {
+        let face = || [Face::Periodic, Face::Periodic];
+        Self {
+            cells,
+            nu,
+            collision: Collision::Hermite,
+            rates: Rates::SUGA,
+            wall_lambda: Some(3.0 / 16.0),
+            lambda: None,
+            odd_rate_floor: 0.8,
+            equilibrium: Equilibrium::Product,
+            wale: None,
+            force: Force::None,
+            faces: [face(), face(), face()],
+            solid: Vec::new(),
+            storage: Storage::F32,
+            lanes: 1,
+            // Half the speed of sound: far outside of what the method resolves, well before NaN.
+            max_speed: 0.3,
+            brick: [16, 2, 2],
+            bindings: None,
+        }
+    }
+
+    /// Relaxation time of the laminar viscosity.
+    pub fn tau(&self) -> f64 {
+        0.5 + 3.0 * self.nu
+    }
+
+    /// s with (1/s − ½)(τ − ½) = Λ, not below the floor (Ginzburg & d'Humières 2003).
+    pub fn odd_rate(&self, lambda: f64) -> f64 {
+        let magic = 1.0 / (0.5 + lambda / (self.tau() - 0.5));
+        magic.max(self.odd_rate_floor)
+    }
+
+    /// Whether cells lie on a non-periodic axis, per axis.
+    pub fn periodic_axes(&self) -> [bool; 3] {
+        [0, 1, 2].map(|a| self.faces[a][0] == Face::Periodic)
+    }
+
+    /// Whether every cell is a fluid cell without a wall beside it.
+    pub fn is_all_fluid(&self) -> bool {
+        self.periodic_axes() == [true; 3] && self.solid.is_empty()
+    }
+}

@@ -1,0 +1,103 @@
+//! The first state of a fluid.
+
+use super::{Lattice, fluid, fluid::GUARD_START};
+use crate::{Error, Result};
+
+/// Density and velocity on the domain cells, lattice units, x fastest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Density minus one.
+    pub excess: Vec<f32>,
+    /// Components of the velocity.
+    pub velocity: [Vec<f32>; 3],
+}
+
+impl State {
+    /// Rest at ρ = 1.
+    pub fn rest(cells: usize) -> Self {
+        let zero = || vec![0.0; cells];
+        Self {
+            excess: zero(),
+            velocity: [zero(), zero(), zero()],
+        }
+    }
+}
+
+impl Lattice {
+    /// Starts from a state at step 0. With `non_equilibrium` the populations carry the viscous
+    /// stress of the velocity field from the first step on (Latt & Chopard 2006).
+    ///
+    /// # Errors
+    /// If the state has another number of cells or is not finite.
+    pub fn start(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        state: &State,
+        non_equilibrium: bool,
+    ) -> Result<()> {
+        let cells = self.grid.cell_count();
+        let names = [
+            "initial.pressure",
+            "initial.velocity.x",
+            "initial.velocity.y",
+            "initial.velocity.z",
+        ];
+        let fields = std::iter::once(&state.excess).chain(&state.velocity);
+        for (name, field) in names.into_iter().zip(fields) {
+            if field.len() != cells {
+                let message = format!("{} values for {cells} cells", field.len());
+                return Err(Error::scene(name, message));
+            }
+            if let Some(at) = field.iter().position(|v| !v.is_finite()) {
+                let message = format!("the value of cell {at} is not a finite number");
+                return Err(Error::scene(name, message));
+            }
+        }
+        self.step = 0;
+        self.closed = true;
+        if let Some(guard) = &self.buffers.guard {
+            queue.write_buffer(guard, 0, bytemuck::cast_slice(&GUARD_START));
+        }
+        self.set_velocity_before(queue, &state.velocity);
+        let input =
+            |field: &[f32]| fluid::storage(device, "initial state", bytemuck::cast_slice(field));
+        let density = input(&state.excess);
+        let [x, y, z] = state.velocity.each_ref().map(|field| input(field));
+        let buffers = [
+            ("density", &density),
+            ("velocity_x", &x),
+            ("velocity_y", &y),
+            ("velocity_z", &z),
+        ];
+        let program = self.cell_program("initialise");
+        let mut encoder = device.create_command_encoder(&Default::default());
+        for &half in self.halves() {
+            let share = f64::from(u8::from(non_equilibrium));
+            let numbers = [("HALF", half), ("NON_EQUILIBRIUM", share)];
+            let extra: (&[_], &[_]) = (&buffers, &numbers);
+            let dispatch =
+                self.cell_dispatch(device, &program, "initialise", false, extra, cells as u32)?;
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            dispatch.record(&mut pass);
+        }
+        queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// Sets the velocity that the eddy viscosity of the coming step looks at.
+    pub(super) fn set_velocity_before(&self, queue: &wgpu::Queue, velocity: &[Vec<f32>; 3]) {
+        let Some(buffers) = &self.buffers.velocity else {
+            return;
+        };
+        let scalars = (self.grid.element_count() * self.grid.lanes) as usize;
+        let mut values = vec![0f32; 3 * scalars];
+        for (n, cell) in self.grid.domain().enumerate() {
+            let at = self.grid.scalar_of(cell) as usize;
+            for a in 0..3 {
+                values[a * scalars + at] = velocity[a][n];
+            }
+        }
+        queue.write_buffer(&buffers[self.parity()], 0, bytemuck::cast_slice(&values));
+    }
+}

@@ -1,0 +1,80 @@
+//! Reading buffers back without blocking: a staging buffer that is kept, and a future.
+
+use crate::{Error, Result};
+use std::{
+    future::poll_fn,
+    sync::{Arc, Mutex},
+    task::{Poll, Waker},
+};
+
+/// Copies device buffers to the host. Something must poll the device while a read is awaited:
+/// `device.poll` on native systems, the browser by itself.
+#[derive(Debug, Default)]
+pub struct Readback {
+    staging: Option<wgpu::Buffer>,
+}
+
+#[derive(Default)]
+struct Mapped {
+    result: Option<std::result::Result<(), wgpu::BufferAsyncError>>,
+    waker: Option<Waker>,
+}
+
+impl Readback {
+    /// The first `count` values of `buffer`, after all that was submitted before.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] if the copy cannot be mapped.
+    pub async fn read<T: bytemuck::Pod>(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        buffer: &wgpu::Buffer,
+        count: usize,
+    ) -> Result<Vec<T>> {
+        let bytes = (count * size_of::<T>()) as u64;
+        if bytes == 0 {
+            return Ok(Vec::new());
+        }
+        let staging = match self.staging.take() {
+            Some(kept) if kept.size() >= bytes => kept,
+            _ => device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("staging"),
+                size: bytes,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+        };
+        let mut encoder = device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, bytes);
+        queue.submit([encoder.finish()]);
+        let mapped = Arc::new(Mutex::new(Mapped::default()));
+        let done = Arc::clone(&mapped);
+        staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
+            if let Ok(mut mapped) = done.lock() {
+                mapped.result = Some(result);
+                if let Some(waker) = mapped.waker.take() {
+                    waker.wake();
+                }
+            }
+        });
+        let lost = |e: &dyn std::fmt::Display| Error::DeviceLost(format!("reading back: {e}"));
+        poll_fn(|context| match mapped.lock() {
+            Ok(mut mapped) => match mapped.result.take() {
+                Some(result) => Poll::Ready(result.map_err(|e| lost(&e))),
+                None => {
+                    mapped.waker = Some(context.waker().clone());
+                    Poll::Pending
+                }
+            },
+            Err(e) => Poll::Ready(Err(lost(&e))),
+        })
+        .await?;
+        let view = staging.get_mapped_range(0..bytes).map_err(|e| lost(&e))?;
+        let values = bytemuck::pod_collect_to_vec(&view);
+        drop(view);
+        staging.unmap();
+        self.staging = Some(staging);
+        Ok(values)
+    }
+}

@@ -1,0 +1,68 @@
+//! A device for tests, and running a lattice on it.
+#![allow(dead_code)] // Each test binary uses its part.
+
+#[path = "../../harness/src/gpu.rs"]
+pub mod gpu;
+
+use riprap::{
+    lattice::{Lattice, Observer, Populations, Setup, State},
+    wgpu,
+};
+use std::time::Duration;
+
+pub struct Rig {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+}
+
+impl Rig {
+    /// The first adapter with all it offers; panics with the install hint where there is none.
+    pub fn new() -> Self {
+        let adapter = gpu::pick(None).unwrap();
+        Self::with_limits(adapter.limits())
+    }
+
+    pub fn with_limits(limits: wgpu::Limits) -> Self {
+        let adapter = gpu::pick(None).unwrap();
+        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits).unwrap();
+        Self { device, queue }
+    }
+
+    pub fn wait<T>(&self, future: impl Future<Output = T>) -> T {
+        gpu::drive(&self.device, Duration::from_secs(300), "a test", future).unwrap()
+    }
+
+    /// A lattice started from a state.
+    pub fn start(&self, setup: Setup, state: &State, non_equilibrium: bool) -> Lattice {
+        let mut lattice = Lattice::new(&self.device, setup).unwrap();
+        lattice
+            .start(&self.device, &self.queue, state, non_equilibrium)
+            .unwrap();
+        lattice
+    }
+
+    pub fn run(&self, lattice: &mut Lattice, steps: usize) {
+        // Small submissions keep each wait short on slow adapters.
+        for chunk in (0..steps).collect::<Vec<_>>().chunks(64) {
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                for _ in chunk {
+                    lattice.record(&mut pass);
+                }
+            }
+            self.queue.submit([encoder.finish()]);
+        }
+    }
+
+    pub fn populations(&self, lattice: &mut Lattice) -> Populations {
+        self.wait(lattice.populations(&self.device, &self.queue))
+            .unwrap()
+    }
+
+    pub fn state(&self, lattice: &mut Lattice) -> State {
+        let mut observer = Observer::new(&self.device, lattice).unwrap();
+        self.wait(observer.state(&self.device, &self.queue, lattice))
+            .unwrap()
+    }
+}

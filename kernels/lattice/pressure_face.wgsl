@@ -1,20 +1,8 @@
 // Latt et al. 2008, Phys. Rev. E 77:056703, regularised boundary, with the state of the inner neighbour: the
 // populations that enter through the face are rebuilt from density, velocity and second moments,
-// f_i = w_i [rho + 3 c.j + 9/2 (c c - 1/3) : (rho u u + Pi_neq)]. The density goes the share HOLD of the
-// way to the given one: a small share lets sound and vortices leave.
-// needs scalar_grid, incoming, weights
-
-// A padded cell at the face, its inner neighbour, and the directions that enter through the face.
-struct FaceCell {
-    cell: u32,
-    inner: u32,
-    entering: u32,
-}
-
-@group(0) @binding(40) var<storage, read> face_cells: array<FaceCell>;
-
-override FACE_DENSITY: f32;
-override HOLD: f32;
+// f_i = w_i [rho + 3 c.j + 9/2 (c c - 1/3) : (rho u u + Pi_neq)]. The density is the given one, so that the
+// face reflects sound.
+// needs scalar_grid, incoming, weights, face_cells
 
 @compute @workgroup_size(64)
 fn hold_pressure(
@@ -41,11 +29,10 @@ fn hold_pressure(
         diagonal += f * (c * c - 1.0 / 3.0);
         mixed += f * c.xyz * c.yzx;
     }
-    // Density goes towards the given one; the rest of the state stays as it is inside.
-    let inner_rho = 1.0 + excess;
-    let change = HOLD * (FACE_DENSITY - 1.0 - excess);
-    let u = j / inner_rho;
-    let rho_excess = excess + change;
+    // The density is given; velocity and stress are as they are inside.
+    let change = FACE_DENSITY - 1.0 - excess;
+    let u = j / (1.0 + excess);
+    let rho_excess = FACE_DENSITY - 1.0;
     let flux = j + change * u;
     let along = diagonal + change * u * u;
     let across = mixed + change * u.xyz * u.yzx;

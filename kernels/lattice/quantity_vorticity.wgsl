@@ -4,6 +4,8 @@
 override AXIS: u32;
 
 fn quantity(g: Gradient) -> f32 {
-    let curl = vec3(g.z.y - g.y.z, g.x.z - g.z.x, g.y.x - g.x.y);
-    return curl[AXIS];
+    if (AXIS == 0u) {
+        return g.z.y - g.y.z;
+    }
+    return select(g.y.x - g.x.y, g.x.z - g.z.x, AXIS == 1u);
 }

@@ -15,6 +15,8 @@ pub struct Populations {
     pub values: Vec<f32>,
     /// Velocity of the last step for the eddy viscosity, component by component; empty without.
     pub velocity: Vec<f32>,
+    /// What the outflow faces carry from step to step, face by face.
+    pub carried: Vec<f32>,
 }
 
 impl Lattice {
@@ -54,7 +56,13 @@ impl Lattice {
                 velocity.extend(self.grid.domain().map(of));
             }
         }
+        let mut carried = Vec::new();
+        for (_, buffer) in &self.buffers.open_faces {
+            let count = (buffer.size() / 4) as usize;
+            carried.extend(readback.read::<f32>(device, queue, buffer, count).await?);
+        }
         Ok(Populations {
+            carried,
             step: self.step,
             cells: self.grid.cells,
             values,
@@ -83,6 +91,11 @@ impl Lattice {
         if self.buffers.velocity.is_some() && state.velocity.len() != 3 * cells {
             return wrong("the saved state has no velocity, which the eddy viscosity needs".into());
         }
+        let faces = self.buffers.open_faces.iter();
+        let carried: u64 = faces.map(|(_, buffer)| buffer.size() / 4).sum();
+        if state.carried.len() as u64 != carried {
+            return wrong("the saved state has other pressure or outflow faces".into());
+        }
         self.step = state.step;
         self.closed = true;
         if let Some(guard) = &self.buffers.guard {
@@ -108,6 +121,12 @@ impl Lattice {
                 }
             }
             queue.submit([encoder.finish()]);
+        }
+        let mut carried = state.carried.as_slice();
+        for (_, buffer) in &self.buffers.open_faces {
+            let (own, rest) = carried.split_at((buffer.size() / 4) as usize);
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(own));
+            carried = rest;
         }
         Ok(())
     }

@@ -56,6 +56,8 @@ pub(super) struct Buffers {
     pub(super) force: Option<wgpu::Buffer>,
     pub(super) guard: Option<wgpu::Buffer>,
     pub(super) wall_velocity: Option<wgpu::Buffer>,
+    /// Cells of each open face, and what they carry from step to step.
+    pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
 }
 
 impl Buffers {
@@ -274,31 +276,57 @@ impl Lattice {
                 passes.push(self.cell_dispatch(device, &program, "move_wall", odd, extra, n)?);
             }
         }
-        let program = self.cell_program("pressure_face");
-        for (axis, side, cells) in &geometry.pressure {
-            let Face::Pressure { density, hold } = self.setup.faces[*axis][*side] else {
-                continue;
+        passes.extend(self.open_passes(device, odd, true)?);
+        Ok(passes)
+    }
+
+    /// The passes over pressure and outflow faces. Outflow carries something from each step to the
+    /// next: with `apply` off only that is recorded, from the present state.
+    pub(super) fn open_passes(
+        &self,
+        device: &wgpu::Device,
+        odd: bool,
+        apply: bool,
+    ) -> Result<Vec<Dispatch>> {
+        let mut passes = Vec::new();
+        let faces = self.geometry.open.iter().zip(&self.buffers.open_faces);
+        for ((axis, side, cells), (list, carried)) in faces {
+            let (file, entry, density) = match self.setup.faces[*axis][*side] {
+                Face::Pressure { density } => ("pressure_face", "hold_pressure", density),
+                Face::Outflow { density } => ("outflow", "flow_out", density),
+                _ => continue,
             };
-            if cells.is_empty() {
-                continue;
+            // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
+            // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
+            // twenty passages of sound, slow enough not to ring.
+            let length = f64::from(self.grid.cells[*axis]);
+            let hold = 0.4 / length;
+            let integral = 0.05 * hold / length;
+            let mut normal = [0.0; 3];
+            normal[*axis] = if *side == 0 { -1.0 } else { 1.0 };
+            let program = self.cell_program(file);
+            let buffers = [("face_cells", list), ("carried", carried)];
+            let mut add = |entry, half| {
+                let numbers = [
+                    ("HALF", half),
+                    ("FACE_DENSITY", density),
+                    ("HOLD", hold),
+                    ("INTEGRAL", integral),
+                    ("NORMAL_X", normal[0]),
+                    ("NORMAL_Y", normal[1]),
+                    ("NORMAL_Z", normal[2]),
+                ];
+                let (extra, n) = ((&buffers[..], &numbers[..]), cells.len() as u32);
+                passes.push(self.cell_dispatch(device, &program, entry, odd, extra, n)?);
+                Ok::<_, Error>(())
+            };
+            if apply {
+                self.halves()
+                    .iter()
+                    .try_for_each(|&half| add(entry, half))?;
             }
-            let list = storage(
-                device,
-                "face cells",
-                bytemuck::cast_slice::<FaceCell, u8>(cells),
-            );
-            for &half in self.halves() {
-                let numbers = [("HALF", half), ("FACE_DENSITY", density), ("HOLD", hold)];
-                let extra: (&[_], &[_]) = (&[("face_cells", &list)], &numbers);
-                let n = cells.len() as u32;
-                passes.push(self.cell_dispatch(
-                    device,
-                    &program,
-                    "hold_pressure",
-                    odd,
-                    extra,
-                    n,
-                )?);
+            if file == "outflow" {
+                add("remember", 0.0)?;
             }
         }
         Ok(passes)
@@ -412,8 +440,19 @@ fn make_buffers(
     let list = |label, values: &[u32]| {
         (!values.is_empty()).then(|| storage(device, label, bytemuck::cast_slice(values)))
     };
+    let open_faces = geometry.open.iter().map(|(_, _, cells)| {
+        // A face that solids close entirely keeps one entry that no direction enters.
+        let none = [FaceCell::default()];
+        let cells = if cells.is_empty() { &none[..] } else { cells };
+        let carried = result_buffer(device, "carried", 108 * cells.len() as u64);
+        (
+            storage(device, "face cells", bytemuck::cast_slice(cells)),
+            carried,
+        )
+    });
     Buffers {
         populations,
+        open_faces: open_faces.collect(),
         names,
         velocity: setup.wale.map(|_| [velocity(), velocity()]),
         flags: list("flags", &geometry.flags),

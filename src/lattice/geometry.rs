@@ -1,4 +1,4 @@
-//! What surrounds each cell: flags, reflecting links, moving and pressure faces, bricks.
+//! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
 
 use super::{Face, Grid, Setup};
 
@@ -50,7 +50,8 @@ enum Beyond {
     Wall,
     /// A wall or inlet with a velocity, normal to this axis.
     Moving(usize),
-    Pressure(usize, usize),
+    /// Pressure or outflow face, by axis and side.
+    Open(usize, usize),
     /// Free-slip faces normal to these axes.
     Slip([bool; 3]),
 }
@@ -65,7 +66,7 @@ pub struct MovingCell {
     pub through: [u32; 3],
 }
 
-/// A cell at a pressure face, as `pressure_face.wgsl` reads it.
+/// A cell at an open face, as `face_cells.wgsl` reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct FaceCell {
@@ -99,8 +100,8 @@ pub struct Geometry {
     pub links: Vec<Link>,
     /// Cells at moving walls and velocity faces.
     pub moving: Vec<MovingCell>,
-    /// Axis and side of each pressure face with its cells.
-    pub pressure: Vec<(usize, usize, Vec<FaceCell>)>,
+    /// Axis and side of each pressure or outflow face with its cells.
+    pub open: Vec<(usize, usize, Vec<FaceCell>)>,
     /// Bricks of plain fluid.
     pub plain: Vec<u32>,
     /// Bricks with flagged cells.
@@ -137,8 +138,11 @@ impl Geometry {
         };
         for axis in 0..3 {
             for side in 0..2 {
-                if matches!(setup.faces[axis][side], Face::Pressure { .. }) {
-                    geometry.pressure.push((axis, side, Vec::new()));
+                if matches!(
+                    setup.faces[axis][side],
+                    Face::Pressure { .. } | Face::Outflow { .. }
+                ) {
+                    geometry.open.push((axis, side, Vec::new()));
                 }
             }
         }
@@ -186,11 +190,8 @@ impl Geometry {
                     let link = survey.slip(cell, q, axes);
                     self.links.push(link);
                 }
-                Beyond::Pressure(axis, side) => {
-                    let found = self
-                        .pressure
-                        .iter_mut()
-                        .find(|f| (f.0, f.1) == (axis, side));
+                Beyond::Open(axis, side) => {
+                    let found = self.open.iter_mut().find(|f| (f.0, f.1) == (axis, side));
                     if let Some((_, _, cells)) = found {
                         let here = survey.padded_index(cell);
                         if cells.last().is_none_or(|last| last.cell != here) {
@@ -273,7 +274,7 @@ impl Survey<'_> {
     }
 
     /// What direction `q` leads to. Where it crosses several faces the first of: wall, moving
-    /// wall, velocity, pressure, free slip decides.
+    /// wall, velocity, pressure or outflow, free slip decides.
     fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
         let mut crossed = [None; 3];
@@ -294,7 +295,7 @@ impl Survey<'_> {
                 Face::Wall([0.0, 0.0, 0.0]) => (5, Beyond::Wall),
                 Face::Wall(_) => (4, Beyond::Moving(axis)),
                 Face::Velocity(_) => (3, Beyond::Moving(axis)),
-                Face::Pressure { .. } => (2, Beyond::Pressure(axis, side)),
+                Face::Pressure { .. } | Face::Outflow { .. } => (2, Beyond::Open(axis, side)),
                 Face::FreeSlip | Face::Periodic => {
                     slip[axis] = true;
                     (1, Beyond::Slip(slip))

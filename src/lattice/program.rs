@@ -107,8 +107,9 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("S23", bulk(rates.s23)),
         ("S26", bulk(rates.s26)),
     ];
-    let beside_walls = setup.lambda.or(setup.wall_lambda);
-    let wall = |rate| beside_walls.map_or(rate, |lambda| setup.odd_rate(lambda));
+    let floored = |lambda| setup.odd_rate(lambda).max(setup.odd_rate_floor);
+    let beside_walls = everywhere.or(setup.wall_lambda.map(floored));
+    let wall = |rate| beside_walls.unwrap_or(rate);
     all.extend([
         ("W10", wall(rates.s10)),
         ("W13", wall(rates.s13)),

@@ -52,13 +52,15 @@ pub enum Face {
     /// Prescribed velocity at each cell of the face, lower axis fastest; can be changed while
     /// running by `Lattice::set_face_velocity`.
     Velocity(Vec<[f32; 3]>),
-    /// Prescribed density ρ = 1 + 3p.
+    /// The given density ρ = 1 + 3p, held firmly: reflects sound (Latt et al. 2008).
     Pressure {
         /// Density at the face.
         density: f64,
-        /// Share of the way to `density` that the face goes in a step: 1 holds the pressure and
-        /// reflects sound, a small value lets sound and vortices out.
-        hold: f64,
+    },
+    /// Sound and vortices leave (Orlanski 1976); the mean density goes to the given one.
+    Outflow {
+        /// Density that the face is drawn to.
+        density: f64,
     },
 }
 
@@ -128,9 +130,10 @@ pub struct Setup {
     pub rates: Rates,
     /// Magic parameter Λ of the odd rates beside walls; `None` keeps `rates` there too.
     pub wall_lambda: Option<f64>,
-    /// Magic parameter of the odd rates everywhere; `None` keeps `rates` away from walls.
+    /// Magic parameter of the odd rates everywhere, without a floor, for laminar flows: 3/16 makes
+    /// Poiseuille flow exact at every τ. `None` keeps `rates` away from walls.
     pub lambda: Option<f64>,
-    /// Lower bound of the odd rates that follow from a magic parameter.
+    /// Lower bound of the odd rates that `wall_lambda` gives: low ones are unstable in fast flow.
     pub odd_rate_floor: f64,
     /// Equilibrium.
     pub equilibrium: Equilibrium,
@@ -186,10 +189,9 @@ impl Setup {
         0.5 + 3.0 * self.nu
     }
 
-    /// s with (1/s − ½)(τ − ½) = Λ, not below the floor (Ginzburg & d'Humières 2003).
+    /// s with (1/s − ½)(τ − ½) = Λ (Ginzburg & d'Humières 2003).
     pub fn odd_rate(&self, lambda: f64) -> f64 {
-        let magic = 1.0 / (0.5 + lambda / (self.tau() - 0.5));
-        magic.max(self.odd_rate_floor)
+        1.0 / (0.5 + lambda / (self.tau() - 0.5))
     }
 
     /// Whether cells lie on a non-periodic axis, per axis.

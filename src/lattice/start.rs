@@ -82,6 +82,23 @@ impl Lattice {
             dispatch.record(&mut pass);
         }
         queue.submit([encoder.finish()]);
+        self.remember_faces(device, queue)
+    }
+
+    /// Has outflow faces carry the present state to the next step.
+    fn remember_faces(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        for (_, carried) in &self.buffers.open_faces {
+            queue.write_buffer(carried, 0, &vec![0; carried.size() as usize]);
+        }
+        let passes = self.open_passes(device, self.parity() == 1, false)?;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            passes
+                .iter()
+                .for_each(|dispatch| dispatch.record(&mut pass));
+        }
+        queue.submit([encoder.finish()]);
         Ok(())
     }
 

@@ -1,0 +1,80 @@
+// Orlanski 1976, J. Comput. Phys. 21:251, on populations: those that enter through the face follow
+// df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. Towards the
+// given density they get the share HOLD of the difference and, so that none is left in the mean, the
+// share INTEGRAL of its sum over time.
+// needs scalar_grid, incoming, weights, face_cells
+
+// For each face cell its populations as the face will want them in the next step; in place of the
+// one at rest the sum over time.
+@group(0) @binding(41) var<storage, read_write> carried: array<f32>;
+
+override HOLD: f32;
+override INTEGRAL: f32;
+// Outward normal of the face.
+override NORMAL_X: f32;
+override NORMAL_Y: f32;
+override NORMAL_Z: f32;
+
+struct Inside {
+    excess: f32,
+    outward_speed: f32,
+}
+
+fn inside(cell: vec3<u32>) -> Inside {
+    var excess = read_incoming(cell, 0u);
+    let normal = vec3(NORMAL_X, NORMAL_Y, NORMAL_Z);
+    var flux = 0.0;
+    for (var q = 1u; q < 27u; q++) { // unroll
+        let f = read_incoming(cell, q);
+        excess += f;
+        flux += f * dot(vec3<f32>(C[q]), normal);
+    }
+    return Inside(excess, flux / (1.0 + excess));
+}
+
+fn remember_cell(n: u32, inner_state: Inside) {
+    let here = face_cells[n];
+    let cell = padded_cell(here.cell);
+    let inner = padded_cell(here.inner);
+    let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
+    for (var q = 1u; q < 27u; q++) { // unroll
+        if ((here.entering & (1u << q)) != 0u) {
+            let f = read_incoming(cell, q);
+            carried[27u * n + q] = f + speed * (read_incoming(inner, q) - f);
+        }
+    }
+    carried[27u * n] += INTEGRAL * (FACE_DENSITY - 1.0 - inner_state.excess);
+}
+
+@compute @workgroup_size(64)
+fn remember(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n < arrayLength(&face_cells)) {
+        remember_cell(n, inside(padded_cell(face_cells[n].inner)));
+    }
+}
+
+@compute @workgroup_size(64)
+fn flow_out(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n >= arrayLength(&face_cells)) {
+        return;
+    }
+    let here = face_cells[n];
+    let cell = padded_cell(here.cell);
+    let difference = FACE_DENSITY - 1.0 - inside(padded_cell(here.inner)).excess;
+    let anchor = HOLD * difference + carried[27u * n];
+    for (var q = 1u; q < 27u; q++) { // unroll
+        if ((here.entering & (1u << q)) != 0u) {
+            write_incoming(cell, q, carried[27u * n + q] + anchor * weight(q));
+        }
+    }
+}

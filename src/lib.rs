@@ -6,6 +6,7 @@
 #![deny(missing_docs)]
 
 pub mod error;
+pub mod formula;
 pub mod output;
 pub mod scene;
 pub mod units;

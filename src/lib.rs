@@ -9,6 +9,7 @@ pub mod error;
 pub mod formula;
 pub mod output;
 pub mod scene;
+pub mod solid;
 pub mod units;
 
 pub use error::{Error, Result};

@@ -4,12 +4,14 @@
 //! [`Scene::schema`] is the same as a JSON schema.
 
 mod boundaries;
+mod check;
 mod domain;
 mod face;
 mod fluid;
 mod initial;
 mod numerics;
 mod output;
+mod parse;
 mod probes;
 mod run;
 mod sample;

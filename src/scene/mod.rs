@@ -3,6 +3,7 @@
 //! A scene is a TOML file. Every table is a type of this module, every key a public field;
 //! [`Scene::schema`] is the same as a JSON schema.
 
+mod advice;
 mod boundaries;
 mod check;
 mod domain;
@@ -23,6 +24,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use advice::{Advice, Warning};
 pub use boundaries::{Boundaries, Boundary};
 pub use domain::Domain;
 pub use face::{Axis, Direction, Face};

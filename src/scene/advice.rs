@@ -46,126 +46,173 @@ impl Scene {
     /// # Errors
     /// A Mach number above 0.3; a relaxation time at which the collision operator is unstable.
     pub fn advise(&self, units: &Units) -> Result<Advice> {
-        let speed = match self.numerics.velocity_scale {
-            Some(given) => given.max(self.sampled_speed()?),
-            None => self.sampled_speed()?,
+        let sampled = self.sampled_speed()?;
+        let mut adviser = Adviser {
+            scene: self,
+            units,
+            speed: self.numerics.velocity_scale.unwrap_or(0.0).max(sampled),
+            excess: units.tau(self.fluid.viscosity) - 0.5,
+            step_key: if self.numerics.time_step.is_some() {
+                "numerics.time_step"
+            } else {
+                "numerics.mach"
+            },
+            advice: Vec::new(),
         };
-        let mut advice = Vec::new();
-        let mut warn = |place: &str, message: String| {
-            advice.push(Warning {
-                place: place.into(),
-                message,
-            });
-        };
-        let mach = units.mach(speed);
-        // The time step for the default Mach number.
-        let calm = units.time_step * Numerics::DEFAULT_MACH / mach;
-        let key = if self.numerics.time_step.is_some() {
-            "time_step"
-        } else {
-            "mach"
-        };
-        let slower = format!(
-            "use time_step ≤ {calm:.3e} s (mach = {})",
-            Numerics::DEFAULT_MACH
+        adviser.mach()?;
+        adviser.low_tau()?;
+        adviser.suga()?;
+        adviser.high_tau();
+        adviser.bgk();
+        adviser.cell_reynolds();
+        Ok(adviser.advice)
+    }
+}
+
+struct Adviser<'a> {
+    scene: &'a Scene,
+    units: &'a Units,
+    /// Largest speed that is known of, m/s.
+    speed: f64,
+    /// τ − ½: grows with the time step, and at a fixed Mach number with 1/cell.
+    excess: f64,
+    /// The key that fixes the time step.
+    step_key: &'static str,
+    advice: Advice,
+}
+
+impl Adviser<'_> {
+    fn warn(&mut self, place: &str, message: String) {
+        self.advice.push(Warning {
+            place: place.into(),
+            message,
+        });
+    }
+
+    /// Time step, s, at which τ − ½ is `wanted`.
+    fn step_for(&self, wanted: f64) -> f64 {
+        self.units.time_step * wanted / self.excess
+    }
+
+    /// Cell, m, at which τ − ½ is `wanted` at the same Mach number.
+    fn cell_for(&self, wanted: f64) -> f64 {
+        self.units.cell * self.excess / wanted
+    }
+
+    fn mach(&mut self) -> Result<()> {
+        let (mach, speed) = (self.units.mach(self.speed), self.speed);
+        let usual = Numerics::DEFAULT_MACH;
+        let remedy = format!(
+            "use time_step ≤ {:.3e} s (mach = {usual})",
+            self.units.time_step * usual / mach
         );
         if mach > MOST_MACH {
             return Err(Error::scene(
-                format!("numerics.{key}"),
+                self.step_key,
                 format!(
                     "the Mach number of the lattice is {mach:.3} at {speed} m/s, above {MOST_MACH}, \
-                     where the flow is compressible and unstable; {slower}"
+                     where the flow is compressible and unstable; {remedy}"
                 ),
             ));
         }
         if mach > HIGH_MACH {
-            warn(
-                &format!("numerics.{key}"),
+            self.warn(
+                self.step_key,
                 format!(
                     "the Mach number of the lattice is {mach:.3} at {speed} m/s: errors of \
-                     compressibility near {:.1} %; {slower}",
+                     compressibility near {:.1} %; {remedy}",
                     100.0 * mach * mach
                 ),
             );
         }
-        let nu = self.fluid.viscosity;
-        let tau = units.tau(nu);
-        self.refuse_tau(tau, units)?;
-        if tau > HIGH_TAU {
-            let step = units.time_step * (HIGH_TAU - 0.5) / (tau - 0.5);
-            warn(
-                &format!("numerics.{key}"),
-                format!(
-                    "the relaxation time is {tau:.3}, above {HIGH_TAU}, where accuracy falls off; \
-                     use time_step ≤ {step:.3e} s"
-                ),
-            );
-        }
-        if self.numerics.collision == Collision::Bgk && tau - 0.5 < LOW_BGK_TAU {
-            warn(
-                "numerics.collision",
-                format!(
-                    "bgk oscillates at a relaxation time of {tau:.5}, below {}; use collision = \
-                     \"hermite\", or cell ≤ {:.3e} m at the same Mach number",
-                    0.5 + LOW_BGK_TAU,
-                    units.cell * (tau - 0.5) / LOW_BGK_TAU
-                ),
-            );
-        }
-        let cell_reynolds = speed * units.cell / nu;
-        if cell_reynolds > HIGH_CELL_REYNOLDS && self.numerics.eddy_viscosity == EddyViscosity::None
-        {
-            warn(
-                "domain.cell",
-                format!(
-                    "the Reynolds number of a cell is {cell_reynolds:.1} at {speed} m/s, above \
-                     {HIGH_CELL_REYNOLDS}: eddies are not resolved and the run may diverge; use \
-                     cell ≤ {:.3e} m, or eddy_viscosity = \"wale\"",
-                    HIGH_CELL_REYNOLDS * nu / speed
-                ),
-            );
-        }
-        Ok(advice)
+        Ok(())
     }
 
-    /// Refuses a relaxation time `tau` at which the collision is unstable.
-    fn refuse_tau(&self, tau: f64, units: &Units) -> Result<()> {
-        let excess = tau - 0.5;
-        // τ − ½ grows with the time step, and at a fixed Mach number with 1/cell.
-        let step_for = |wanted: f64| units.time_step * wanted / excess;
-        let cell_for = |wanted: f64| units.cell * excess / wanted;
-        if excess < LEAST_TAU {
-            return Err(Error::scene(
-                "fluid.viscosity",
-                format!(
-                    "τ − ½ is {excess:.3e}, below {LEAST_TAU:e}: the viscosity drowns in \
-                     rounding; use viscosity ≥ {:.3e} m²/s, or cell ≤ {:.3e} m at the same Mach \
-                     number",
-                    self.fluid.viscosity * LEAST_TAU / excess,
-                    cell_for(LEAST_TAU)
-                ),
-            ));
-        }
-        if self.numerics.collision != Collision::Suga || SUGA.contains(&excess) {
+    fn low_tau(&self) -> Result<()> {
+        if self.excess >= LEAST_TAU {
             return Ok(());
         }
-        let remedy = if excess > *SUGA.end() {
-            format!("time_step ≤ {:.3e} s", step_for(*SUGA.end()))
+        Err(Error::scene(
+            "fluid.viscosity",
+            format!(
+                "τ − ½ is {:.3e}, below {LEAST_TAU:e}: the viscosity drowns in rounding; use \
+                 viscosity ≥ {:.3e} m²/s, or cell ≤ {:.3e} m at the same Mach number",
+                self.excess,
+                self.scene.fluid.viscosity * LEAST_TAU / self.excess,
+                self.cell_for(LEAST_TAU)
+            ),
+        ))
+    }
+
+    fn suga(&self) -> Result<()> {
+        let suga = self.scene.numerics.collision == Collision::Suga;
+        if !suga || SUGA.contains(&self.excess) {
+            return Ok(());
+        }
+        let (low, high) = (*SUGA.start(), *SUGA.end());
+        let remedy = if self.excess > high {
+            format!("time_step ≤ {:.3e} s", self.step_for(high))
         } else {
             format!(
                 "time_step ≥ {:.3e} s, or cell ≤ {:.3e} m at the same Mach number",
-                step_for(*SUGA.start()),
-                cell_for(*SUGA.start())
+                self.step_for(low),
+                self.cell_for(low)
             )
         };
         Err(Error::scene(
             "numerics.collision",
             format!(
-                "suga is linearly unstable at the relaxation time {tau:.6}: τ − ½ must lie \
-                 between {:e} and {}; use collision = \"hermite\", or {remedy}",
-                SUGA.start(),
-                SUGA.end()
+                "suga is linearly unstable at the relaxation time {:.6}: τ − ½ must lie between \
+                 {low:e} and {high}; use collision = \"hermite\", or {remedy}",
+                0.5 + self.excess
             ),
         ))
+    }
+
+    fn high_tau(&mut self) {
+        if self.excess > HIGH_TAU - 0.5 {
+            self.warn(
+                self.step_key,
+                format!(
+                    "the relaxation time is {:.3}, above {HIGH_TAU}, where accuracy falls off; use \
+                     time_step ≤ {:.3e} s",
+                    0.5 + self.excess,
+                    self.step_for(HIGH_TAU - 0.5)
+                ),
+            );
+        }
+    }
+
+    fn bgk(&mut self) {
+        if self.scene.numerics.collision == Collision::Bgk && self.excess < LOW_BGK_TAU {
+            self.warn(
+                "numerics.collision",
+                format!(
+                    "bgk oscillates at a relaxation time of {:.5}, below {}; use collision = \
+                     \"hermite\", or cell ≤ {:.3e} m at the same Mach number",
+                    0.5 + self.excess,
+                    0.5 + LOW_BGK_TAU,
+                    self.cell_for(LOW_BGK_TAU)
+                ),
+            );
+        }
+    }
+
+    fn cell_reynolds(&mut self) {
+        let nu = self.scene.fluid.viscosity;
+        let reynolds = self.speed * self.units.cell / nu;
+        let modelled = self.scene.numerics.eddy_viscosity != EddyViscosity::None;
+        if reynolds > HIGH_CELL_REYNOLDS && !modelled {
+            self.warn(
+                "domain.cell",
+                format!(
+                    "the Reynolds number of a cell is {reynolds:.1} at {} m/s, above \
+                     {HIGH_CELL_REYNOLDS}: eddies are not resolved and the run may diverge; use \
+                     cell ≤ {:.3e} m, or eddy_viscosity = \"wale\"",
+                    self.speed,
+                    HIGH_CELL_REYNOLDS * nu / self.speed
+                ),
+            );
+        }
     }
 }

@@ -1,8 +1,7 @@
 //! Triangle meshes from STL and OBJ files.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 use glam::DVec3;
@@ -26,6 +25,9 @@ impl TriangleMesh {
     /// A mesh of `triangles` over `vertices` in m, of which those that coincide are made one.
     ///
     /// Triangles that lose their area by this are left out.
+    ///
+    /// # Panics
+    /// If a triangle names a vertex that is not there.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let (kept, of) = weld(vertices);
         let triangles = triangles
@@ -45,11 +47,11 @@ impl TriangleMesh {
     /// If the file cannot be read, is neither, or holds no triangle.
     pub fn read(path: &Path, scale: f64, translate: [f64; 3]) -> Result<Self> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        let file = File::open(path)
+        let bytes = std::fs::read(path)
             .map_err(|e| Error::file(path, format!("cannot read the mesh: {e}; check the path")))?;
         let (vertices, triangles) = match extension.as_deref() {
-            Some("stl") => read_stl(file),
-            Some("obj") => read_obj(file),
+            Some("stl") => read_stl(bytes),
+            Some("obj") => read_obj(bytes),
             _ => Err("a mesh is an .stl or an .obj file; convert it".into()),
         }
         .map_err(|message| Error::file(path, message))?;
@@ -84,8 +86,12 @@ impl TriangleMesh {
 
 type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
 
-fn read_stl(file: File) -> Result<Soup, String> {
-    let mesh = stl_io::read_stl(&mut BufReader::new(file))
+fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
+    if is_binary_stl(&bytes) {
+        // Some programs begin binary headers with the word that marks text.
+        bytes[..HEADER].fill(0);
+    }
+    let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
         .map_err(|e| format!("not a valid STL file: {e}; export it again"))?;
     let vertex = |v: &stl_io::Vertex| DVec3::from(v.0.map(f64::from));
     Ok((
@@ -97,14 +103,25 @@ fn read_stl(file: File) -> Result<Soup, String> {
     ))
 }
 
-fn read_obj(file: File) -> Result<Soup, String> {
+/// Bytes of free text before the number of triangles in binary STL.
+const HEADER: usize = 80;
+
+/// Whether the length is that of as many triangles (50 bytes each) as binary STL announces.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    match bytes.get(HEADER..).and_then(|rest| rest.first_chunk::<4>()) {
+        Some(count) => bytes.len() as u64 == 84 + 50 * u64::from(u32::from_le_bytes(*count)),
+        None => false,
+    }
+}
+
+fn read_obj(bytes: Vec<u8>) -> Result<Soup, String> {
     let options = tobj::LoadOptions {
         triangulate: true,
         ..Default::default()
     };
     // Materials say nothing about the shape.
     let no_materials = |_: &Path| Ok((Vec::new(), HashMap::default()));
-    let (models, _) = tobj::load_obj_buf(&mut BufReader::new(file), &options, no_materials)
+    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials)
         .map_err(|e| format!("not a valid OBJ file: {e}; export it again"))?;
     let mut vertices = Vec::new();
     let mut triangles = Vec::new();

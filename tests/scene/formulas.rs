@@ -82,3 +82,12 @@ fn nesting_is_bounded() {
     let right = vec!["1"; 60].join("^");
     assert_eq!(at(&right, 0.0, 0.0, 0.0, 0.0), 1.0);
 }
+
+proptest::proptest! {
+    #[test]
+    fn no_text_panics(text in "[-+*/^(), .0-9extyzπe]{0,40}|(sin|min|mod|pi|q)?\\(?.{0,20}") {
+        if let Ok(formula) = text.parse::<Formula>() {
+            formula.eval(0.1, 0.2, 0.3, 0.4);
+        }
+    }
+}

@@ -477,3 +477,19 @@ fn a_missing_file_is_named() {
         &["no/such/scene.toml", "check the path"],
     );
 }
+
+proptest::proptest! {
+    /// A scene with a piece cut out or doubled is read or refused, never a panic.
+    #[test]
+    fn no_mutilated_scene_panics(from in 0..1200_usize, length in 0..60_usize, double: bool) {
+        let text = include_str!("../../harness/scenes/offset_joint.toml");
+        let skipped = text.find("[domain]").unwrap() + from;
+        let piece: String = text.chars().skip(skipped).take(length).collect();
+        let broken = if double {
+            text.replacen(&piece, &piece.repeat(2), 1)
+        } else {
+            text.replacen(&piece, "", 1)
+        };
+        let _ = read(&broken);
+    }
+}

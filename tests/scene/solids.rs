@@ -223,6 +223,19 @@ fn a_cube_mesh_equals_the_box() {
 }
 
 #[test]
+fn binary_stl_may_begin_like_text() {
+    let dir = scratch("solid_header");
+    let path = dir.join("cube.stl");
+    write_stl(&path, &cuboid(DVec3::splat(2.0), DVec3::splat(6.0)));
+    let mut bytes = fs::read(&path).unwrap();
+    bytes[..12].copy_from_slice(b"solid cube  ");
+    fs::write(&path, bytes).unwrap();
+    let mesh = "[[solids]]\nkind = \"mesh\"\nfile = \"cube.stl\"\nscale = 1e-3\n";
+    let scene = cube("solid_header", 8, mesh).unwrap();
+    assert_eq!(scene.solid_mask().unwrap().solid_count(), 64);
+}
+
+#[test]
 fn a_mesh_that_reaches_out_of_the_domain_is_cut() {
     let dir = scratch("cut_mesh");
     write_stl(

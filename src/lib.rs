@@ -6,12 +6,14 @@
 #![deny(missing_docs)]
 
 pub mod error;
+pub mod formula;
 pub mod kernel;
 pub mod lattice;
 pub mod link;
 pub mod output;
 pub mod readback;
 pub mod scene;
+pub mod solid;
 pub mod units;
 
 pub use error::{Error, Result};

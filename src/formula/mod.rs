@@ -1,0 +1,195 @@
+//! Numbers that may also be written as formulas of position and time.
+
+mod functions;
+mod parse;
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Visitor};
+
+/// Variables that a formula may use, in the order of the arguments of [`Formula::eval`].
+pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
+/// Position of the time in [`VARIABLES`].
+const TIME: u8 = 3;
+/// Most values that an evaluation holds at once; the parser refuses deeper nesting.
+const STACK: usize = 64;
+
+/// One step of a formula in postfix order.
+#[derive(Clone, Copy, Debug)]
+enum Op {
+    Number(f64),
+    Variable(u8),
+    Unary(fn(f64) -> f64),
+    Binary(fn(f64, f64) -> f64),
+}
+
+/// A number, or a formula of x, y, z (m) and t (s) as text.
+///
+/// Operators `+ - * / ^` with the precedence of mathematics (`-x^2` is `-(x^2)`, `^` groups to
+/// the right), parentheses, the constants `pi` and `e`, and the functions sin, cos, tan, asin,
+/// acos, atan, sinh, cosh, tanh, exp, log (= ln), log10, sqrt, abs, sign, floor, ceil, and, with
+/// two arguments, min, max, atan2, mod.
+///
+/// ```
+/// let profile: riprap::formula::Formula = "1 - (y/0.1)^2".parse().unwrap();
+/// assert_eq!(profile.eval(0.0, 0.05, 0.0, 0.0), 0.75);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Formula {
+    text: String,
+    ops: Vec<Op>,
+}
+
+impl Formula {
+    /// The formula that is `value` everywhere.
+    pub fn number(value: f64) -> Self {
+        Self {
+            text: value.to_string(),
+            ops: vec![Op::Number(value)],
+        }
+    }
+
+    /// Value at the point (`x`, `y`, `z`) in m and the time `t` in s. May be NaN or infinite.
+    pub fn eval(&self, x: f64, y: f64, z: f64, t: f64) -> f64 {
+        let variables = [x, y, z, t];
+        let mut stack = [0.0; STACK];
+        let mut top = 0;
+        for op in &self.ops {
+            match *op {
+                Op::Number(value) => {
+                    stack[top] = value;
+                    top += 1;
+                }
+                Op::Variable(index) => {
+                    stack[top] = variables[usize::from(index)];
+                    top += 1;
+                }
+                Op::Unary(function) => stack[top - 1] = function(stack[top - 1]),
+                Op::Binary(function) => {
+                    top -= 1;
+                    stack[top - 1] = function(stack[top - 1], stack[top]);
+                }
+            }
+        }
+        stack[0]
+    }
+
+    /// Value at the point `at` in m and the time `t` in s. May be NaN or infinite.
+    pub fn eval_at(&self, at: [f64; 3], t: f64) -> f64 {
+        self.eval(at[0], at[1], at[2], t)
+    }
+
+    /// Whether the value changes with time.
+    pub fn uses_time(&self) -> bool {
+        self.uses(|index| index == TIME)
+    }
+
+    /// Whether the value is the same everywhere and always.
+    pub fn is_constant(&self) -> bool {
+        !self.uses(|_| true)
+    }
+
+    /// The value, where it is the same everywhere and always.
+    pub fn constant(&self) -> Option<f64> {
+        self.is_constant().then(|| self.eval(0.0, 0.0, 0.0, 0.0))
+    }
+
+    /// The formula as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    fn uses(&self, which: impl Fn(u8) -> bool) -> bool {
+        self.ops
+            .iter()
+            .any(|op| matches!(op, Op::Variable(index) if which(*index)))
+    }
+}
+
+impl Default for Formula {
+    fn default() -> Self {
+        Self::number(0.0)
+    }
+}
+
+impl From<f64> for Formula {
+    fn from(value: f64) -> Self {
+        Self::number(value)
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// Why a text is not a formula.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("formula `{text}`, character {column}: {message}")]
+pub struct FormulaError {
+    /// The text.
+    pub text: String,
+    /// Where, counted from 1.
+    pub column: usize,
+    /// What is wrong there.
+    pub message: String,
+}
+
+impl std::str::FromStr for Formula {
+    type Err = FormulaError;
+
+    fn from_str(text: &str) -> Result<Self, FormulaError> {
+        Ok(Self {
+            text: text.to_owned(),
+            ops: parse::compile(text)?,
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for Formula {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberOrText)
+    }
+}
+
+struct NumberOrText;
+
+impl Visitor<'_> for NumberOrText {
+    type Value = Formula;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number or a formula in quotes")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Formula, E> {
+        Ok(Formula::number(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Formula, E> {
+        Ok(Formula::number(value as f64))
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Formula, E> {
+        text.parse().map_err(E::custom)
+    }
+}
+
+impl schemars::JsonSchema for Formula {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Formula".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "A number, or a formula of x, y, z (m) and, where the key allows it, t (s).",
+            "type": ["number", "string"]
+        })
+    }
+}

@@ -1,0 +1,218 @@
+//! Whether the lattice can carry the scene: what is refused, and what is only worth a warning.
+
+use std::fmt;
+
+use super::{Collision, EddyViscosity, Numerics, Scene};
+use crate::error::{Error, Result};
+use crate::units::Units;
+
+/// Above this Mach number the error of compressibility, about Ma², exceeds 10 %, and no collision
+/// operator here is stable at low viscosity.
+const MOST_MACH: f64 = 0.3;
+/// Above this Mach number the error of compressibility exceeds 2 %.
+const HIGH_MACH: f64 = 0.15;
+/// Range of τ − ½ in which the rates of Suga et al. (2015) are linearly stable at rest.
+const SUGA: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
+/// Below this τ − ½ the viscosity drowns in the rounding of f32.
+const LEAST_TAU: f64 = 1e-6;
+/// Above this τ half-way walls and the discretisation lose accuracy quickly.
+const HIGH_TAU: f64 = 1.5;
+/// Above this Reynolds number of a cell the smallest eddies fall through the grid.
+const HIGH_CELL_REYNOLDS: f64 = 30.0;
+/// Below this τ − ½ one relaxation time oscillates at walls and solids.
+const LOW_BGK_TAU: f64 = 0.01;
+
+/// Something that works but may disappoint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The key to look at.
+    pub place: String,
+    /// What is the matter, and what would help, with numbers.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+/// What [`Scene::advise`] found that is not refused.
+pub type Advice = Vec<Warning>;
+
+impl Scene {
+    /// Refuses what the lattice cannot carry at these `units`, and warns of what it carries badly.
+    ///
+    /// # Errors
+    /// A Mach number above 0.3; a relaxation time at which the collision operator is unstable.
+    pub fn advise(&self, units: &Units) -> Result<Advice> {
+        let sampled = self.sampled_speed()?;
+        let mut adviser = Adviser {
+            scene: self,
+            units,
+            speed: self.numerics.velocity_scale.unwrap_or(0.0).max(sampled),
+            excess: units.tau(self.fluid.viscosity) - 0.5,
+            step_key: if self.numerics.time_step.is_some() {
+                "numerics.time_step"
+            } else {
+                "numerics.mach"
+            },
+            advice: Vec::new(),
+        };
+        adviser.mach()?;
+        adviser.low_tau()?;
+        adviser.suga()?;
+        adviser.high_tau();
+        adviser.bgk();
+        adviser.cell_reynolds();
+        Ok(adviser.advice)
+    }
+}
+
+struct Adviser<'a> {
+    scene: &'a Scene,
+    units: &'a Units,
+    /// Largest speed that is known of, m/s.
+    speed: f64,
+    /// τ − ½: grows with the time step, and at a fixed Mach number with 1/cell.
+    excess: f64,
+    /// The key that fixes the time step.
+    step_key: &'static str,
+    advice: Advice,
+}
+
+impl Adviser<'_> {
+    fn warn(&mut self, place: &str, message: String) {
+        self.advice.push(Warning {
+            place: place.into(),
+            message,
+        });
+    }
+
+    /// Time step, s, at which τ − ½ is `wanted`.
+    fn step_for(&self, wanted: f64) -> f64 {
+        self.units.time_step * wanted / self.excess
+    }
+
+    /// Cell, m, at which τ − ½ is `wanted` at the same Mach number.
+    fn cell_for(&self, wanted: f64) -> f64 {
+        self.units.cell * self.excess / wanted
+    }
+
+    fn mach(&mut self) -> Result<()> {
+        let (mach, speed) = (self.units.mach(self.speed), self.speed);
+        let usual = Numerics::DEFAULT_MACH;
+        let remedy = format!(
+            "use time_step ≤ {:.3e} s (mach = {usual})",
+            self.units.time_step * usual / mach
+        );
+        if mach > MOST_MACH {
+            return Err(Error::scene(
+                self.step_key,
+                format!(
+                    "the Mach number of the lattice is {mach:.3} at {speed} m/s, above {MOST_MACH}, \
+                     where the flow is compressible and unstable; {remedy}"
+                ),
+            ));
+        }
+        if mach > HIGH_MACH {
+            self.warn(
+                self.step_key,
+                format!(
+                    "the Mach number of the lattice is {mach:.3} at {speed} m/s: errors of \
+                     compressibility near {:.1} %; {remedy}",
+                    100.0 * mach * mach
+                ),
+            );
+        }
+        Ok(())
+    }
+
+    fn low_tau(&self) -> Result<()> {
+        if self.excess >= LEAST_TAU {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "fluid.viscosity",
+            format!(
+                "τ − ½ is {:.3e}, below {LEAST_TAU:e}: the viscosity drowns in rounding; use \
+                 viscosity ≥ {:.3e} m²/s, or cell ≤ {:.3e} m at the same Mach number",
+                self.excess,
+                self.scene.fluid.viscosity * LEAST_TAU / self.excess,
+                self.cell_for(LEAST_TAU)
+            ),
+        ))
+    }
+
+    fn suga(&self) -> Result<()> {
+        let suga = self.scene.numerics.collision == Collision::Suga;
+        if !suga || SUGA.contains(&self.excess) {
+            return Ok(());
+        }
+        let (low, high) = (*SUGA.start(), *SUGA.end());
+        let remedy = if self.excess > high {
+            format!("time_step ≤ {:.3e} s", self.step_for(high))
+        } else {
+            format!(
+                "time_step ≥ {:.3e} s, or cell ≤ {:.3e} m at the same Mach number",
+                self.step_for(low),
+                self.cell_for(low)
+            )
+        };
+        Err(Error::scene(
+            "numerics.collision",
+            format!(
+                "suga is linearly unstable at the relaxation time {:.6}: τ − ½ must lie between \
+                 {low:e} and {high}; use collision = \"hermite\", or {remedy}",
+                0.5 + self.excess
+            ),
+        ))
+    }
+
+    fn high_tau(&mut self) {
+        if self.excess > HIGH_TAU - 0.5 {
+            self.warn(
+                self.step_key,
+                format!(
+                    "the relaxation time is {:.3}, above {HIGH_TAU}, where accuracy falls off; use \
+                     time_step ≤ {:.3e} s",
+                    0.5 + self.excess,
+                    self.step_for(HIGH_TAU - 0.5)
+                ),
+            );
+        }
+    }
+
+    fn bgk(&mut self) {
+        if self.scene.numerics.collision == Collision::Bgk && self.excess < LOW_BGK_TAU {
+            self.warn(
+                "numerics.collision",
+                format!(
+                    "bgk oscillates at a relaxation time of {:.5}, below {}; use collision = \
+                     \"hermite\", or cell ≤ {:.3e} m at the same Mach number",
+                    0.5 + self.excess,
+                    0.5 + LOW_BGK_TAU,
+                    self.cell_for(LOW_BGK_TAU)
+                ),
+            );
+        }
+    }
+
+    fn cell_reynolds(&mut self) {
+        let nu = self.scene.fluid.viscosity;
+        let reynolds = self.speed * self.units.cell / nu;
+        let modelled = self.scene.numerics.eddy_viscosity != EddyViscosity::None;
+        if reynolds > HIGH_CELL_REYNOLDS && !modelled {
+            self.warn(
+                "domain.cell",
+                format!(
+                    "the Reynolds number of a cell is {reynolds:.1} at {} m/s, above \
+                     {HIGH_CELL_REYNOLDS}: eddies are not resolved and the run may diverge; use \
+                     cell ≤ {:.3e} m, or eddy_viscosity = \"wale\"",
+                    self.speed,
+                    HIGH_CELL_REYNOLDS * nu / self.speed
+                ),
+            );
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What a scene must satisfy before anything is computed from it.
+
+mod boundaries;
+mod domain;
+mod numerics;
+mod output;
+mod probes;
+mod rules;
+mod solids;
+
+use super::{InitialPressure, Scene};
+use crate::error::Result;
+use rules::{finite_constants, no_time, positive, refuse};
+
+impl Scene {
+    /// Whether the scene agrees with itself.
+    ///
+    /// # Errors
+    /// Names the first key that does not, why, and what would be right.
+    pub fn check(&self) -> Result<()> {
+        self.check_domain()?;
+        self.check_fluid()?;
+        self.check_numerics()?;
+        self.check_solids()?;
+        self.check_initial()?;
+        self.check_run()?;
+        self.check_output()?;
+        self.check_probes()?;
+        // Last, since the balance of flows needs the solids.
+        self.check_boundaries()
+    }
+
+    fn check_fluid(&self) -> Result<()> {
+        positive("fluid.density", self.fluid.density, "kg/m³")?;
+        positive("fluid.viscosity", self.fluid.viscosity, "m²/s")?;
+        no_time("fluid.acceleration", &self.fluid.acceleration)?;
+        finite_constants("fluid.acceleration", &self.fluid.acceleration)
+    }
+
+    fn check_initial(&self) -> Result<()> {
+        no_time("initial.velocity", &self.initial.velocity)?;
+        finite_constants("initial.velocity", &self.initial.velocity)?;
+        match &self.initial.pressure {
+            InitialPressure::Hydrostatic => Ok(()),
+            InitialPressure::Given(formula) => {
+                no_time("initial.pressure", std::slice::from_ref(formula))?;
+                finite_constants("initial.pressure", std::slice::from_ref(formula))
+            }
+        }
+    }
+
+    fn check_run(&self) -> Result<()> {
+        match (self.run.duration, self.run.steps) {
+            (Some(_), Some(_)) => refuse(
+                "run.steps",
+                "the run has both `duration` and `steps`; keep one of them",
+            ),
+            (None, None) => refuse(
+                "run",
+                "the run has no end; give `duration` (s) or `steps` (a whole number)",
+            ),
+            (Some(duration), None) => positive("run.duration", duration, "s"),
+            (None, Some(0)) => refuse("run.steps", "the run has no steps; give at least 1"),
+            (None, Some(_)) => Ok(()),
+        }?;
+        rules::interval("run.checkpoint_every", self.run.checkpoint_every)
+    }
+}

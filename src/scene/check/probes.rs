@@ -1,0 +1,50 @@
+//! Probes lie in the domain.
+
+use super::rules::{distinct, inside, interval, names, ordered, refuse};
+use crate::error::Result;
+use crate::scene::{Field, Probe, ProbePlace, Scene};
+
+impl Scene {
+    pub(super) fn check_probes(&self) -> Result<()> {
+        let named = self.probes.iter().map(|probe| probe.name.as_str());
+        names("probes", named.enumerate())?;
+        for (index, probe) in self.probes.iter().enumerate() {
+            self.check_probe(&format!("probes[{index}]"), probe)?;
+        }
+        Ok(())
+    }
+
+    fn check_probe(&self, key: &str, probe: &Probe) -> Result<()> {
+        interval(format!("{key}.every"), probe.every)?;
+        distinct(&format!("{key}.fields"), &probe.fields)?;
+        self.check_eddy(
+            &format!("{key}.fields"),
+            probe.fields.contains(&Field::EddyViscosity),
+        )?;
+        let within = |part: &str, point| inside(format!("{key}.{part}"), &self.domain, point);
+        match &probe.place {
+            ProbePlace::Point { at } => within("at", *at),
+            ProbePlace::Line { from, to, count } => {
+                within("from", *from)?;
+                within("to", *to)?;
+                if *count < 2 {
+                    return refuse(
+                        format!("{key}.count"),
+                        format!("a line has at least 2 points, not {count}"),
+                    );
+                }
+                Ok(())
+            }
+            ProbePlace::Plane { axis, position } => {
+                let mut point = self.domain.middle();
+                point[axis.index()] = *position;
+                within("position", point)
+            }
+            ProbePlace::Box { min, max } | ProbePlace::Face { min, max, .. } => {
+                ordered(key, *min, *max)?;
+                within("min", *min)?;
+                within("max", *max)
+            }
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Solids have an extent, and some of it in the domain.
+
+use super::rules::{Point, finite, names, ordered, positive, refuse};
+use crate::error::Result;
+use crate::scene::{Scene, Shape};
+
+impl Scene {
+    pub(super) fn check_solids(&self) -> Result<()> {
+        let named = self.solids.iter().enumerate();
+        names(
+            "solids",
+            named.filter_map(|(i, solid)| Some((i, solid.name.as_deref()?))),
+        )?;
+        for (index, solid) in self.solids.iter().enumerate() {
+            self.check_shape(&format!("solids[{index}]"), &solid.shape)?;
+        }
+        Ok(())
+    }
+
+    fn check_shape(&self, key: &str, shape: &Shape) -> Result<()> {
+        match shape {
+            Shape::Box { min, max } => {
+                ordered(key, *min, *max)?;
+                self.check_reach(key, *min, *max)
+            }
+            Shape::HalfSpace { point, normal } => {
+                finite(format!("{key}.point"), point)?;
+                finite(format!("{key}.normal"), normal)?;
+                if normal.iter().all(|c| *c == 0.0) {
+                    return refuse(
+                        format!("{key}.normal"),
+                        "has no direction; give the direction out of the solid, such as [0, 0, 1]",
+                    );
+                }
+                Ok(())
+            }
+            Shape::Sphere { center, radius } => {
+                finite(format!("{key}.center"), center)?;
+                positive(format!("{key}.radius"), *radius, "m")?;
+                let corner = |sign: f64| center.map(|c| c + sign * radius);
+                self.check_reach(key, corner(-1.0), corner(1.0))
+            }
+            Shape::Mesh {
+                scale, translate, ..
+            } => {
+                positive(format!("{key}.scale"), *scale, "m")?;
+                finite(format!("{key}.translate"), translate)
+            }
+        }
+    }
+
+    /// A shape between the corners `min` and `max` (m) must reach into the domain.
+    pub(crate) fn check_reach(&self, key: &str, min: [f64; 3], max: [f64; 3]) -> Result<()> {
+        let (origin, end) = (self.domain.origin, self.domain.end());
+        if (0..3).all(|a| min[a] < end[a] && max[a] > origin[a]) {
+            return Ok(());
+        }
+        refuse(
+            key,
+            format!(
+                "the solid reaches from {} to {} m and so lies wholly outside the domain, which \
+                 reaches from {} to {} m; move it or remove it",
+                Point(min),
+                Point(max),
+                Point(origin),
+                Point(end)
+            ),
+        )
+    }
+}

@@ -1,0 +1,89 @@
+//! The box that is computed, and its cells.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{Axis, Face};
+
+/// The box of space that is computed, cut into cubic cells.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Lower corner, m. Default (0, 0, 0).
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// Edges, m. Each is a whole number of cells.
+    pub size: [f64; 3],
+    /// Edge of a cell, m.
+    pub cell: f64,
+}
+
+impl Domain {
+    /// Number of cells along x, y, z.
+    pub fn cells(&self) -> [u32; 3] {
+        self.size.map(|edge| (edge / self.cell).round() as u32)
+    }
+
+    /// Number of cells in all.
+    pub fn cell_count(&self) -> usize {
+        self.cells().iter().map(|n| *n as usize).product()
+    }
+
+    /// Upper corner, m.
+    pub fn end(&self) -> [f64; 3] {
+        std::array::from_fn(|a| self.origin[a] + self.size[a])
+    }
+
+    /// Centre of the domain, m.
+    pub fn middle(&self) -> [f64; 3] {
+        std::array::from_fn(|a| self.origin[a] + 0.5 * self.size[a])
+    }
+
+    /// Centre of the cell `ijk`, counted from 0 at the lower corner, m.
+    pub fn centre(&self, ijk: [u32; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| self.origin[a] + (f64::from(ijk[a]) + 0.5) * self.cell)
+    }
+
+    /// Centres of all cells, x fastest, m.
+    pub fn centres(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let [nx, ny, nz] = self.cells();
+        (0..nz).flat_map(move |k| {
+            (0..ny).flat_map(move |j| (0..nx).map(move |i| self.centre([i, j, k])))
+        })
+    }
+
+    /// Position of the plane of `face` along its axis, m.
+    pub fn face_position(&self, face: Face) -> f64 {
+        let axis = face.axis().index();
+        if face.is_max() {
+            self.end()[axis]
+        } else {
+            self.origin[axis]
+        }
+    }
+
+    /// Centres of the outer cell faces on `face`, the lower of the two in-plane axes fastest, m.
+    pub fn face_points(&self, face: Face) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let axis = face.axis().index();
+        let [fast, slow] = face.axis().others().map(Axis::index);
+        let cells = self.cells();
+        let plane = self.face_position(face);
+        (0..cells[slow]).flat_map(move |s| {
+            (0..cells[fast]).map(move |f| {
+                let mut ijk = [0; 3];
+                ijk[fast] = f;
+                ijk[slow] = s;
+                let mut point = self.centre(ijk);
+                point[axis] = plane;
+                point
+            })
+        })
+    }
+
+    /// Whether `point` (m) lies in the domain, to a millionth of a cell.
+    pub fn contains(&self, point: [f64; 3]) -> bool {
+        let end = self.end();
+        let slack = 1e-6 * self.cell;
+        (0..3).all(|a| point[a] >= self.origin[a] - slack && point[a] <= end[a] + slack)
+    }
+}

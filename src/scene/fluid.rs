@@ -1,0 +1,24 @@
+//! What flows.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::formula::Formula;
+
+/// The fluid and the body force on it.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// Density, kg/m³. Default 1000.
+    #[serde(default = "water")]
+    pub density: f64,
+    /// Kinematic viscosity, m²/s.
+    pub viscosity: f64,
+    /// Body force per mass, m/s²: three numbers or formulas of x, y, z. Default none.
+    #[serde(default)]
+    pub acceleration: [Formula; 3],
+}
+
+fn water() -> f64 {
+    1000.0
+}

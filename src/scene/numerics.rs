@@ -1,0 +1,109 @@
+//! How the flow is computed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Collision, precision and time step.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// Collision operator. Default `hermite`.
+    pub collision: Collision,
+    /// Equilibrium. Default `product`.
+    pub equilibrium: Equilibrium,
+    /// Eddy viscosity. Default `none`.
+    pub eddy_viscosity: EddyViscosity,
+    /// C_w of Nicoud & Ducros (1999), no unit; 0.325 to 0.6 in the literature. Default 0.5.
+    pub wale_constant: f64,
+    /// Precision of the stored populations. Default `f32`.
+    pub storage: Storage,
+    /// Cells an invocation of a kernel treats at once: 1, 2 (`f16` only) or 4. Default: chosen
+    /// for the adapter.
+    pub lanes: Option<u32>,
+    /// Time step, s. Default: from `mach`.
+    pub time_step: Option<f64>,
+    /// Mach number of the lattice at the velocity scale, from which the time step follows:
+    /// errors of compressibility grow with its square. Default 0.1, unless `time_step` is given.
+    pub mach: Option<f64>,
+    /// Largest speed that is expected, m/s. Default: the largest one in the boundaries and in the
+    /// initial state at the time 0.
+    pub velocity_scale: Option<f64>,
+    /// Magic parameter Λ beside bounce-back walls, no unit. Default 3/16, with which a wall of a
+    /// channel lies half a cell beyond the last cell centre at any viscosity.
+    pub wall_lambda: f64,
+    /// One magic parameter Λ everywhere, for laminar scenes, no unit. Default: none.
+    pub lambda: Option<f64>,
+    /// Smallest relaxation rate that Λ may give to the odd moments, for stability at low
+    /// viscosity; not applied to `lambda`. No unit, default 0.8.
+    pub odd_rate_floor: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self {
+            collision: Collision::default(),
+            equilibrium: Equilibrium::default(),
+            eddy_viscosity: EddyViscosity::default(),
+            wale_constant: 0.5,
+            storage: Storage::default(),
+            lanes: None,
+            time_step: None,
+            mach: None,
+            velocity_scale: None,
+            wall_lambda: 3.0 / 16.0,
+            lambda: None,
+            odd_rate_floor: 0.8,
+        }
+    }
+}
+
+impl Numerics {
+    /// Mach number where none is given: errors of compressibility stay near 1 %.
+    pub const DEFAULT_MACH: f64 = 0.1;
+}
+
+/// Collision operator.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Collision {
+    /// Multiple relaxation times in Hermite moments; stable at rest at every viscosity.
+    #[default]
+    Hermite,
+    /// Multiple relaxation times of Suga et al. (2015), for 4e-4 ≤ τ − ½ ≤ 0.059.
+    Suga,
+    /// One relaxation time.
+    Bgk,
+}
+
+/// Equilibrium distribution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Equilibrium {
+    /// Full product form (Hermite order 6): Galilean invariant in shear.
+    #[default]
+    Product,
+    /// Second order in the velocity.
+    SecondOrder,
+}
+
+/// Model of the turbulence below the grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EddyViscosity {
+    /// No model.
+    #[default]
+    None,
+    /// WALE (Nicoud & Ducros 1999).
+    Wale,
+}
+
+/// Precision of the stored populations; arithmetic is always f32.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Storage {
+    /// 32 bits a population.
+    #[default]
+    F32,
+    /// 16 bits a population: half the memory and traffic, relative rounding 5e-4.
+    F16,
+}

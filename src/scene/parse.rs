@@ -1,0 +1,146 @@
+//! From TOML text to a scene; errors that say where and what instead.
+
+use std::path::Path;
+
+use super::Scene;
+use crate::error::{Error, Result};
+
+/// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
+/// other: `viscocity` and `viscosity` have 0.97, unrelated keys of the format stay below 0.7.
+const ALIKE: f64 = 0.75;
+
+impl Scene {
+    /// Reads and checks the scene in the TOML file at `path`.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is not TOML, does not follow the format, or contradicts
+    /// itself.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|e| {
+            Error::file(path, format!("cannot read the scene: {e}; check the path"))
+        })?;
+        let dir = path.parent().unwrap_or(Path::new(""));
+        Self::from_toml(&text, dir, &path.display().to_string())
+    }
+
+    /// Reads and checks the scene in `text`. Meshes are looked for in `dir`; `place` names the
+    /// text in messages, and its stem is the default title.
+    ///
+    /// # Errors
+    /// If the text is not TOML, does not follow the format, or contradicts itself.
+    pub fn from_toml(text: &str, dir: &Path, place: &str) -> Result<Self> {
+        let mut scene: Self = toml::from_str(text).map_err(|e| refuse(e, text, place))?;
+        dir.clone_into(&mut scene.dir);
+        if scene.title.is_empty() {
+            let stem = Path::new(place).file_stem();
+            scene.title = stem.map_or_else(|| "scene".into(), |s| s.to_string_lossy().into());
+        }
+        scene.check().map_err(|e| locate(e, text, place))?;
+        Ok(scene)
+    }
+}
+
+/// The error of a text that does not follow the format.
+fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
+    let at = error.span().map(|span| position(text, span.start));
+    let message = explain(error.message());
+    // Without its input the error prints the path of keys at which it arose.
+    error.set_input(None);
+    let printed = error.to_string();
+    let keys = printed
+        .trim_end()
+        .rsplit_once("\nin `")
+        .and_then(|(_, keys)| keys.strip_suffix('`'));
+    Error::scene(
+        match at {
+            Some((line, column)) => format!("{place}:{line}:{column}"),
+            None => place.to_owned(),
+        },
+        match keys {
+            Some(keys) => format!("{keys}: {message}"),
+            None => message,
+        },
+    )
+}
+
+/// The error of a check, with the line of the key that it names.
+fn locate(error: Error, text: &str, place: &str) -> Error {
+    match error {
+        Error::Scene {
+            place: key,
+            message,
+        } => Error::Scene {
+            place: match find(text, &key) {
+                Some((line, column)) => format!("{place}:{line}:{column}: {key}"),
+                None => format!("{place}: {key}"),
+            },
+            message,
+        },
+        other => other,
+    }
+}
+
+/// Line and column of the value at the path `key` such as `probes[1].at`, or of the nearest
+/// table around it that is written in the text.
+fn find(text: &str, key: &str) -> Option<(usize, usize)> {
+    let document = toml::de::DeTable::parse(text).ok()?;
+    let mut steps = key.split(['.', '[']);
+    let mut found = document.get_ref().get(steps.next()?)?;
+    for step in steps {
+        let value = found.get_ref();
+        let next = match step.strip_suffix(']') {
+            Some(index) => index.parse::<usize>().ok().and_then(|i| value.get(i)),
+            None => value.get(step),
+        };
+        let Some(next) = next else { break };
+        found = next;
+    }
+    Some(position(text, found.span().start))
+}
+
+/// Line and column of the byte `offset`, counted from 1.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    )
+}
+
+/// serde's words, in those of the format.
+fn explain(message: &str) -> String {
+    let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
+    if let (true, Some((wrong, possible))) = (unknown, words.split_first()) {
+        let what = if message.starts_with("unknown field") {
+            "key"
+        } else {
+            "word"
+        };
+        let best = possible
+            .iter()
+            .map(|word| (strsim::jaro_winkler(wrong, word), word))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .filter(|(alike, _)| *alike >= ALIKE);
+        let guess = best.map_or(String::new(), |(_, word)| {
+            format!(" did you mean `{word}`?")
+        });
+        return format!(
+            "there is no {what} `{wrong}` here;{guess} possible are {}",
+            possible.join(", ")
+        );
+    }
+    if let (true, Some(key)) = (message.starts_with("missing field"), words.first()) {
+        return format!("the key `{key}` is missing; add it");
+    }
+    message
+        .trim_end()
+        .replace("expected f64", "expected a number")
+        .replace(
+            "expected u32",
+            "expected a whole number from 0 to 4294967295",
+        )
+        .replace("expected u64", "expected a whole number from 0")
+}

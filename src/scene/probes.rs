@@ -1,0 +1,170 @@
+//! Where the flow is measured.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::tagged::{need, refuse_others, through};
+use super::{Axis, Direction, Field};
+
+/// A measurement, written as CSV.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Probe {
+    /// Name of the file.
+    pub name: String,
+    /// Where it measures.
+    #[schemars(flatten)]
+    pub place: ProbePlace,
+    /// What it measures. Default velocity and pressure. A `face` always gives area, pressure and
+    /// force, and no other fields.
+    #[schemars(default)]
+    pub fields: Vec<Field>,
+    /// Time between measurements, s. Default: only at the end of the run.
+    #[schemars(default)]
+    pub every: Option<f64>,
+}
+
+/// Where a probe measures.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(tag = "kind", rename_all = "snake_case")]
+pub enum ProbePlace {
+    /// One point, interpolated.
+    Point {
+        /// The point, m.
+        at: [f64; 3],
+    },
+    /// Equally spaced points of a line, both ends included, interpolated.
+    Line {
+        /// First point, m.
+        from: [f64; 3],
+        /// Last point, m.
+        to: [f64; 3],
+        /// Number of points, at least 2.
+        count: u32,
+    },
+    /// All cells of a plane.
+    Plane {
+        /// Normal of the plane.
+        axis: Axis,
+        /// Where the plane cuts the axis, m.
+        position: f64,
+    },
+    /// Mean, least and largest value over the fluid cells whose centres lie in a box.
+    Box {
+        /// Lower corner, m.
+        min: [f64; 3],
+        /// Upper corner, m.
+        max: [f64; 3],
+    },
+    /// A face of a static solid: the fluid cells in a box that have a solid cell behind them.
+    /// Area, mean, least and largest pressure, and the force on the solid.
+    Face {
+        /// Lower corner of the box, m.
+        min: [f64; 3],
+        /// Upper corner of the box, m.
+        max: [f64; 3],
+        /// Outward normal of the solid's face: the solid cell lies against it.
+        normal: Direction,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Point,
+    Line,
+    Plane,
+    Box,
+    Face,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Flat {
+    kind: Kind,
+    name: String,
+    fields: Option<Vec<Field>>,
+    every: Option<f64>,
+    at: Option<[f64; 3]>,
+    from: Option<[f64; 3]>,
+    to: Option<[f64; 3]>,
+    count: Option<u32>,
+    axis: Option<Axis>,
+    position: Option<f64>,
+    min: Option<[f64; 3]>,
+    max: Option<[f64; 3]>,
+    normal: Option<Direction>,
+}
+
+impl Flat {
+    fn typed(self) -> Result<Probe, String> {
+        let given = [
+            ("at", self.at.is_some()),
+            ("from", self.from.is_some()),
+            ("to", self.to.is_some()),
+            ("count", self.count.is_some()),
+            ("axis", self.axis.is_some()),
+            ("position", self.position.is_some()),
+            ("min", self.min.is_some()),
+            ("max", self.max.is_some()),
+            ("normal", self.normal.is_some()),
+        ];
+        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
+        let place = match self.kind {
+            Kind::Point => {
+                only("point", &["at"])?;
+                ProbePlace::Point {
+                    at: need(self.at, "at", "point")?,
+                }
+            }
+            Kind::Line => {
+                only("line", &["from", "to", "count"])?;
+                ProbePlace::Line {
+                    from: need(self.from, "from", "line")?,
+                    to: need(self.to, "to", "line")?,
+                    count: need(self.count, "count", "line")?,
+                }
+            }
+            Kind::Plane => {
+                only("plane", &["axis", "position"])?;
+                ProbePlace::Plane {
+                    axis: need(self.axis, "axis", "plane")?,
+                    position: need(self.position, "position", "plane")?,
+                }
+            }
+            Kind::Box => {
+                only("box", &["min", "max"])?;
+                ProbePlace::Box {
+                    min: need(self.min, "min", "box")?,
+                    max: need(self.max, "max", "box")?,
+                }
+            }
+            Kind::Face => {
+                only("face", &["min", "max", "normal"])?;
+                let useless = |field: &Field| *field != Field::Pressure;
+                if self.fields.iter().flatten().any(useless) {
+                    return Err(
+                        "a `face` probe always gives area, pressure and force and no \
+                                other fields; remove `fields`"
+                            .into(),
+                    );
+                }
+                ProbePlace::Face {
+                    min: need(self.min, "min", "face")?,
+                    max: need(self.max, "max", "face")?,
+                    normal: need(self.normal, "normal", "face")?,
+                }
+            }
+        };
+        Ok(Probe {
+            name: self.name,
+            place,
+            fields: self
+                .fields
+                .unwrap_or_else(|| vec![Field::Velocity, Field::Pressure]),
+            every: self.every,
+        })
+    }
+}
+
+through!(Flat => Probe);

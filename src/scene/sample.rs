@@ -1,0 +1,222 @@
+//! The flow that a scene prescribes, sampled on cells and faces, in SI.
+
+use super::{Boundary, Face, InitialPressure, Scene};
+use crate::error::{Error, Result};
+use crate::formula::Formula;
+
+/// Velocity and pressure at the time 0 on all cells, x fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialFields {
+    /// Velocity components, m/s.
+    pub velocity: [Vec<f32>; 3],
+    /// Pressure above the reference pressure, Pa.
+    pub pressure: Vec<f32>,
+}
+
+/// Body force per mass.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyForce {
+    /// There is none.
+    None,
+    /// The same everywhere, m/s².
+    Uniform([f64; 3]),
+    /// Components on all cells, x fastest, m/s².
+    Field([Vec<f32>; 3]),
+}
+
+impl Scene {
+    /// Velocity and pressure at the time 0 on all cells.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub fn initial_fields(&self) -> Result<InitialFields> {
+        let pressure = match &self.initial.pressure {
+            InitialPressure::Given(formula) => self.on_cells("initial.pressure", formula)?,
+            InitialPressure::Hydrostatic => {
+                let (zero, gradient) = self.hydrostatic();
+                let at = |x: [f64; 3]| (0..3).map(|a| gradient[a] * x[a]).sum::<f64>();
+                self.domain
+                    .centres()
+                    .map(|x| (zero + at(x)) as f32)
+                    .collect()
+            }
+        };
+        Ok(InitialFields {
+            velocity: self.vector_on_cells("initial.velocity", &self.initial.velocity)?,
+            pressure,
+        })
+    }
+
+    /// Pressure `p = a + g·x` of the fluid at rest: `a` in Pa, `g` in Pa/m.
+    ///
+    /// Only a constant acceleration along an axis that is not periodic has a pressure that
+    /// balances it.
+    pub fn hydrostatic(&self) -> (f64, [f64; 3]) {
+        let constant = self.fluid.acceleration.each_ref().map(Formula::constant);
+        let [Some(ax), Some(ay), Some(az)] = constant else {
+            return (0.0, [0.0; 3]);
+        };
+        let gradient: [f64; 3] = std::array::from_fn(|axis| {
+            if *self.boundaries.face(Face::ALL[2 * axis]) == Boundary::Periodic {
+                0.0
+            } else {
+                self.fluid.density * [ax, ay, az][axis]
+            }
+        });
+        let end = self.domain.end();
+        let mut known = 0.0;
+        let mut at: [f64; 3] = std::array::from_fn(|axis| {
+            if gradient[axis] < 0.0 {
+                end[axis]
+            } else {
+                self.domain.origin[axis]
+            }
+        });
+        for (face, boundary) in self.boundaries.iter() {
+            if let Boundary::Pressure { pressure, .. } = boundary {
+                known = *pressure;
+                at = self.domain.middle();
+                at[face.axis().index()] = self.domain.face_position(face);
+                break;
+            }
+        }
+        let zero = known - (0..3).map(|a| gradient[a] * at[a]).sum::<f64>();
+        (zero, gradient)
+    }
+
+    /// Velocity on `face` at the time `t` in s, at the centres of the outer cell faces, the lower
+    /// of the two in-plane axes fastest, m/s. At rest where the face gives no velocity.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub fn face_velocity(&self, face: Face, t: f64) -> Result<Vec<[f64; 3]>> {
+        let points = self.domain.face_points(face);
+        match self.boundaries.face(face) {
+            Boundary::Velocity { velocity } => {
+                let key = format!("boundaries.{}.velocity", face.name());
+                points.map(|x| vector_at(&key, velocity, x, t)).collect()
+            }
+            Boundary::Wall { velocity } => Ok(points.map(|_| *velocity).collect()),
+            _ => Ok(points.map(|_| [0.0; 3]).collect()),
+        }
+    }
+
+    /// The body force per mass.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub fn force_field(&self) -> Result<BodyForce> {
+        let formulas = &self.fluid.acceleration;
+        Ok(match formulas.each_ref().map(Formula::constant) {
+            [Some(0.0), Some(0.0), Some(0.0)] => BodyForce::None,
+            [Some(x), Some(y), Some(z)] => BodyForce::Uniform([x, y, z]),
+            _ => BodyForce::Field(self.vector_on_cells("fluid.acceleration", formulas)?),
+        })
+    }
+
+    /// Largest speed in the boundaries and the initial state at the time 0, m/s.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub fn sampled_speed(&self) -> Result<f64> {
+        let mut largest: f64 = 0.0;
+        for (face, boundary) in self.boundaries.iter() {
+            match boundary {
+                Boundary::Wall { velocity } => largest = largest.max(length(*velocity)),
+                Boundary::Velocity { .. } => {
+                    for velocity in self.face_velocity(face, 0.0)? {
+                        largest = largest.max(length(velocity));
+                    }
+                }
+                _ => {}
+            }
+        }
+        let velocity = &self.initial.velocity;
+        if velocity.iter().all(Formula::is_constant) {
+            let everywhere = vector_at("initial.velocity", velocity, self.domain.middle(), 0.0)?;
+            return Ok(largest.max(length(everywhere)));
+        }
+        for x in self.domain.centres() {
+            largest = largest.max(length(vector_at("initial.velocity", velocity, x, 0.0)?));
+        }
+        Ok(largest)
+    }
+
+    /// Speed from which the time step follows, m/s: `numerics.velocity_scale`, else
+    /// [`Self::sampled_speed`].
+    ///
+    /// # Errors
+    /// If neither is there.
+    pub fn velocity_scale(&self) -> Result<f64> {
+        if let Some(speed) = self.numerics.velocity_scale {
+            return Ok(speed);
+        }
+        let speed = self.sampled_speed()?;
+        if speed > 0.0 {
+            return Ok(speed);
+        }
+        Err(Error::scene(
+            "numerics",
+            "no time step follows from this scene: nothing in its boundaries and initial state \
+             moves at t = 0; give `velocity_scale` (the largest speed expected, m/s) or \
+             `time_step` (s)",
+        ))
+    }
+
+    fn on_cells(&self, key: &str, formula: &Formula) -> Result<Vec<f32>> {
+        if let Some(value) = formula.constant() {
+            finite(key, formula, value, self.domain.middle(), 0.0)?;
+            return Ok(vec![value as f32; self.domain.cell_count()]);
+        }
+        let value = |x| finite(key, formula, formula.eval_at(x, 0.0), x, 0.0);
+        self.domain
+            .centres()
+            .map(|x| Ok(value(x)? as f32))
+            .collect()
+    }
+
+    fn vector_on_cells(&self, key: &str, formulas: &[Formula; 3]) -> Result<[Vec<f32>; 3]> {
+        let [x, y, z] = formulas;
+        Ok([
+            self.on_cells(&format!("{key}[0]"), x)?,
+            self.on_cells(&format!("{key}[1]"), y)?,
+            self.on_cells(&format!("{key}[2]"), z)?,
+        ])
+    }
+}
+
+/// Euclidean length.
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+/// The vector of `formulas` at the point `x` in m and the time `t` in s.
+fn vector_at(key: &str, formulas: &[Formula; 3], x: [f64; 3], t: f64) -> Result<[f64; 3]> {
+    let mut vector = [0.0; 3];
+    for (axis, formula) in formulas.iter().enumerate() {
+        let value = formula.eval_at(x, t);
+        vector[axis] = finite(&format_args!("{key}[{axis}]"), formula, value, x, t)?;
+    }
+    Ok(vector)
+}
+
+/// `value`, if it is a number that a device can hold.
+fn finite(
+    key: &(impl std::fmt::Display + ?Sized),
+    formula: &Formula,
+    value: f64,
+    [x, y, z]: [f64; 3],
+    t: f64,
+) -> Result<f64> {
+    // Populations and fields are f32 on the device.
+    if value.abs() <= f64::from(f32::MAX) {
+        return Ok(value);
+    }
+    Err(Error::scene(
+        key.to_string(),
+        format!(
+            "`{formula}` is {value} at ({x}, {y}, {z}) m, t = {t} s; it must be finite on the \
+             whole domain: guard divisions, roots and logarithms with max(…)"
+        ),
+    ))
+}

@@ -1,0 +1,145 @@
+//! What stands still in the flow.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::tagged::{need, refuse_others, through};
+
+/// A static solid, or a hole in the solids listed before it.
+///
+/// A cell is solid if its centre lies in a solid; later entries win over earlier ones.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Solid {
+    /// Name for messages and reports. Default none.
+    #[schemars(default)]
+    pub name: Option<String>,
+    /// Whether the shape carves fluid out of the earlier solids. Default false.
+    #[schemars(default)]
+    pub void: bool,
+    /// The shape.
+    #[schemars(flatten)]
+    pub shape: Shape,
+}
+
+/// Shape of a solid.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(tag = "kind", rename_all = "snake_case")]
+pub enum Shape {
+    /// A box along the axes.
+    Box {
+        /// Lower corner, m.
+        min: [f64; 3],
+        /// Upper corner, m.
+        max: [f64; 3],
+    },
+    /// Everything on one side of a plane.
+    HalfSpace {
+        /// A point of the plane, m.
+        point: [f64; 3],
+        /// Normal of the plane, of any length; it points out of the solid.
+        normal: [f64; 3],
+    },
+    /// A sphere.
+    Sphere {
+        /// Centre, m.
+        center: [f64; 3],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A closed triangle mesh.
+    Mesh {
+        /// STL or OBJ file, relative to the scene's file.
+        file: PathBuf,
+        /// Length of the file's unit, m. Default 1.
+        #[schemars(default)]
+        scale: f64,
+        /// Where the file's origin goes, m, after scaling. Default (0, 0, 0).
+        #[schemars(default)]
+        translate: [f64; 3],
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Box,
+    HalfSpace,
+    Sphere,
+    Mesh,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Flat {
+    kind: Kind,
+    name: Option<String>,
+    #[serde(default)]
+    void: bool,
+    min: Option<[f64; 3]>,
+    max: Option<[f64; 3]>,
+    point: Option<[f64; 3]>,
+    normal: Option<[f64; 3]>,
+    center: Option<[f64; 3]>,
+    radius: Option<f64>,
+    file: Option<PathBuf>,
+    scale: Option<f64>,
+    translate: Option<[f64; 3]>,
+}
+
+impl Flat {
+    fn typed(self) -> Result<Solid, String> {
+        let given = [
+            ("min", self.min.is_some()),
+            ("max", self.max.is_some()),
+            ("point", self.point.is_some()),
+            ("normal", self.normal.is_some()),
+            ("center", self.center.is_some()),
+            ("radius", self.radius.is_some()),
+            ("file", self.file.is_some()),
+            ("scale", self.scale.is_some()),
+            ("translate", self.translate.is_some()),
+        ];
+        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
+        let shape = match self.kind {
+            Kind::Box => {
+                only("box", &["min", "max"])?;
+                Shape::Box {
+                    min: need(self.min, "min", "box")?,
+                    max: need(self.max, "max", "box")?,
+                }
+            }
+            Kind::HalfSpace => {
+                only("half_space", &["point", "normal"])?;
+                Shape::HalfSpace {
+                    point: need(self.point, "point", "half_space")?,
+                    normal: need(self.normal, "normal", "half_space")?,
+                }
+            }
+            Kind::Sphere => {
+                only("sphere", &["center", "radius"])?;
+                Shape::Sphere {
+                    center: need(self.center, "center", "sphere")?,
+                    radius: need(self.radius, "radius", "sphere")?,
+                }
+            }
+            Kind::Mesh => {
+                only("mesh", &["file", "scale", "translate"])?;
+                Shape::Mesh {
+                    file: need(self.file, "file", "mesh")?,
+                    scale: self.scale.unwrap_or(1.0),
+                    translate: self.translate.unwrap_or_default(),
+                }
+            }
+        };
+        Ok(Solid {
+            name: self.name,
+            void: self.void,
+            shape,
+        })
+    }
+}
+
+through!(Flat => Solid);

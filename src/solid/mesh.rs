@@ -1,0 +1,168 @@
+//! Triangle meshes from STL and OBJ files.
+
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::Path;
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+
+/// Vertices nearer than this part of the mesh's diagonal are one: STL repeats each vertex in
+/// every triangle, with the rounding of f32 (6e-8).
+const WELD: f64 = 1e-6;
+
+/// Triangles over shared vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangleMesh {
+    /// Vertices, m.
+    pub vertices: Vec<DVec3>,
+    /// Indices of vertices, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl TriangleMesh {
+    /// A mesh of `triangles` over `vertices` in m, of which those that coincide are made one.
+    ///
+    /// Triangles that lose their area by this are left out.
+    ///
+    /// # Panics
+    /// If a triangle names a vertex that is not there.
+    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let (kept, of) = weld(vertices);
+        let triangles = triangles
+            .iter()
+            .map(|corners| corners.map(|c| of[c as usize]))
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
+        Self {
+            vertices: kept,
+            triangles,
+        }
+    }
+
+    /// Reads an STL or OBJ file; its unit becomes `scale` m and its origin goes to `translate` m.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is neither, or holds no triangle.
+    pub fn read(path: &Path, scale: f64, translate: [f64; 3]) -> Result<Self> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let bytes = std::fs::read(path)
+            .map_err(|e| Error::file(path, format!("cannot read the mesh: {e}; check the path")))?;
+        let (vertices, triangles) = match extension.as_deref() {
+            Some("stl") => read_stl(bytes),
+            Some("obj") => read_obj(bytes),
+            _ => Err("a mesh is an .stl or an .obj file; convert it".into()),
+        }
+        .map_err(|message| Error::file(path, message))?;
+        if triangles.is_empty() {
+            return Err(Error::file(
+                path,
+                "the mesh has no triangles; export it again",
+            ));
+        }
+        if let Some(bad) = vertices.iter().find(|v| !v.is_finite()) {
+            return Err(Error::file(
+                path,
+                format!("a vertex is {bad}; repair the mesh"),
+            ));
+        }
+        let place = |v: &DVec3| *v * scale + DVec3::from(translate);
+        let placed: Vec<DVec3> = vertices.iter().map(place).collect();
+        Ok(Self::new(&placed, &triangles))
+    }
+
+    /// Corners of the triangle `index`, m.
+    pub fn corners(&self, index: usize) -> [DVec3; 3] {
+        self.triangles[index].map(|c| self.vertices[c as usize])
+    }
+
+    /// Lower and upper corner of the box around the mesh, m.
+    pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        let (min, max) = around(&self.vertices);
+        (min.into(), max.into())
+    }
+}
+
+type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
+
+fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
+    if is_binary_stl(&bytes) {
+        // Some programs begin binary headers with the word that marks text.
+        bytes[..HEADER].fill(0);
+    }
+    let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
+        .map_err(|e| format!("not a valid STL file: {e}; export it again"))?;
+    let vertex = |v: &stl_io::Vertex| DVec3::from(v.0.map(f64::from));
+    Ok((
+        mesh.vertices.iter().map(vertex).collect(),
+        mesh.faces
+            .iter()
+            .map(|f| f.vertices.map(|v| v as u32))
+            .collect(),
+    ))
+}
+
+/// Bytes of free text before the number of triangles in binary STL.
+const HEADER: usize = 80;
+
+/// Whether the length is that of as many triangles (50 bytes each) as binary STL announces.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    match bytes.get(HEADER..).and_then(|rest| rest.first_chunk::<4>()) {
+        Some(count) => bytes.len() as u64 == 84 + 50 * u64::from(u32::from_le_bytes(*count)),
+        None => false,
+    }
+}
+
+fn read_obj(bytes: Vec<u8>) -> Result<Soup, String> {
+    let options = tobj::LoadOptions {
+        triangulate: true,
+        ..Default::default()
+    };
+    // Materials say nothing about the shape.
+    let no_materials = |_: &Path| Ok((Vec::new(), HashMap::default()));
+    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials)
+        .map_err(|e| format!("not a valid OBJ file: {e}; export it again"))?;
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    for model in models {
+        let first = vertices.len() as u32;
+        let (points, _) = model.mesh.positions.as_chunks::<3>();
+        vertices.extend(points.iter().map(|p| DVec3::from(p.map(f64::from))));
+        let (faces, _) = model.mesh.indices.as_chunks::<3>();
+        triangles.extend(faces.iter().map(|f| f.map(|v| v + first)));
+    }
+    Ok((vertices, triangles))
+}
+
+fn around(points: &[DVec3]) -> (DVec3, DVec3) {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points
+        .iter()
+        .fold(nothing, |(min, max), p| (min.min(*p), max.max(*p)))
+}
+
+/// The distinct points, and for each given point which of them it is.
+fn weld(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
+    let (min, max) = around(points);
+    let reach = (WELD * min.distance(max)).max(f64::MIN_POSITIVE);
+    let bin = |p: DVec3| ((p - min) / reach).floor().as_i64vec3().to_array();
+    let mut bins: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut kept: Vec<DVec3> = Vec::new();
+    let mut of = Vec::with_capacity(points.len());
+    for p in points {
+        let here = bin(*p);
+        let near = (0..27).find_map(|n| {
+            let shift = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+            let candidate = *bins.get(&std::array::from_fn(|a| here[a] + shift[a]))?;
+            (kept[candidate as usize].distance(*p) <= reach).then_some(candidate)
+        });
+        of.push(near.unwrap_or_else(|| {
+            let new = kept.len() as u32;
+            kept.push(*p);
+            bins.insert(here, new);
+            new
+        }));
+    }
+    (kept, of)
+}

@@ -1,0 +1,119 @@
+//! What the lattice cannot carry, and what it carries badly.
+
+use riprap::Result;
+use riprap::scene::{Advice, Scene};
+use riprap::units::Units;
+
+use crate::{read, refused};
+
+/// A lid-driven layer: lid speed (m/s), viscosity (m²/s), numerics.
+fn layer(lid: f64, viscosity: f64, numerics: &str) -> (Scene, Units) {
+    let scene = read(&format!(
+        "[domain]\nsize = [0.01, 0.01, 0.01]\ncell = 1e-3\n[fluid]\nviscosity = {viscosity}\n\
+         [run]\nsteps = 1\n[boundaries]\nz_min = {{ kind = \"wall\" }}\n\
+         z_max = {{ kind = \"wall\", velocity = [{lid}, 0, 0] }}\n[numerics]\n{numerics}\n"
+    ))
+    .unwrap();
+    let units = Units::of(&scene).unwrap();
+    (scene, units)
+}
+
+fn advise(lid: f64, viscosity: f64, numerics: &str) -> Result<Advice> {
+    let (scene, units) = layer(lid, viscosity, numerics);
+    scene.advise(&units)
+}
+
+#[track_caller]
+fn warned(advice: Result<Advice>, parts: &[&str]) {
+    let advice = advice.unwrap();
+    assert_eq!(advice.len(), 1, "{advice:?}");
+    let words = advice[0].to_string();
+    for part in parts {
+        assert!(words.contains(part), "`{part}` is not in: {words}");
+    }
+}
+
+#[test]
+fn a_sound_scene_needs_no_advice() {
+    assert_eq!(advise(0.01, 1e-5, "").unwrap(), []);
+}
+
+#[test]
+fn mach_numbers_are_bounded() {
+    // Ma = √3 U Δt/Δx = 0.3464; a tenth of it is reached at Δt = 2.887e-3 s.
+    refused(
+        advise(0.02, 1e-6, "time_step = 1e-2"),
+        &["numerics.time_step", "0.346", "time_step ≤ 2.887e-3 s"],
+    );
+    refused(
+        advise(0.02, 1e-6, "mach = 0.31"),
+        &["numerics.mach", "mach = 0.1"],
+    );
+    warned(
+        advise(0.02, 1e-6, "mach = 0.2"),
+        &["numerics.mach", "4.0 %", "time_step ≤"],
+    );
+    // A velocity scale that is too low does not hide the speed of the lid.
+    refused(
+        advise(0.02, 1e-6, "velocity_scale = 0.002"),
+        &["1.000", "0.02 m/s"],
+    );
+}
+
+#[test]
+fn relaxation_times_are_bounded() {
+    // τ − ½ = 3νΔt/Δx² = 3; 1 at a third of the step.
+    warned(
+        advise(1e-6, 1e-4, "time_step = 1e-2"),
+        &["3.500", "time_step ≤ 3.333e-3 s"],
+    );
+    refused(
+        advise(1e-6, 1e-12, "time_step = 1e-2"),
+        &["fluid.viscosity", "viscosity ≥ 3.333e-11 m²/s", "cell ≤"],
+    );
+}
+
+#[test]
+fn suga_is_refused_where_it_is_unstable() {
+    refused(
+        advise(1e-3, 1e-5, "collision = \"suga\"\ntime_step = 1e-2"),
+        &[
+            "numerics.collision",
+            "0.8",
+            "hermite",
+            "time_step ≤ 1.967e-3 s",
+        ],
+    );
+    refused(
+        advise(1e-3, 1e-8, "collision = \"suga\"\ntime_step = 1e-2"),
+        &["hermite", "time_step ≥ 1.333e-2 s", "cell ≤ 7.500e-4 m"],
+    );
+    assert_eq!(
+        advise(1e-3, 1e-6, "collision = \"suga\"\ntime_step = 1e-2").unwrap(),
+        []
+    );
+}
+
+#[test]
+fn coarse_cells_are_warned_of_without_an_eddy_viscosity() {
+    // U Δx/ν = 100; 30 at 0.3 mm.
+    warned(
+        advise(0.1, 1e-6, ""),
+        &["domain.cell", "100.0", "cell ≤ 3.000e-4 m", "wale"],
+    );
+    assert_eq!(advise(0.1, 1e-6, "eddy_viscosity = \"wale\"").unwrap(), []);
+}
+
+#[test]
+fn bgk_is_warned_of_at_low_viscosity() {
+    // τ − ½ = √3 Ma ν/(U Δx) = 0.00866.
+    warned(
+        advise(0.01, 5e-7, "collision = \"bgk\""),
+        &[
+            "numerics.collision",
+            "0.50866",
+            "hermite",
+            "cell ≤ 8.660e-4 m",
+        ],
+    );
+}

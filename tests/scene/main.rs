@@ -1,0 +1,56 @@
+//! The scene format: what it accepts, what it refuses and in which words, and what it samples.
+
+mod advice;
+mod format;
+mod formulas;
+mod refusals;
+mod sampling;
+mod shipped;
+mod solids;
+mod units;
+
+use std::path::Path;
+
+use riprap::Result;
+use riprap::scene::Scene;
+
+/// A channel of 20 × 10 × 4 cells that needs nothing else.
+const CHANNEL: &str = r#"
+[domain]
+size = [0.02, 0.01, 0.004]
+cell = 1e-3
+[fluid]
+viscosity = 1e-6
+[run]
+steps = 10
+"#;
+
+/// The text as a scene that was read from `channel.toml`.
+fn read(text: &str) -> Result<Scene> {
+    Scene::from_toml(text, Path::new("."), "channel.toml")
+}
+
+/// [`CHANNEL`] with more tables after it.
+fn channel(more: &str) -> Result<Scene> {
+    read(&format!("{CHANNEL}{more}"))
+}
+
+/// [`CHANNEL`] with one piece of its text replaced.
+fn changed(from: &str, to: &str) -> Result<Scene> {
+    assert!(CHANNEL.contains(from));
+    read(&CHANNEL.replace(from, to))
+}
+
+/// The words of the error.
+fn words<T: std::fmt::Debug>(result: Result<T>) -> String {
+    result.expect_err("this must be refused").to_string()
+}
+
+/// Asserts that the error says all of `parts`.
+#[track_caller]
+fn refused<T: std::fmt::Debug>(result: Result<T>, parts: &[&str]) {
+    let words = words(result);
+    for part in parts {
+        assert!(words.contains(part), "`{part}` is not in: {words}");
+    }
+}

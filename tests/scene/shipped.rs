@@ -1,0 +1,34 @@
+//! The scenes that come with the harness.
+
+use std::path::Path;
+
+use riprap::scene::Scene;
+use riprap::units::Units;
+
+/// Speed of a CPU adapter on two cores, cell updates/s.
+const UPDATES: f64 = 40e6;
+
+#[test]
+fn shipped_scenes_are_sound_and_run_in_minutes() {
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("harness/scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        count += 1;
+        let scene = Scene::from_file(&path).unwrap();
+        let units = Units::of(&scene).unwrap();
+        assert_eq!(scene.advise(&units).unwrap(), [], "{}", path.display());
+        scene.solid_mask().unwrap();
+        scene.initial_fields().unwrap();
+        let updates = scene.domain.cell_count() as f64 * scene.run.step_count(&units) as f64;
+        assert!(
+            updates / UPDATES < 60.0,
+            "{}: {updates:.2e} cell updates",
+            path.display()
+        );
+    }
+    assert!(count >= 7, "{count}");
+}

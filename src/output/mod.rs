@@ -35,5 +35,6 @@ pub use csv::Csv;
 pub use image::{Array, Image};
 pub use pvd::Pvd;
 pub use quantities::VelocityQuantities;
+pub use replace::replace;
 pub use table::Table;
 pub use vti::write_vti;

@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 
 /// Writes `path` through `content`, beside it first and renamed at the end, so that a killed run
 /// or a full disk leaves the former file, never half of the new one.
-pub(super) fn replace(
+///
+/// # Errors
+/// [`Error::File`] with the system's reason and a remedy.
+pub fn replace(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<()> {

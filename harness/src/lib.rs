@@ -1,0 +1,3 @@
+//! The parts of the `riprap` program that tests and examples use as well.
+
+pub mod picture;

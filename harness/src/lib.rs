@@ -1,3 +1,4 @@
-//! What the `riprap` binary is made of.
+//! The parts of the `riprap` program that tests and examples use as well.
 
 pub mod gpu;
+pub mod picture;

@@ -1,0 +1,221 @@
+//! A quantity along an edge of a plot: range, ticks and their labels.
+
+/// How values are spread along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences, equal lengths.
+    #[default]
+    Linear,
+    /// Equal ratios, equal lengths; for positive values.
+    Logarithmic,
+}
+
+/// An axis with its quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    quantity: String,
+    unit: String,
+    range: [f64; 2],
+    scale: Scale,
+    /// Labels show values divided by 10 to this power.
+    exponent: i32,
+}
+
+/// A tick's value, and the text beside it.
+pub type Tick = (f64, String);
+
+impl Axis {
+    /// An axis from `range[0]` to `range[1]`, both in `unit` (empty for a pure number).
+    pub fn new(quantity: &str, unit: &str, range: [f64; 2], scale: Scale) -> Self {
+        let largest = range[0].abs().max(range[1].abs());
+        // Four digits in front of the point, or two behind it, read well without a factor.
+        let plain = largest == 0.0 || (1e-2..1e4).contains(&largest);
+        let exponent = if plain || scale == Scale::Logarithmic {
+            0
+        } else {
+            3 * (largest.log10() / 3.0).floor() as i32
+        };
+        Self {
+            quantity: quantity.to_owned(),
+            unit: unit.to_owned(),
+            range,
+            scale,
+            exponent,
+        }
+    }
+
+    /// An axis that holds all `values`, with a little room; what is not finite, or not positive on
+    /// a logarithmic scale, has no place on it.
+    pub fn around(
+        quantity: &str,
+        unit: &str,
+        values: impl IntoIterator<Item = f64>,
+        scale: Scale,
+    ) -> Self {
+        let [low, high] = extremes(values.into_iter().filter(|value| scale.holds(*value)));
+        let range = match scale {
+            Scale::Linear => {
+                let room = 0.05 * (high - low);
+                [low - room, high + room]
+            }
+            Scale::Logarithmic if low > 0.0 => {
+                let room = (high / low).powf(0.05).max(1.25);
+                [low / room, high * room]
+            }
+            Scale::Logarithmic => [1.0, 10.0],
+        };
+        Self::new(quantity, unit, range, scale)
+    }
+
+    /// Where `value` lies: 0 at the axis's begin, 1 at its end.
+    pub fn fraction(&self, value: f64) -> f64 {
+        let [low, high] = self.range.map(|end| self.scale.stretch(end));
+        (self.scale.stretch(value) - low) / (high - low)
+    }
+
+    /// The value at `fraction` of a linear axis.
+    pub fn value(&self, fraction: f64) -> f64 {
+        self.range[0] + fraction * (self.range[1] - self.range[0])
+    }
+
+    /// Whether `value` can be drawn on this axis's scale.
+    pub fn holds(&self, value: f64) -> bool {
+        self.scale.holds(value)
+    }
+
+    /// The quantity with its unit, and the power of ten by which the labels are to be multiplied.
+    pub fn title(&self) -> String {
+        let factor = match self.exponent {
+            0 => String::new(),
+            exponent => power_of_ten(exponent),
+        };
+        let unit = [factor.as_str(), self.unit.as_str()]
+            .into_iter()
+            .filter(|part| !part.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ");
+        if unit.is_empty() {
+            self.quantity.clone()
+        } else {
+            format!("{} ({unit})", self.quantity)
+        }
+    }
+
+    /// About `most` ticks at round values, never more.
+    pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        match self.scale {
+            Scale::Linear => self.linear_ticks(most),
+            Scale::Logarithmic => self.logarithmic_ticks(most),
+        }
+    }
+
+    fn linear_ticks(&self, most: usize) -> Vec<Tick> {
+        let unit = 10_f64.powi(self.exponent);
+        let [low, high] = self.range.map(|end| end / unit);
+        // n intervals have n + 1 ends.
+        let least = (high - low) / (most.max(2) - 1) as f64;
+        let decade = least.log10().floor() as i32;
+        let (step, decimals) = [(1.0, 0), (2.0, 0), (5.0, 0), (10.0, 1)]
+            .into_iter()
+            .map(|(lead, shift)| (lead * 10_f64.powi(decade), -decade - shift))
+            // Rounding must not push a step that fits exactly to the next one.
+            .find(|(step, _)| *step >= least * (1.0 - 1e-9))
+            .unwrap_or((least, -decade));
+        let decimals = decimals.max(0) as usize;
+        let begin = (low / step - 1e-6).ceil() as i64;
+        let end = (high / step + 1e-6).floor() as i64;
+        (begin..=end)
+            .map(|count| {
+                let value = count as f64 * step;
+                (value * unit, minus(&format!("{value:.decimals$}")))
+            })
+            .collect()
+    }
+
+    fn logarithmic_ticks(&self, most: usize) -> Vec<Tick> {
+        let [low, high] = self.range.map(f64::log10);
+        let begin = (low - 1e-6).ceil() as i32;
+        let end = (high + 1e-6).floor() as i32;
+        let decades = (end - begin + 1).max(0) as usize;
+        if decades >= 2 {
+            let stride = decades.div_ceil(most.max(1));
+            return (begin..=end)
+                .step_by(stride)
+                .map(|power| (10_f64.powi(power), power_of_ten(power)))
+                .collect();
+        }
+        // Within one decade powers of ten are too few to read from.
+        (begin - 1..=end)
+            .flat_map(|power| [1.0, 2.0, 5.0].map(|lead| (lead, power)))
+            .filter_map(|(lead, power)| {
+                let value = lead * 10_f64.powi(power);
+                let label = match power {
+                    -3..=3 => format!("{value:.0$}", (-power).max(0) as usize),
+                    _ => format!("{lead:.0}·{}", power_of_ten(power)),
+                };
+                (self.range[0]..=self.range[1])
+                    .contains(&value)
+                    .then_some((value, label))
+            })
+            .collect()
+    }
+}
+
+impl Scale {
+    fn stretch(self, value: f64) -> f64 {
+        match self {
+            Scale::Linear => value,
+            Scale::Logarithmic => value.log10(),
+        }
+    }
+
+    fn holds(self, value: f64) -> bool {
+        value.is_finite() && (self == Scale::Linear || value > 0.0)
+    }
+}
+
+/// Least and largest of `values`, widened where they are one and the same; 0 to 1 for none.
+pub fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = values
+        .filter(|value| value.is_finite())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        });
+    // Below the digits of an f32, which fields are made of, a span is rounding.
+    let noise = f64::from(f32::EPSILON) * low.abs().max(high.abs());
+    if low > high {
+        [0.0, 1.0]
+    } else if high == 0.0 && low == 0.0 {
+        [-1.0, 1.0]
+    } else if high - low <= noise {
+        let half = 0.1 * low.abs().max(high.abs());
+        [low - half, high + half]
+    } else {
+        [low, high]
+    }
+}
+
+/// 10 to `exponent`, as it is printed.
+fn power_of_ten(exponent: i32) -> String {
+    let raised = |digit: char| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' | '4'..='9' => char::from_u32(digit as u32 - '0' as u32 + '⁰' as u32).unwrap_or(digit),
+        other => other,
+    };
+    format!(
+        "10{}",
+        exponent.to_string().chars().map(raised).collect::<String>()
+    )
+}
+
+/// `number` with the sign that is as wide as a plus, and none before zero.
+fn minus(number: &str) -> String {
+    match number.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|digit| matches!(digit, '0' | '.')) => rest.to_owned(),
+        Some(rest) => format!("−{rest}"),
+        None => number.to_owned(),
+    }
+}

@@ -1,0 +1,140 @@
+//! Curves over one shared axis: profiles, convergence plots, histories.
+
+use super::axis::{Axis, Scale};
+use super::canvas::{Anchor, Canvas};
+use super::curve::{self, Curve};
+use super::frame::{self, FOOT, Frame, INK, TITLE};
+use anyhow::{Result, bail};
+use std::path::Path;
+
+/// Space around everything and between panels, pixels.
+const MARGIN: f64 = 18.0;
+
+/// One frame of curves, or several on top of each other.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Title above all.
+    pub title: String,
+    /// The shared horizontal axis.
+    pub x: Measure,
+    /// The frames, from top to bottom.
+    pub panels: Vec<Panel>,
+    /// Width of the picture, pixels.
+    pub width: u32,
+    /// Height of each frame, pixels.
+    pub panel_height: u32,
+}
+
+/// What an axis measures.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Measure {
+    /// Name of the quantity.
+    pub quantity: String,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+    /// Spread of the values.
+    pub scale: Scale,
+}
+
+/// A frame with its own vertical axis.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// The vertical axis.
+    pub y: Measure,
+    /// Curves, named in a legend if more than one.
+    pub curves: Vec<Curve>,
+}
+
+impl Measure {
+    /// A quantity in `unit` on a linear scale.
+    pub fn linear(quantity: &str, unit: &str) -> Self {
+        Self {
+            quantity: quantity.to_owned(),
+            unit: unit.to_owned(),
+            scale: Scale::Linear,
+        }
+    }
+
+    /// A positive quantity in `unit` on a logarithmic scale.
+    pub fn logarithmic(quantity: &str, unit: &str) -> Self {
+        Self {
+            scale: Scale::Logarithmic,
+            ..Self::linear(quantity, unit)
+        }
+    }
+
+    fn around(&self, values: impl Iterator<Item = f64>) -> Axis {
+        Axis::around(&self.quantity, &self.unit, values, self.scale)
+    }
+}
+
+impl Chart {
+    /// A single frame, 1100 × 700 pixels.
+    pub fn profile(title: &str, x: Measure, y: Measure, curves: Vec<Curve>) -> Self {
+        Self {
+            title: title.to_owned(),
+            x,
+            panels: vec![Panel { y, curves }],
+            width: 1100,
+            panel_height: 700,
+        }
+    }
+
+    /// Draws the chart into a PNG file.
+    pub fn draw(&self, path: &Path) -> Result<()> {
+        if self.panels.is_empty() {
+            bail!("{}: a chart without panels; give one at least", self.title);
+        }
+        let height = f64::from(self.panel_height);
+        let points = |axis: usize| {
+            move |panel: &Panel| -> Vec<f64> {
+                let points = panel.curves.iter().flat_map(|curve| &curve.points);
+                points.map(|point| point[axis]).collect()
+            }
+        };
+        let x = self.x.around(self.panels.iter().flat_map(points(0)));
+        let ys: Vec<Axis> = self
+            .panels
+            .iter()
+            .map(|panel| panel.y.around(points(1)(panel).into_iter()))
+            .collect();
+        let sides = ys
+            .iter()
+            .map(|y| frame::side(y, height))
+            .collect::<Result<Vec<_>>>()?;
+        let left = MARGIN + sides.into_iter().fold(0.0, f64::max);
+        // Half of the last number hangs over the end of the axis.
+        let width = (f64::from(self.width) - left - 2.0 * MARGIN).floor();
+        let legends = self
+            .panels
+            .iter()
+            .map(|panel| curve::legend_height(&panel.curves, width))
+            .collect::<Result<Vec<_>>>()?;
+        let panels = legends
+            .iter()
+            .map(|legend| legend + height + MARGIN)
+            .sum::<f64>();
+        let whole = MARGIN + TITLE + MARGIN + panels + FOOT;
+        let mut canvas = Canvas::new(self.width, whole as u32);
+        let size = frame::fitting(&self.title, TITLE, canvas.width() - 2.0 * MARGIN)?;
+        let at = [0.5 * canvas.width(), MARGIN + 0.5 * TITLE];
+        canvas.text(&self.title, at, size, Anchor::Centre, INK)?;
+        let mut top = MARGIN + TITLE + MARGIN;
+        for (number, (panel, y)) in self.panels.iter().zip(ys).enumerate() {
+            curve::draw_legend(&mut canvas, &panel.curves, [left.round(), top], width)?;
+            let frame = Frame {
+                corner: [left.round(), (top + legends[number]).round()],
+                size: [width, height],
+                x: x.clone(),
+                y,
+            };
+            frame.draw_grid(&mut canvas)?;
+            for (number, curve) in panel.curves.iter().enumerate() {
+                curve.draw(&mut canvas, &frame, number)?;
+            }
+            frame.draw(&mut canvas, number + 1 == self.panels.len())?;
+            top += legends[number] + height + MARGIN;
+        }
+        canvas.save(path)
+    }
+}

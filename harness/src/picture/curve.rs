@@ -1,0 +1,165 @@
+//! Curves in a frame, and the legend that names them.
+
+use super::canvas::{Anchor, Canvas};
+use super::colour::CURVES;
+use super::frame::{Frame, INK, TEXT};
+use anyhow::Result;
+use plotters::style::RGBColor;
+
+/// Height of a row of a legend, pixels.
+const ROW: f64 = 1.5 * TEXT;
+/// Length of the sample of a curve in a legend, pixels.
+const SAMPLE: f64 = 44.0;
+/// Gap around a name in a legend, pixels.
+const GAP: f64 = 10.0;
+/// Stroke, pixels.
+const STROKE: f64 = 2.2;
+/// Radius of a point, pixels.
+const RADIUS: f64 = 5.0;
+/// Lengths of dash and gap, pixels.
+const DASH: [f64; 2] = [12.0, 8.0];
+
+/// Points to be drawn in one colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name in the legend.
+    pub name: String,
+    /// Places (x, y) in the units of the axes; a gap where one is not finite.
+    pub points: Vec<[f64; 2]>,
+    /// How they are drawn.
+    pub mark: Mark,
+}
+
+/// How a curve's points are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// Joined by a line.
+    #[default]
+    Line,
+    /// Joined by a dashed line, for theory.
+    Dashed,
+    /// Each by itself, for measurements.
+    Points,
+    /// Each by itself, and joined by a line.
+    LinePoints,
+}
+
+impl Curve {
+    /// Draws the curve, the `number`th of its frame, counted from 0.
+    pub fn draw(&self, canvas: &mut Canvas, frame: &Frame, number: usize) -> Result<()> {
+        let holds = |[x, y]: &[f64; 2]| frame.x.holds(*x) && frame.y.holds(*y);
+        for piece in self.points.split(|point| !holds(point)) {
+            let places: Vec<[f64; 2]> = piece.iter().map(|&point| frame.place(point)).collect();
+            self.mark.draw(canvas, &places, colour(number))?;
+        }
+        Ok(())
+    }
+}
+
+impl Mark {
+    fn draw(self, canvas: &mut Canvas, places: &[[f64; 2]], colour: RGBColor) -> Result<()> {
+        match self {
+            Self::Line | Self::LinePoints => canvas.line(places, STROKE, colour)?,
+            Self::Dashed => {
+                for dash in dashes(places) {
+                    canvas.line(&dash, STROKE, colour)?;
+                }
+            }
+            Self::Points => {}
+        }
+        if matches!(self, Self::Points | Self::LinePoints) {
+            for &place in places {
+                canvas.disc(place, RADIUS, colour)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Height of the legend of `curves` in rows as wide as `width`, pixels; none for a single curve.
+pub fn legend_height(curves: &[Curve], width: f64) -> Result<f64> {
+    let rows = legend_rows(curves, width)?.len();
+    Ok(rows as f64 * ROW)
+}
+
+/// Draws the legend of `curves` from `corner` on, in rows as wide as `width`.
+pub fn draw_legend(
+    canvas: &mut Canvas,
+    curves: &[Curve],
+    corner: [f64; 2],
+    width: f64,
+) -> Result<()> {
+    for (row, entries) in legend_rows(curves, width)?.into_iter().enumerate() {
+        let y = corner[1] + (row as f64 + 0.5) * ROW;
+        for (number, x) in entries {
+            let x = corner[0] + x;
+            let places = match curves[number].mark {
+                Mark::Points | Mark::LinePoints => {
+                    vec![[x, y], [x + 0.5 * SAMPLE, y], [x + SAMPLE, y]]
+                }
+                Mark::Line | Mark::Dashed => vec![[x, y], [x + SAMPLE, y]],
+            };
+            curves[number].mark.draw(canvas, &places, colour(number))?;
+            let at = [x + SAMPLE + GAP, y];
+            canvas.text(&curves[number].name, at, TEXT, Anchor::Left, INK)?;
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of the curves in each row, with the place of each in it, pixels.
+fn legend_rows(curves: &[Curve], width: f64) -> Result<Vec<Vec<(usize, f64)>>> {
+    let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
+    let mut used = f64::INFINITY;
+    if curves.len() < 2 {
+        return Ok(rows);
+    }
+    for (number, curve) in curves.iter().enumerate() {
+        let wants = SAMPLE + GAP + Canvas::text_width(&curve.name, TEXT)?;
+        if used + wants > width {
+            used = 0.0;
+            rows.push(Vec::new());
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((number, used));
+        }
+        used += wants + 3.0 * GAP;
+    }
+    Ok(rows)
+}
+
+fn colour(number: usize) -> RGBColor {
+    CURVES[number % CURVES.len()]
+}
+
+/// The drawn parts of a dashed line along `places`.
+fn dashes(places: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let mut dashes = Vec::new();
+    let mut dash: Vec<[f64; 2]> = places.first().copied().into_iter().collect();
+    let mut drawn = true;
+    let mut left = DASH[0];
+    for pair in places.windows(2) {
+        let mut from = pair[0];
+        loop {
+            let rest = (pair[1][0] - from[0]).hypot(pair[1][1] - from[1]);
+            if rest < left {
+                left -= rest;
+                break;
+            }
+            from = [0, 1].map(|axis| from[axis] + (pair[1][axis] - from[axis]) * left / rest);
+            if drawn {
+                dash.push(from);
+                dashes.push(std::mem::take(&mut dash));
+            } else {
+                dash.push(from);
+            }
+            drawn = !drawn;
+            left = DASH[usize::from(!drawn)];
+        }
+        if drawn {
+            dash.push(pair[1]);
+        }
+    }
+    dashes.push(dash);
+    dashes
+}

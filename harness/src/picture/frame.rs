@@ -1,0 +1,142 @@
+//! The rectangle that a plot is drawn in, with ticks along two edges.
+
+use super::axis::{Axis, Tick};
+use super::canvas::{Anchor, Canvas};
+use anyhow::Result;
+use plotters::style::RGBColor;
+
+/// Height of labels and ticks' numbers, pixels.
+pub const TEXT: f64 = 20.0;
+/// Height of a picture's title, pixels.
+pub const TITLE: f64 = 25.0;
+/// Colour of text and edges.
+pub const INK: RGBColor = RGBColor(38, 38, 38);
+/// Colour of the lines behind curves.
+const GRID: RGBColor = RGBColor(225, 225, 225);
+/// Length of a tick, pixels.
+const TICK: f64 = 6.0;
+/// Gap between a tick and its number, and between number and title, pixels.
+const GAP: f64 = 6.0;
+/// Height below a frame that its x ticks, numbers and title take, pixels.
+pub const FOOT: f64 = TICK + GAP + 2.0 * TEXT + 2.0 * GAP;
+
+/// A plot's rectangle on the canvas, pixels, and its axes.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Upper left corner.
+    pub corner: [f64; 2],
+    /// Width and height.
+    pub size: [f64; 2],
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis, upwards.
+    pub y: Axis,
+}
+
+impl Frame {
+    /// Place of the values (x, y) on the canvas.
+    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [
+            self.corner[0] + self.x.fraction(x) * self.size[0],
+            self.corner[1] + (1.0 - self.y.fraction(y)) * self.size[1],
+        ]
+    }
+
+    /// Lower right corner.
+    pub fn opposite(&self) -> [f64; 2] {
+        [self.corner[0] + self.size[0], self.corner[1] + self.size[1]]
+    }
+
+    /// Lines across the frame at every tick, to be drawn before the content.
+    pub fn draw_grid(&self, canvas: &mut Canvas) -> Result<()> {
+        let [right, bottom] = self.opposite();
+        for (value, _) in x_ticks(&self.x, self.size[0])? {
+            let x = self.corner[0] + self.x.fraction(value) * self.size[0];
+            canvas.line(&[[x, self.corner[1]], [x, bottom]], 1.0, GRID)?;
+        }
+        for (value, _) in y_ticks(&self.y, self.size[1]) {
+            let y = self.corner[1] + (1.0 - self.y.fraction(value)) * self.size[1];
+            canvas.line(&[[self.corner[0], y], [right, y]], 1.0, GRID)?;
+        }
+        Ok(())
+    }
+
+    /// The border, ticks and y labels, and x labels if `labelled`, to be drawn after the content.
+    pub fn draw(&self, canvas: &mut Canvas, labelled: bool) -> Result<()> {
+        let [left, top] = self.corner;
+        let [right, bottom] = self.opposite();
+        border(canvas, self.corner, self.opposite())?;
+        for (value, label) in x_ticks(&self.x, self.size[0])? {
+            let x = left + self.x.fraction(value) * self.size[0];
+            canvas.line(&[[x, bottom], [x, bottom + TICK]], 1.0, INK)?;
+            if labelled {
+                let at = [x, bottom + TICK + GAP + 0.5 * TEXT];
+                canvas.text(&label, at, TEXT, Anchor::Centre, INK)?;
+            }
+        }
+        if labelled {
+            let at = [0.5 * (left + right), bottom + FOOT - GAP - 0.5 * TEXT];
+            canvas.text(&self.x.title(), at, TEXT, Anchor::Centre, INK)?;
+        }
+        for (value, label) in y_ticks(&self.y, self.size[1]) {
+            let y = top + (1.0 - self.y.fraction(value)) * self.size[1];
+            canvas.line(&[[left - TICK, y], [left, y]], 1.0, INK)?;
+            canvas.text(&label, [left - TICK - GAP, y], TEXT, Anchor::Right, INK)?;
+        }
+        let title = self.y.title();
+        let x = left - side(&self.y, self.size[1])? + 0.5 * TEXT + GAP;
+        let size = fitting(&title, TEXT, self.size[1])?;
+        canvas.text(
+            &title,
+            [x, 0.5 * (top + bottom)],
+            size,
+            Anchor::Upwards,
+            INK,
+        )
+    }
+}
+
+/// Width that ticks, numbers and title of a vertical axis of `height` take beside it, pixels.
+pub fn side(axis: &Axis, height: f64) -> Result<f64> {
+    let widths = y_ticks(axis, height)
+        .iter()
+        .map(|(_, label)| Canvas::text_width(label, TEXT))
+        .collect::<Result<Vec<_>>>()?;
+    let widest = widths.into_iter().fold(0.0, f64::max);
+    Ok(TICK + GAP + widest + GAP + TEXT + 2.0 * GAP)
+}
+
+/// As many ticks as have room for their numbers along `width` pixels.
+pub fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
+    // More than ten numbers say nothing more.
+    for most in (3..=10).rev() {
+        let ticks = axis.ticks(most);
+        let mut room = 0.0;
+        for (_, label) in &ticks {
+            // Two digits' width between neighbours keeps numbers apart.
+            room += Canvas::text_width(label, TEXT)? + 1.5 * TEXT;
+        }
+        if room <= width {
+            return Ok(ticks);
+        }
+    }
+    Ok(axis.ticks(2))
+}
+
+/// As many ticks as have room for their numbers along `height` pixels.
+pub fn y_ticks(axis: &Axis, height: f64) -> Vec<Tick> {
+    axis.ticks(((height / (2.0 * TEXT)) as usize).clamp(2, 10))
+}
+
+/// A thin line around a rectangle.
+pub fn border(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2]) -> Result<()> {
+    let corners = [from, [to[0], from[1]], to, [from[0], to[1]], from];
+    canvas.line(&corners, 1.0, INK)
+}
+
+/// `size`, or the smaller one at which `text` is not longer than `length` pixels.
+pub fn fitting(text: &str, size: f64, length: f64) -> Result<f64> {
+    let width = Canvas::text_width(text, size)?;
+    // Smaller than half nobody reads.
+    Ok(size * (length / width).clamp(0.5, 1.0))
+}

@@ -1,0 +1,22 @@
+//! Pictures of results, as PNG files: a [`Slice`] through the flow, and a [`Chart`] of curves —
+//! the [history](Chart::history) of a probe or the [profile](Chart::profile) of a quantity.
+
+mod axis;
+mod canvas;
+mod chart;
+mod colour;
+mod colour_bar;
+mod curve;
+mod frame;
+mod history;
+mod section;
+mod slice;
+mod streamlines;
+
+pub use axis::Scale;
+pub use chart::{Chart, Measure, Panel};
+pub use curve::{Curve, Mark};
+pub use history::Track;
+pub use section::{Plane, Quantity, Section};
+pub use slice::Slice;
+pub use streamlines::streamlines;

@@ -1,0 +1,189 @@
+//! A plane cut out of an image.
+
+use anyhow::{Context, Result, bail};
+use riprap::output::{Array, Image};
+
+/// A plane normal to an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// The axis it is normal to: 0 for x, 1 for y, 2 for z.
+    pub normal: usize,
+    /// Where it cuts that axis, m.
+    pub position: f64,
+}
+
+/// What is shown of an array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity<'a> {
+    /// The array of scalars of this name.
+    Scalar(&'a str),
+    /// One component of the array of vectors of this name.
+    Component(&'a str, usize),
+    /// The length of the vectors of the array of this name.
+    Magnitude(&'a str),
+}
+
+/// Values on the cells that a plane passes through, the first axis running fastest.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Names of the two axes.
+    pub axes: [&'static str; 2],
+    /// Lower corner, m.
+    pub origin: [f64; 2],
+    /// Cell size, m.
+    pub spacing: f64,
+    /// Number of cells along both axes.
+    pub cells: [usize; 2],
+    /// The quantity, in its own unit.
+    pub values: Vec<f64>,
+    /// Cells without fluid.
+    pub solid: Vec<bool>,
+    /// Velocity in the plane, m/s, if the image has an array `velocity`.
+    pub velocity: Option<Vec<[f64; 2]>>,
+}
+
+impl Section {
+    /// Cuts `image` by `plane`, cell values as they are.
+    pub fn new(image: &Image, plane: Plane, quantity: Quantity<'_>) -> Result<Self> {
+        let [a, b] = match plane.normal {
+            0 => [1, 2],
+            1 => [0, 2],
+            2 => [0, 1],
+            other => bail!("a plane cannot be normal to axis {other}; give 0 (x), 1 (y) or 2 (z)"),
+        };
+        let layer = layer(image, plane)?;
+        let shown = array(image, quantity)?;
+        let solid = image.array("solid");
+        let moving = image
+            .array("velocity")
+            .filter(|array| array.values.len() == 3 * image.cell_count());
+        let mut section = Self {
+            axes: [AXES[a], AXES[b]],
+            origin: [image.origin[a], image.origin[b]],
+            spacing: image.spacing,
+            cells: [image.cells[a], image.cells[b]],
+            values: Vec::new(),
+            solid: Vec::new(),
+            velocity: moving.map(|_| Vec::new()),
+        };
+        for v in 0..image.cells[b] {
+            for u in 0..image.cells[a] {
+                let mut place = [layer; 3];
+                (place[a], place[b]) = (u, v);
+                let cell = image.cell_index(place[0], place[1], place[2]);
+                let tuple = &shown.values[shown.components * cell..][..shown.components];
+                section.values.push(match quantity {
+                    Quantity::Scalar(_) => f64::from(tuple[0]),
+                    Quantity::Component(_, component) => f64::from(tuple[component]),
+                    Quantity::Magnitude(_) => tuple
+                        .iter()
+                        .map(|&x| f64::from(x).powi(2))
+                        .sum::<f64>()
+                        .sqrt(),
+                });
+                section.solid.push(
+                    solid.is_some_and(|solid| solid.values.get(cell).is_some_and(|&s| s != 0.0)),
+                );
+                if let (Some(kept), Some(moving)) = (&mut section.velocity, moving) {
+                    kept.push([a, b].map(|axis| f64::from(moving.values[3 * cell + axis])));
+                }
+            }
+        }
+        Ok(section)
+    }
+
+    /// Upper corner, m.
+    pub fn opposite(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.origin[axis] + self.spacing * self.cells[axis] as f64)
+    }
+
+    /// Number of the cell around `point` (m), if it lies inside.
+    pub fn cell(&self, point: [f64; 2]) -> Option<usize> {
+        let [u, v] = [0, 1].map(|axis| {
+            let place = ((point[axis] - self.origin[axis]) / self.spacing).floor();
+            (place >= 0.0 && place < self.cells[axis] as f64).then_some(place as usize)
+        });
+        Some(u? + self.cells[0] * v?)
+    }
+
+    /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in a
+    /// solid cell, outside, or without velocity.
+    pub fn velocity_at(&self, point: [f64; 2]) -> Option<[f64; 2]> {
+        let velocity = self.velocity.as_ref()?;
+        if self.solid[self.cell(point)?] {
+            return None;
+        }
+        let mut lower = [0; 2];
+        let mut part = [0.0; 2];
+        for axis in 0..2 {
+            let place = (point[axis] - self.origin[axis]) / self.spacing - 0.5;
+            let place = place.clamp(0.0, (self.cells[axis] - 1) as f64);
+            lower[axis] = place as usize;
+            part[axis] = place - lower[axis] as f64;
+        }
+        let mut sum = [0.0; 2];
+        let mut total = 0.0;
+        for (u, v) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let weight = [1.0 - part[0], part[0]][u] * [1.0 - part[1], part[1]][v];
+            let cell = lower[0] + u + self.cells[0] * (lower[1] + v);
+            // A weight of zero also keeps out the cell beyond the last one.
+            if weight > 0.0 && !self.solid[cell] {
+                sum = [0, 1].map(|axis| sum[axis] + weight * velocity[cell][axis]);
+                total += weight;
+            }
+        }
+        (total > 0.0).then(|| sum.map(|sum| sum / total))
+    }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The array that `quantity` is taken from, once it is known to fit.
+fn array<'a>(image: &'a Image, quantity: Quantity<'_>) -> Result<&'a Array> {
+    let (name, least) = match quantity {
+        Quantity::Scalar(name) | Quantity::Magnitude(name) => (name, 1),
+        Quantity::Component(name, component) => (name, component + 1),
+    };
+    let array = image.array(name).with_context(|| {
+        let names: Vec<&str> = image
+            .arrays
+            .iter()
+            .map(|array| array.name.as_str())
+            .collect();
+        format!(
+            "the image has no array `{name}`; it has {}",
+            names.join(", ")
+        )
+    })?;
+    if array.components < least {
+        bail!(
+            "array `{name}` has {} components, numbered from 0; component {} is none of them",
+            array.components,
+            least - 1
+        );
+    }
+    if array.values.len() != array.components * image.cell_count() {
+        bail!(
+            "array `{name}` has {} values for {} cells of {} components; fill every cell",
+            array.values.len(),
+            image.cell_count(),
+            array.components
+        );
+    }
+    Ok(array)
+}
+
+/// The layer of cells that `plane` passes through; the last one also ends with the domain.
+fn layer(image: &Image, plane: Plane) -> Result<usize> {
+    let axis = plane.normal;
+    let (low, cells) = (image.origin[axis], image.cells[axis]);
+    let high = low + image.spacing * cells as f64;
+    if !(low..=high).contains(&plane.position) || image.cell_count() == 0 {
+        bail!(
+            "the plane {} = {} m misses the domain, which goes from {low} to {high} m",
+            AXES[axis],
+            plane.position
+        );
+    }
+    Ok((((plane.position - low) / image.spacing) as usize).min(cells - 1))
+}

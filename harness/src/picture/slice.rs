@@ -1,0 +1,190 @@
+//! A quantity on a plane through the flow, as a map of colours.
+
+use super::axis::{Axis, Scale, extremes};
+use super::canvas::{Anchor, Canvas};
+use super::colour::{Palette, SOLID};
+use super::colour_bar::ColourBar;
+use super::frame::{self, FOOT, Frame, INK, TEXT, TITLE};
+use super::section::{Plane, Quantity, Section};
+use super::streamlines::streamlines;
+use anyhow::Result;
+use riprap::output::Image;
+use std::path::Path;
+
+/// Width of the picture, pixels.
+const WIDTH: f64 = 1400.0;
+/// Greatest height of the map, pixels; a higher one would not fit a page or a screen.
+const HIGHEST: f64 = 1000.0;
+/// Space around everything, pixels.
+const MARGIN: f64 = 16.0;
+/// Below this ratio of height to width the colour bar lies under the map instead of beside it.
+const FLAT: f64 = 0.35;
+/// Distance between streamlines in parts of the map's longer edge; about 35 across it.
+const SEPARATION: f64 = 1.0 / 35.0;
+/// Arrow heads on a streamline are this many distances between lines apart.
+const ARROWS: f64 = 10.0;
+
+/// What to show, and in which words.
+#[derive(Clone, Debug)]
+pub struct Slice<'a> {
+    /// Title above the map; the plane and the time are added to it.
+    pub title: &'a str,
+    /// Time of the image, s.
+    pub time: f64,
+    /// The cut.
+    pub plane: Plane,
+    /// What is shown on it.
+    pub quantity: Quantity<'a>,
+    /// The quantity's name beside the colours.
+    pub label: &'a str,
+    /// The quantity's unit.
+    pub unit: &'a str,
+    /// Values at the ends of the colours, in that unit; from the fluid's extremes if `None`.
+    pub range: Option<[f64; 2]>,
+    /// Whether to draw streamlines of the velocity in the plane.
+    pub streamlines: bool,
+}
+
+impl Slice<'_> {
+    /// Draws the slice of `image` into a PNG file.
+    pub fn draw(&self, image: &Image, path: &Path) -> Result<()> {
+        let section = Section::new(image, self.plane, self.quantity)?;
+        let fluid = section.values.iter().zip(&section.solid);
+        let fluid = fluid.filter(|(_, solid)| !**solid).map(|(value, _)| *value);
+        let (palette, range) = Palette::fitting(self.range.unwrap_or_else(|| extremes(fluid)));
+        let bar = ColourBar {
+            axis: Axis::new(self.label, self.unit, range, Scale::Linear),
+            palette,
+        };
+        let (mut canvas, map) = self.layout(&section, &bar)?;
+        let opposite = map.opposite();
+        canvas.shade(map.corner, opposite, |[x, y]| {
+            let across = (x - map.corner[0]) / map.size[0];
+            let up = 1.0 - (y - map.corner[1]) / map.size[1];
+            match section.cell([map.x.value(across), map.y.value(up)]) {
+                Some(cell) if !section.solid[cell] => {
+                    palette.colour(bar.axis.fraction(section.values[cell]))
+                }
+                _ => SOLID,
+            }
+        });
+        if self.streamlines {
+            draw_streamlines(&mut canvas, &map, &section, palette)?;
+        }
+        map.draw(&mut canvas, true)?;
+        canvas.save(path)
+    }
+
+    /// A canvas with title and colour bar, and the frame of the map on it.
+    fn layout(&self, section: &Section, bar: &ColourBar) -> Result<(Canvas, Frame)> {
+        let [x, y] = [0, 1].map(|axis| {
+            let range = [section.origin[axis], section.opposite()[axis]];
+            Axis::new(section.axes[axis], "m", range, Scale::Linear)
+        });
+        let ratio = section.cells[1] as f64 / section.cells[0] as f64;
+        let flat = ratio < FLAT;
+        let head = MARGIN + TITLE + MARGIN;
+        let left = MARGIN + frame::side(&y, HIGHEST)?;
+        let right = if flat {
+            // Half of a number hangs over the end of the axis.
+            MARGIN + 2.0 * TEXT
+        } else {
+            bar.width(HIGHEST)? + MARGIN
+        };
+        let mut width = WIDTH - left - right;
+        let mut height = width * ratio;
+        if height > HIGHEST {
+            (width, height) = (HIGHEST / ratio, HIGHEST);
+        }
+        // Whole pixels, so that edges are sharp; the ratio is off by less than one of them.
+        let [width, height] = [width, height].map(|length| length.round().max(1.0));
+        let title = format!(
+            "{}, {} = {} m, t = {} s",
+            self.title,
+            ["x", "y", "z"][self.plane.normal],
+            short(self.plane.position),
+            short(self.time)
+        );
+        let shortest = Canvas::text_width(&title, TITLE)? + 2.0 * MARGIN;
+        let whole = (left + width + right).max(shortest.min(WIDTH));
+        let corner = [(left + 0.5 * (whole - left - width - right)).round(), head];
+        let foot = if flat { FOOT + bar.height() } else { FOOT };
+        let mut canvas = Canvas::new(whole as u32, (head + height + foot + MARGIN) as u32);
+        let size = frame::fitting(&title, TITLE, whole - 2.0 * MARGIN)?;
+        let middle = [0.5 * whole, MARGIN + 0.5 * TITLE];
+        canvas.text(&title, middle, size, Anchor::Centre, INK)?;
+        let map = Frame {
+            corner,
+            size: [width, height],
+            x,
+            y,
+        };
+        if flat {
+            bar.draw_below(&mut canvas, &map)?;
+        } else {
+            bar.draw_beside(&mut canvas, &map)?;
+        }
+        Ok((canvas, map))
+    }
+}
+
+fn draw_streamlines(
+    canvas: &mut Canvas,
+    map: &Frame,
+    section: &Section,
+    palette: Palette,
+) -> Result<()> {
+    let longest = section.cells[0].max(section.cells[1]) as f64 * section.spacing;
+    // Nearer than two cells the lines would show the grid, not the flow.
+    let separation = (SEPARATION * longest).max(2.0 * section.spacing);
+    let colour = palette.line();
+    for line in streamlines(section, separation) {
+        let places: Vec<[f64; 2]> = line.iter().map(|&point| map.place(point)).collect();
+        canvas.line(&places, 1.3, colour)?;
+        let apart = ARROWS * separation * map.size[0] / (section.opposite()[0] - section.origin[0]);
+        for (at, towards) in arrows(&places, apart) {
+            let ([x, y], [u, v]) = (at, towards);
+            // Pixels from the middle to the tip, and to either side.
+            let (tip, side) = (7.0, 4.5);
+            let corners = [
+                [x + tip * u, y + tip * v],
+                [x - tip * u - side * v, y - tip * v + side * u],
+                [x - tip * u + side * v, y - tip * v - side * u],
+            ];
+            canvas.polygon(&corners, colour)?;
+        }
+    }
+    Ok(())
+}
+
+/// Places and directions of arrow heads on a line: about `apart` from each other, one at least.
+fn arrows(places: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
+    let length = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+    let whole: f64 = places.windows(2).map(length).sum();
+    let count = (whole / apart).round().max(1.0);
+    let mut arrows = Vec::new();
+    let mut passed = 0.0;
+    for pair in places.windows(2) {
+        let step = length(pair);
+        let next = (arrows.len() as f64 + 0.5) * whole / count;
+        if step > 0.0 && passed + step >= next && (arrows.len() as f64) < count {
+            let towards = [0, 1].map(|axis| (pair[1][axis] - pair[0][axis]) / step);
+            arrows.push((pair[0], towards));
+        }
+        passed += step;
+    }
+    arrows
+}
+
+/// A number in a title: four digits, without zeros at the end.
+fn short(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.3e}");
+    }
+    let before = value.abs().max(1.0).log10() as usize;
+    let text = format!("{value:.0$}", 3_usize.saturating_sub(before));
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}

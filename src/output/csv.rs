@@ -1,0 +1,140 @@
+//! CSV: what a probe saw, a row a step.
+
+use super::replace::{failure, replace};
+use crate::{Error, Result};
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+/// A growing table `step,time,…`; every row is on its way to the disk when [`Csv::append`] returns.
+#[derive(Debug)]
+pub struct Csv {
+    path: PathBuf,
+    file: File,
+    columns: usize,
+}
+
+impl Csv {
+    /// Begins a table at `path`, over an older one: the header `step,time` and then `columns`.
+    ///
+    /// # Errors
+    /// [`Error::File`] if a column's name holds a comma, a quote or a line break, or the file
+    /// cannot be written.
+    pub fn create<S: AsRef<str>>(path: impl Into<PathBuf>, columns: &[S]) -> Result<Self> {
+        let path = path.into();
+        let header = header(&path, columns)?;
+        Self::begin(path, columns.len(), &header)
+    }
+
+    /// Continues the table at `path` for a run that starts again at `step`: rows from that step
+    /// on are dropped, since the run writes them anew, and so is a last row that was cut off.
+    /// Begins a new table if there is none.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the table has other columns, holds a row without a step, or cannot be
+    /// read or written.
+    pub fn resume<S: AsRef<str>>(
+        path: impl Into<PathBuf>,
+        columns: &[S],
+        step: u64,
+    ) -> Result<Self> {
+        let path = path.into();
+        let header = header(&path, columns)?;
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(failure("read", &path, &error)),
+        };
+        let mut kept = header.clone();
+        for (number, line) in text.split_inclusive('\n').enumerate() {
+            if number == 0 {
+                if line.trim_end() != header.trim_end() {
+                    let message = format!(
+                        "its columns are `{}`, this run writes `{}`; \
+                         move the file away, or write the same quantities as before",
+                        line.trim_end(),
+                        header.trim_end()
+                    );
+                    return Err(Error::file(path, message));
+                }
+                continue;
+            }
+            if !line.ends_with('\n') {
+                break;
+            }
+            let found = line.split(',').next().unwrap_or_default().trim();
+            let Ok(found) = found.parse::<u64>() else {
+                let message = format!(
+                    "line {}: `{found}` is not a step; mend or remove that line",
+                    number + 1
+                );
+                return Err(Error::file(path, message));
+            };
+            if found < step {
+                kept += line;
+            }
+        }
+        Self::begin(path, columns.len(), &kept)
+    }
+
+    /// Adds a row: `step`, `time` (s), and a value for each column, all digits that f64 needs.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the number of values is not that of the columns, or the disk is full.
+    pub fn append(&mut self, step: u64, time: f64, values: &[f64]) -> Result<()> {
+        if values.len() != self.columns {
+            return Err(Error::file(
+                &self.path,
+                format!(
+                    "a row of {} values for {} columns; give one value a column",
+                    values.len(),
+                    self.columns
+                ),
+            ));
+        }
+        let mut row = format!("{step},{time:?}");
+        for value in values {
+            // Writing to a String cannot fail.
+            let _ = write!(row, ",{value:?}");
+        }
+        row.push('\n');
+        // One call a row: a killed run ends between rows.
+        self.file
+            .write_all(row.as_bytes())
+            .map_err(|error| failure("append to", &self.path, &error))
+    }
+
+    fn begin(path: PathBuf, columns: usize, content: &str) -> Result<Self> {
+        replace(&path, |writer| writer.write_all(content.as_bytes()))?;
+        let file = File::options()
+            .append(true)
+            .open(&path)
+            .map_err(|error| failure("open", &path, &error))?;
+        Ok(Self {
+            path,
+            file,
+            columns,
+        })
+    }
+}
+
+fn header<S: AsRef<str>>(path: &Path, columns: &[S]) -> Result<String> {
+    let mut header = String::from("step,time");
+    for column in columns {
+        let column = column.as_ref();
+        if column.is_empty() || column.contains([',', '"', '\n', '\r']) {
+            return Err(Error::file(
+                path,
+                format!(
+                    "`{}` cannot name a column; use a name without comma, quote or line break",
+                    column.escape_debug()
+                ),
+            ));
+        }
+        header.push(',');
+        header += column;
+    }
+    header.push('\n');
+    Ok(header)
+}

@@ -54,12 +54,16 @@ pub enum Shape {
         /// STL or OBJ file, relative to the scene's file.
         file: PathBuf,
         /// Length of the file's unit, m. Default 1.
-        #[schemars(default)]
+        #[schemars(default = "metre")]
         scale: f64,
         /// Where the file's origin goes, m, after scaling. Default (0, 0, 0).
         #[schemars(default)]
         translate: [f64; 3],
     },
+}
+
+fn metre() -> f64 {
+    1.0
 }
 
 #[derive(Deserialize)]
@@ -129,7 +133,7 @@ impl Flat {
                 only("mesh", &["file", "scale", "translate"])?;
                 Shape::Mesh {
                     file: need(self.file, "file", "mesh")?,
-                    scale: self.scale.unwrap_or(1.0),
+                    scale: self.scale.unwrap_or_else(metre),
                     translate: self.translate.unwrap_or_default(),
                 }
             }

@@ -25,7 +25,6 @@ impl TriangleMesh {
             let m = (self.vertices[a as usize] + self.vertices[b as usize]) / 2.0;
             format!("({:.6}, {:.6}, {:.6}) m", m.x, m.y, m.z)
         };
-        let open = |(_, used): (u32, i32)| used != 0;
         let boundary: Vec<_> = edges
             .iter()
             .filter(|(_, (used, balance))| used % 2 == 1 && *balance != 0)
@@ -39,7 +38,10 @@ impl TriangleMesh {
                 middle(*first)
             ));
         }
-        let turned: Vec<_> = edges.iter().filter(|(_, edge)| open(**edge)).collect();
+        let turned: Vec<_> = edges
+            .iter()
+            .filter(|(_, (_, balance))| *balance != 0)
+            .collect();
         match turned.first() {
             None => Ok(()),
             Some((first, _)) => Err(format!(

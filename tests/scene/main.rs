@@ -3,6 +3,7 @@
 mod advice;
 mod format;
 mod formulas;
+mod parsing;
 mod refusals;
 mod sampling;
 mod shipped;

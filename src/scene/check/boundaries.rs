@@ -55,14 +55,14 @@ impl Scene {
 
     /// A scene whose only openings are velocity faces must let out what it lets in.
     fn check_balance(&self) -> Result<()> {
-        let open = |boundary: &Boundary| matches!(boundary, Boundary::Pressure { .. });
+        let is_pressure = |boundary: &Boundary| matches!(boundary, Boundary::Pressure { .. });
         let given: Vec<Face> = self
             .boundaries
             .iter()
             .filter(|(_, b)| matches!(b, Boundary::Velocity { .. }))
             .map(|(face, _)| face)
             .collect();
-        if given.is_empty() || self.boundaries.iter().any(|(_, b)| open(b)) {
+        if given.is_empty() || self.boundaries.iter().any(|(_, b)| is_pressure(b)) {
             return Ok(());
         }
         let mask = self.solid_mask()?;

@@ -58,6 +58,7 @@ fn noise_and_shear(equilibrium: Equilibrium) -> Populations {
         cells: CELLS,
         values,
         velocity,
+        carried: Vec::new(),
     }
 }
 

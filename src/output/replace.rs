@@ -10,10 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// [`Error::File`] with the system's reason and a remedy.
-pub fn replace(
-    path: &Path,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<()> {
+pub fn replace(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     // A device or a pipe cannot be replaced by a rename, and has no former content to keep.
     if fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
         return File::options()

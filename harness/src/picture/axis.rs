@@ -112,24 +112,33 @@ impl Axis {
     fn linear_ticks(&self, most: usize) -> Vec<Tick> {
         let unit = 10_f64.powi(self.exponent);
         let [low, high] = self.range.map(|end| end / unit);
-        // n intervals have n + 1 ends.
-        let least = (high - low) / (most.max(2) - 1) as f64;
-        let decade = least.log10().floor() as i32;
-        let (step, decimals) = [(1.0, 0), (2.0, 0), (5.0, 0), (10.0, 1)]
+        let decade = ((high - low) / most.max(1) as f64).log10().floor() as i32;
+        // The finest step whose ticks are few enough; the last one is ten times what is needed.
+        for (power, lead) in [1.0, 2.0, 5.0]
+            .map(|lead| (decade, lead))
             .into_iter()
-            .map(|(lead, shift)| (lead * 10_f64.powi(decade), -decade - shift))
-            // Rounding must not push a step that fits exactly to the next one.
-            .find(|(step, _)| *step >= least * (1.0 - 1e-9))
-            .unwrap_or((least, -decade));
-        let decimals = decimals.max(0) as usize;
-        let begin = (low / step - 1e-6).ceil() as i64;
-        let end = (high / step + 1e-6).floor() as i64;
-        (begin..=end)
-            .map(|count| {
-                let value = count as f64 * step;
-                (value * unit, minus(&format!("{value:.decimals$}")))
-            })
-            .collect()
+            .chain([
+                (decade + 1, 1.0),
+                (decade + 1, 2.0),
+                (decade + 1, 5.0),
+                (decade + 2, 1.0),
+            ])
+        {
+            let step = lead * 10_f64.powi(power);
+            // Rounding must not take the tick at an end away.
+            let begin = (low / step - 1e-6).ceil() as i64;
+            let end = (high / step + 1e-6).floor() as i64;
+            if end - begin < most.max(1) as i64 {
+                let decimals = (-power).max(0) as usize;
+                return (begin..=end)
+                    .map(|count| {
+                        let value = count as f64 * step;
+                        (value * unit, minus(&format!("{value:.decimals$}")))
+                    })
+                    .collect();
+            }
+        }
+        Vec::new()
     }
 
     fn logarithmic_ticks(&self, most: usize) -> Vec<Tick> {

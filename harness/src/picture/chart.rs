@@ -1,6 +1,6 @@
 //! Curves over one shared axis: profiles, convergence plots, histories.
 
-use super::axis::{Axis, Scale};
+use super::axis::{Axis, Scale, extremes};
 use super::canvas::{Anchor, Canvas};
 use super::curve::{self, Curve};
 use super::frame::{self, FOOT, Frame, INK, TITLE};
@@ -23,6 +23,8 @@ pub struct Chart {
     pub width: u32,
     /// Height of each frame, pixels.
     pub panel_height: u32,
+    /// Whether the horizontal axis ends with the data, without room beside them.
+    pub tight: bool,
 }
 
 /// What an axis measures.
@@ -66,6 +68,10 @@ impl Measure {
     fn around(&self, values: impl Iterator<Item = f64>) -> Axis {
         Axis::around(&self.quantity, &self.unit, values, self.scale)
     }
+
+    fn between(&self, values: impl Iterator<Item = f64>) -> Axis {
+        Axis::new(&self.quantity, &self.unit, extremes(values), self.scale)
+    }
 }
 
 impl Chart {
@@ -77,6 +83,7 @@ impl Chart {
             panels: vec![Panel { y, curves }],
             width: 1100,
             panel_height: 700,
+            tight: false,
         }
     }
 
@@ -92,7 +99,12 @@ impl Chart {
                 points.map(|point| point[axis]).collect()
             }
         };
-        let x = self.x.around(self.panels.iter().flat_map(points(0)));
+        let along = self.panels.iter().flat_map(points(0));
+        let x = if self.tight {
+            self.x.between(along)
+        } else {
+            self.x.around(along)
+        };
         let ys: Vec<Axis> = self
             .panels
             .iter()
@@ -125,6 +137,7 @@ impl Chart {
             let frame = Frame {
                 corner: [left.round(), (top + legends[number]).round()],
                 size: [width, height],
+                side: left - MARGIN,
                 x: x.clone(),
                 y,
             };

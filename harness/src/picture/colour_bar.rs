@@ -42,14 +42,16 @@ impl ColourBar {
             self.palette.colour((bottom - y) / (bottom - top))
         });
         frame::border(canvas, [near, top], [far, bottom])?;
+        let mut widest = 0.0_f64;
         for (value, label) in frame::y_ticks(&self.axis, map.size[1]) {
             let y = bottom - self.axis.fraction(value) * (bottom - top);
             canvas.line(&[[far, y], [far + TICK, y]], 1.0, INK)?;
             canvas.text(&label, [far + 2.0 * TICK, y], TEXT, Anchor::Left, INK)?;
+            widest = widest.max(Canvas::text_width(&label, TEXT)?);
         }
         let title = self.axis.title();
         let size = frame::fitting(&title, TEXT, map.size[1])?;
-        let x = near + self.width(map.size[1])? - GAP - 0.5 * TEXT;
+        let x = far + 3.0 * TICK + widest + 0.5 * TEXT;
         canvas.text(
             &title,
             [x, 0.5 * (top + bottom)],

@@ -93,9 +93,10 @@ pub fn draw_legend(
         let y = corner[1] + (row as f64 + 0.5) * ROW;
         for (number, x) in entries {
             let x = corner[0] + x;
+            let ends = [x + RADIUS, x + SAMPLE - RADIUS];
             let places = match curves[number].mark {
                 Mark::Points | Mark::LinePoints => {
-                    vec![[x, y], [x + 0.5 * SAMPLE, y], [x + SAMPLE, y]]
+                    vec![[ends[0], y], [x + 0.5 * SAMPLE, y], [ends[1], y]]
                 }
                 Mark::Line | Mark::Dashed => vec![[x, y], [x + SAMPLE, y]],
             };

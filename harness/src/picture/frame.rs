@@ -27,6 +27,8 @@ pub struct Frame {
     pub corner: [f64; 2],
     /// Width and height.
     pub size: [f64; 2],
+    /// Width beside it for the vertical axis's numbers and title, at least [`side`].
+    pub side: f64,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis, upwards.
@@ -39,6 +41,14 @@ impl Frame {
         [
             self.corner[0] + self.x.fraction(x) * self.size[0],
             self.corner[1] + (1.0 - self.y.fraction(y)) * self.size[1],
+        ]
+    }
+
+    /// The values (x, y) at a place on the canvas, for linear axes.
+    pub fn values(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [
+            self.x.value((x - self.corner[0]) / self.size[0]),
+            self.y.value(1.0 - (y - self.corner[1]) / self.size[1]),
         ]
     }
 
@@ -84,7 +94,7 @@ impl Frame {
             canvas.text(&label, [left - TICK - GAP, y], TEXT, Anchor::Right, INK)?;
         }
         let title = self.y.title();
-        let x = left - side(&self.y, self.size[1])? + 0.5 * TEXT + GAP;
+        let x = left - self.side + 0.5 * TEXT + GAP;
         let size = fitting(&title, TEXT, self.size[1])?;
         canvas.text(
             &title,
@@ -125,7 +135,7 @@ pub fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
 
 /// As many ticks as have room for their numbers along `height` pixels.
 pub fn y_ticks(axis: &Axis, height: f64) -> Vec<Tick> {
-    axis.ticks(((height / (2.0 * TEXT)) as usize).clamp(2, 10))
+    axis.ticks(((height / (1.8 * TEXT)) as usize).clamp(2, 10))
 }
 
 /// A thin line around a rectangle.

@@ -65,6 +65,7 @@ impl Chart {
             panels,
             width: WIDTH,
             panel_height: PANEL,
+            tight: true,
         })
     }
 }

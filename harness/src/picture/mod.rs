@@ -13,8 +13,9 @@ mod section;
 mod slice;
 mod streamlines;
 
-pub use axis::Scale;
+pub use axis::{Axis, Scale};
 pub use chart::{Chart, Measure, Panel};
+pub use colour::Palette;
 pub use curve::{Curve, Mark};
 pub use history::Track;
 pub use section::{Plane, Quantity, Section};

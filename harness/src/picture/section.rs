@@ -28,6 +28,10 @@ pub enum Quantity<'a> {
 pub struct Section {
     /// Names of the two axes.
     pub axes: [&'static str; 2],
+    /// Name of the axis that it is normal to.
+    pub normal: &'static str,
+    /// Number of cells along that axis in the image.
+    pub layers: usize,
     /// Lower corner, m.
     pub origin: [f64; 2],
     /// Cell size, m.
@@ -59,6 +63,8 @@ impl Section {
             .filter(|array| array.values.len() == 3 * image.cell_count());
         let mut section = Self {
             axes: [AXES[a], AXES[b]],
+            normal: AXES[plane.normal],
+            layers: image.cells[plane.normal],
             origin: [image.origin[a], image.origin[b]],
             spacing: image.spacing,
             cells: [image.cells[a], image.cells[b]],

@@ -7,7 +7,7 @@ use super::colour_bar::ColourBar;
 use super::frame::{self, FOOT, Frame, INK, TEXT, TITLE};
 use super::section::{Plane, Quantity, Section};
 use super::streamlines::streamlines;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use riprap::output::Image;
 use std::path::Path;
 
@@ -39,7 +39,8 @@ pub struct Slice<'a> {
     pub label: &'a str,
     /// The quantity's unit.
     pub unit: &'a str,
-    /// Values at the ends of the colours, in that unit; from the fluid's extremes if `None`.
+    /// Values at the ends of the colours, in that unit, the middle being special only where the ends
+    /// are equal and opposite; from the fluid's extremes if `None`.
     pub range: Option<[f64; 2]>,
     /// Whether to draw streamlines of the velocity in the plane.
     pub streamlines: bool,
@@ -49,19 +50,15 @@ impl Slice<'_> {
     /// Draws the slice of `image` into a PNG file.
     pub fn draw(&self, image: &Image, path: &Path) -> Result<()> {
         let section = Section::new(image, self.plane, self.quantity)?;
-        let fluid = section.values.iter().zip(&section.solid);
-        let fluid = fluid.filter(|(_, solid)| !**solid).map(|(value, _)| *value);
-        let (palette, range) = Palette::fitting(self.range.unwrap_or_else(|| extremes(fluid)));
+        let (palette, range) = self.colours(&section)?;
         let bar = ColourBar {
             axis: Axis::new(self.label, self.unit, range, Scale::Linear),
             palette,
         };
         let (mut canvas, map) = self.layout(&section, &bar)?;
         let opposite = map.opposite();
-        canvas.shade(map.corner, opposite, |[x, y]| {
-            let across = (x - map.corner[0]) / map.size[0];
-            let up = 1.0 - (y - map.corner[1]) / map.size[1];
-            match section.cell([map.x.value(across), map.y.value(up)]) {
+        canvas.shade(map.corner, opposite, |place| {
+            match section.cell(map.values(place)) {
                 Some(cell) if !section.solid[cell] => {
                     palette.colour(bar.axis.fraction(section.values[cell]))
                 }
@@ -75,6 +72,31 @@ impl Slice<'_> {
         canvas.save(path)
     }
 
+    /// The palette, and the values at its ends.
+    fn colours(&self, section: &Section) -> Result<(Palette, [f64; 2])> {
+        if let Some([low, high]) = self.range {
+            if !(low.is_finite() && high.is_finite() && low < high) {
+                bail!(
+                    "colours from {low} to {high} {}: give two numbers, the lower first",
+                    self.unit
+                );
+            }
+            let palette = if low == -high {
+                Palette::Diverging
+            } else {
+                Palette::Sequential
+            };
+            return Ok((palette, [low, high]));
+        }
+        let fluid = section.values.iter().zip(&section.solid);
+        let [low, high] = extremes(fluid.filter(|(_, solid)| !**solid).map(|(value, _)| *value));
+        Ok(match self.quantity {
+            // A length means something only against zero.
+            Quantity::Magnitude(_) => (Palette::Sequential, [0.0, high]),
+            Quantity::Scalar(_) | Quantity::Component(..) => Palette::fitting([low, high]),
+        })
+    }
+
     /// A canvas with title and colour bar, and the frame of the map on it.
     fn layout(&self, section: &Section, bar: &ColourBar) -> Result<(Canvas, Frame)> {
         let [x, y] = [0, 1].map(|axis| {
@@ -84,12 +106,12 @@ impl Slice<'_> {
         let ratio = section.cells[1] as f64 / section.cells[0] as f64;
         let flat = ratio < FLAT;
         let head = MARGIN + TITLE + MARGIN;
-        let left = MARGIN + frame::side(&y, HIGHEST)?;
+        let left = (MARGIN + frame::side(&y, HIGHEST)?).ceil();
         let right = if flat {
             // Half of a number hangs over the end of the axis.
             MARGIN + 2.0 * TEXT
         } else {
-            bar.width(HIGHEST)? + MARGIN
+            (bar.width(HIGHEST)? + MARGIN).ceil()
         };
         let mut width = WIDTH - left - right;
         let mut height = width * ratio;
@@ -98,13 +120,12 @@ impl Slice<'_> {
         }
         // Whole pixels, so that edges are sharp; the ratio is off by less than one of them.
         let [width, height] = [width, height].map(|length| length.round().max(1.0));
-        let title = format!(
-            "{}, {} = {} m, t = {} s",
-            self.title,
-            ["x", "y", "z"][self.plane.normal],
-            short(self.plane.position),
-            short(self.time)
-        );
+        let plane = match section.layers {
+            // A flow of two dimensions has no other plane.
+            1 => String::new(),
+            _ => format!(", {} = {} m", section.normal, short(self.plane.position)),
+        };
+        let title = format!("{}{plane}, t = {} s", self.title, short(self.time));
         let shortest = Canvas::text_width(&title, TITLE)? + 2.0 * MARGIN;
         let whole = (left + width + right).max(shortest.min(WIDTH));
         let corner = [(left + 0.5 * (whole - left - width - right)).round(), head];
@@ -116,6 +137,7 @@ impl Slice<'_> {
         let map = Frame {
             corner,
             size: [width, height],
+            side: left - MARGIN,
             x,
             y,
         };
@@ -151,7 +173,13 @@ fn draw_streamlines(
                 [x - tip * u - side * v, y - tip * v + side * u],
                 [x - tip * u + side * v, y - tip * v - side * u],
             ];
-            canvas.polygon(&corners, colour)?;
+            let fluid = |place: &[f64; 2]| {
+                let cell = section.cell(map.values(*place));
+                cell.is_some_and(|cell| !section.solid[cell])
+            };
+            if corners.iter().all(fluid) {
+                canvas.polygon(&corners, colour)?;
+            }
         }
     }
     Ok(())

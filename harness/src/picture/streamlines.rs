@@ -10,6 +10,8 @@ use std::collections::VecDeque;
 const NEAREST: f64 = 0.5;
 /// How near a line may come to itself: less, so that a closed one looks closed.
 const NEAREST_SELF: f64 = 0.15;
+/// Length of the shortest line worth drawing, in the same parts.
+const SHORTEST: f64 = 2.0;
 /// Steps in parts of a cell: bilinear velocity bends little within half of one.
 const STEP: f64 = 0.5;
 /// Water slower than this part of the fastest has no direction that f32 data could tell.
@@ -79,7 +81,7 @@ struct Tracer<'a> {
 
 impl Tracer<'_> {
     /// Traces the line through `seed` if that is far enough from all lines, and keeps it if it is
-    /// longer than it is apart from others.
+    /// long enough to show a direction.
     fn seed(&mut self, seed: [f64; 2], next: &mut VecDeque<usize>) {
         if self.direction(seed).is_none() || self.taken.near(seed, self.separation) {
             return;
@@ -89,7 +91,7 @@ impl Tracer<'_> {
         let downstream = self.trace(seed, 1.0, &line);
         line.push(seed);
         line.extend(downstream);
-        if (line.len() - 1) as f64 * STEP * self.section.spacing > self.separation {
+        if (line.len() - 1) as f64 * STEP * self.section.spacing > SHORTEST * self.separation {
             line.iter().for_each(|&point| self.taken.add(point));
             next.push_back(self.lines.len());
             self.lines.push(line);
@@ -105,7 +107,7 @@ impl Tracer<'_> {
         let skip = (2.0 * own / step.abs()).ceil() as usize + 1;
         let mut whole: Vec<[f64; 2]> = upstream.to_vec();
         whole.push(seed);
-        let mut mine = Taken::new(self.section, own.max(self.section.spacing));
+        let mut mine = Taken::new(self.section, self.separation);
         let mut known = 0;
         let mut point = seed;
         // A line longer than all cells is one that cannot end.

@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod checkpoint;
 pub mod error;
 pub mod formula;
 pub mod kernel;
@@ -13,6 +14,7 @@ pub mod link;
 pub mod output;
 pub mod readback;
 pub mod scene;
+pub mod simulation;
 pub mod solid;
 pub mod units;
 

@@ -1,0 +1,99 @@
+//! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
+
+use crate::{Error, Result, lattice::Populations, output::replace};
+use std::path::Path;
+
+/// The state of a simulation between two steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// Time step, s.
+    pub time_step: f64,
+    /// Cell size, m.
+    pub cell: f64,
+    /// The fluid.
+    pub populations: Populations,
+}
+
+/// First bytes of a file; the digit is the version of the format.
+const MAGIC: &[u8; 16] = b"riprap state  1\n";
+/// Magic, step, three cell counts, three lengths, time step, cell.
+const HEADER: usize = 16 + 8 + 3 * 4 + 3 * 8 + 2 * 8;
+
+impl Checkpoint {
+    /// Writes the file; one that is there stays whole until the new one is complete.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let Populations {
+            step,
+            cells,
+            values,
+            velocity,
+            carried,
+        } = &self.populations;
+        replace(path, |file| {
+            file.write_all(MAGIC)?;
+            file.write_all(&step.to_le_bytes())?;
+            for n in cells {
+                file.write_all(&n.to_le_bytes())?;
+            }
+            for list in [values, velocity, carried] {
+                file.write_all(&(list.len() as u64).to_le_bytes())?;
+            }
+            file.write_all(&self.time_step.to_le_bytes())?;
+            file.write_all(&self.cell.to_le_bytes())?;
+            for list in [values, velocity, carried] {
+                let mut bytes = Vec::with_capacity(4 * list.len());
+                bytes.extend(list.iter().flat_map(|value| value.to_le_bytes()));
+                file.write_all(&bytes)?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, is no checkpoint, or is cut short.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
+        let broken = |message: &str| Error::file(path, message);
+        if bytes.len() < HEADER || bytes[..16] != *MAGIC {
+            return Err(broken("this is not a checkpoint of this version of riprap"));
+        }
+        let long = |at: usize| {
+            let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
+            part.map(u64::from_le_bytes).ok_or_else(|| broken(CUT))
+        };
+        let short = |at: usize| {
+            let part = bytes.get(at..at + 4).and_then(|part| part.try_into().ok());
+            part.map(u32::from_le_bytes).ok_or_else(|| broken(CUT))
+        };
+        let cells = [short(24)?, short(28)?, short(32)?];
+        let lengths = [long(36)?, long(44)?, long(52)?];
+        let expected = lengths
+            .iter()
+            .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
+        if expected != (bytes.len() - HEADER) as u64 {
+            return Err(broken(CUT));
+        }
+        let mut values = bytes[HEADER..]
+            .chunks_exact(4)
+            .map(|part| f32::from_le_bytes(std::array::from_fn(|k| part[k])));
+        let mut list = |n: u64| values.by_ref().take(n as usize).collect();
+        Ok(Self {
+            time_step: f64::from_bits(long(60)?),
+            cell: f64::from_bits(long(68)?),
+            populations: Populations {
+                step: long(16)?,
+                cells,
+                values: list(lengths[0]),
+                velocity: list(lengths[1]),
+                carried: list(lengths[2]),
+            },
+        })
+    }
+}
+
+const CUT: &str = "the checkpoint is cut short; use an older one";

@@ -1,0 +1,64 @@
+//! Why a run left the range of the method, and what to change.
+
+use super::Simulation;
+use crate::{Error, lattice::Fault};
+
+impl Simulation {
+    /// The error of a fault, with its likely cause in numbers.
+    pub(super) fn diverged(&self, fault: Fault) -> Error {
+        let setup = self.lattice.setup();
+        let excess = setup.tau() - 0.5;
+        let Ok(scale) = self.scene.velocity_scale() else {
+            return self.fault(
+                fault,
+                "the forces drive the flow too fast".into(),
+                "give numerics.velocity_scale".into(),
+            );
+        };
+        let speed = self.units.velocity_to_lattice(scale);
+        let mach = self.units.mach(scale);
+        // Speed times cell over viscosity: above about 30 the grid no longer damps what it cannot hold.
+        let reynolds = speed / setup.nu;
+        let (cause, remedy) = if setup.wale.is_none() && reynolds > 30.0 {
+            (
+                format!("the Reynolds number of a cell is {reynolds:.0} without an eddy viscosity"),
+                format!(
+                    "set numerics.eddy_viscosity = \"wale\", or use cells of {:.2e} m",
+                    self.units.cell * 30.0 / reynolds
+                ),
+            )
+        } else if mach > 0.12 {
+            (
+                format!("the Mach number of the velocity scale is {mach:.2}"),
+                format!(
+                    "use a time step of {:.2e} s (Mach 0.1) or less",
+                    self.units.time_step * 0.1 / mach
+                ),
+            )
+        } else {
+            (
+                format!(
+                    "a speed above {} of a cell a step, at τ − ½ = {excess:.2e} and Mach {mach:.2}",
+                    setup.max_speed
+                ),
+                format!(
+                    "check that numerics.velocity_scale ({scale} m/s) is the largest speed, halve the time \
+                     step ({:.2e} s), or start the flow more gently",
+                    self.units.time_step
+                ),
+            )
+        };
+        self.fault(fault, cause, remedy)
+    }
+
+    fn fault(&self, fault: Fault, cause: String, remedy: String) -> Error {
+        Error::Diverged {
+            step: fault.step,
+            time: fault.step as f64 * self.units.time_step,
+            cell: fault.cell,
+            position: self.scene.centre(fault.cell),
+            cause,
+            remedy,
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! A scene on a device: the loop that a user sees.
+
+mod diverged;
+mod fields;
+mod needs;
+mod setup;
+
+pub use fields::Totals;
+pub use needs::Needs;
+pub use setup::{face_velocity, lattice_setup};
+
+use crate::{
+    Error, Result,
+    checkpoint::Checkpoint,
+    lattice::{Lattice, Observer, State},
+    scene::{Advice, Boundary, Face, Scene},
+    units::Units,
+};
+
+/// A scene that runs.
+///
+/// Nothing here blocks: what reads from the device is a future, and somebody must poll the device
+/// meanwhile (`wgpu::Device::poll`).
+#[derive(Debug)]
+pub struct Simulation {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    scene: Scene,
+    units: Units,
+    advice: Advice,
+    lattice: Lattice,
+    observer: Observer,
+    /// Velocity faces whose formulas contain the time.
+    changing: Vec<Face>,
+}
+
+impl Simulation {
+    /// Compiles the kernels of a scene and sets its initial state.
+    ///
+    /// # Errors
+    /// What the scene lacks, or what the device cannot hold.
+    pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
+        let units = Units::of(scene)?;
+        let advice = scene.advise(&units)?;
+        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+        let setup = lattice_setup(scene, &units, software)?;
+        let start = start(scene, &units)?;
+        let changing = |(face, boundary): (Face, &Boundary)| match boundary {
+            Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
+            _ => None,
+        };
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made = Lattice::new(device, setup).and_then(|mut lattice| {
+            lattice.start(device, queue, &start, true)?;
+            let observer = Observer::new(device, &lattice)?;
+            Ok((lattice, observer))
+        });
+        let refused = validity.pop().await.or(memory.pop().await);
+        let (lattice, observer) = made?;
+        if let Some(error) = refused {
+            return Err(Error::Device(format!(
+                "it does not hold {} cells ({error}); use a larger cell or 16-bit storage",
+                lattice.grid().cell_count()
+            )));
+        }
+        Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            scene: scene.clone(),
+            units,
+            advice,
+            lattice,
+            observer,
+            changing: scene.boundaries.iter().filter_map(changing).collect(),
+        })
+    }
+
+    /// Takes `steps` steps and looks at the guard.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] if the flow left the range of the method; a lost device.
+    pub async fn advance(&mut self, steps: u64) -> Result<()> {
+        let mut left = steps;
+        while left > 0 {
+            // A face that changes in time gets its velocities before each step.
+            let together = if self.changing.is_empty() { left } else { 1 };
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                for _ in 0..together {
+                    self.lattice.record(&mut pass);
+                }
+            }
+            self.queue.submit([encoder.finish()]);
+            self.set_changing_faces()?;
+            left -= together;
+        }
+        match self
+            .observer
+            .fault(&self.device, &self.queue, &self.lattice)
+            .await?
+        {
+            None => Ok(()),
+            Some(fault) => Err(self.diverged(fault)),
+        }
+    }
+
+    fn set_changing_faces(&mut self) -> Result<()> {
+        for &face in &self.changing {
+            let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
+            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+            self.lattice
+                .set_face_velocity(&self.queue, axis, side, velocity)?;
+        }
+        Ok(())
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.lattice.step()
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.step() as f64 * self.units.time_step
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Its units.
+    pub fn units(&self) -> &Units {
+        &self.units
+    }
+
+    /// What may disappoint in it.
+    pub fn advice(&self) -> &Advice {
+        &self.advice
+    }
+
+    /// The fluid.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The present state, for a later [`Simulation::restore`].
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
+        Ok(Checkpoint {
+            time_step: self.units.time_step,
+            cell: self.units.cell,
+            populations: self.lattice.populations(&self.device, &self.queue).await?,
+        })
+    }
+
+    /// Goes on from a checkpoint of the same scene.
+    ///
+    /// # Errors
+    /// If it is of another grid or time step.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b;
+        let Units {
+            cell, time_step, ..
+        } = self.units;
+        if !same(checkpoint.time_step, time_step) || !same(checkpoint.cell, cell) {
+            return Err(Error::scene(
+                "restart",
+                format!(
+                    "the checkpoint has a time step of {:e} s and cells of {:e} m, the scene {:e} s \
+                     and {:e} m; restart with the scene that wrote it",
+                    checkpoint.time_step, checkpoint.cell, time_step, cell
+                ),
+            ));
+        }
+        self.lattice
+            .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
+        self.set_changing_faces()
+    }
+}
+
+/// The initial state in lattice units; cells of static solids are at rest.
+fn start(scene: &Scene, units: &Units) -> Result<State> {
+    let fields = scene.initial_fields()?;
+    let excess = |p: &f32| (units.pressure_to_lattice((*p).into()) - 1.0) as f32;
+    let speed = |u: &f32| units.velocity_to_lattice((*u).into()) as f32;
+    Ok(State {
+        excess: fields.pressure.iter().map(excess).collect(),
+        velocity: fields
+            .velocity
+            .each_ref()
+            .map(|u| u.iter().map(speed).collect()),
+    })
+}

@@ -1,0 +1,103 @@
+//! From a scene in SI to a fluid in lattice units.
+
+use crate::{
+    Result,
+    lattice::{Collision, Equilibrium, Face, Force, Setup, Storage},
+    scene::{self, BodyForce, Boundary, Scene},
+    units::Units,
+};
+
+/// The lattice fluid of a scene; `software` says that the adapter computes on the CPU, where
+/// several cells an invocation pay.
+///
+/// # Errors
+/// If a formula is not finite somewhere, or a mesh cannot be read.
+pub fn lattice_setup(scene: &Scene, units: &Units, software: bool) -> Result<Setup> {
+    let cells = scene.cells();
+    let numerics = &scene.numerics;
+    let storage = match numerics.storage {
+        scene::Storage::F32 => Storage::F32,
+        scene::Storage::F16 => Storage::F16,
+    };
+    let periodic_z = scene.boundaries.z_min == Boundary::Periodic;
+    let mut setup = Setup::periodic(cells, units.viscosity_to_lattice(scene.fluid.viscosity));
+    setup.lanes = numerics.lanes.unwrap_or_else(|| {
+        let divides = |lanes: u32| !periodic_z || cells[2].is_multiple_of(lanes);
+        match storage {
+            Storage::F32 if software && divides(4) => 4,
+            Storage::F32 => 1,
+            Storage::F16 if software && divides(4) => 4,
+            Storage::F16 => 2,
+        }
+    });
+    setup.storage = storage;
+    setup.collision = match numerics.collision {
+        scene::Collision::Hermite => Collision::Hermite,
+        scene::Collision::Suga => Collision::Suga,
+        scene::Collision::Bgk => Collision::Bgk,
+    };
+    setup.equilibrium = match numerics.equilibrium {
+        scene::Equilibrium::Product => Equilibrium::Product,
+        scene::Equilibrium::SecondOrder => Equilibrium::SecondOrder,
+    };
+    // The published operator keeps its published rates beside walls too.
+    setup.wall_lambda = (setup.collision == Collision::Hermite).then_some(numerics.wall_lambda);
+    setup.lambda = numerics.lambda;
+    setup.odd_rate_floor = numerics.odd_rate_floor;
+    setup.wale =
+        (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
+    let force = |a: f64| units.acceleration_to_lattice(a);
+    setup.force = match scene.force_field()? {
+        BodyForce::None => Force::None,
+        BodyForce::Uniform(a) => Force::Constant(a.map(force)),
+        BodyForce::Field([x, y, z]) => {
+            let each = x.iter().zip(&y).zip(&z);
+            let lattice = |a: &f32| force(f64::from(*a)) as f32;
+            Force::Field(each.map(|((x, y), z)| [x, y, z].map(lattice)).collect())
+        }
+    };
+    for (face, boundary) in scene.boundaries.iter() {
+        let side = usize::from(face.is_max());
+        setup.faces[face.axis().index()][side] = match boundary {
+            Boundary::Periodic => Face::Periodic,
+            Boundary::Wall { velocity } => {
+                Face::Wall(velocity.map(|v| units.velocity_to_lattice(v)))
+            }
+            Boundary::FreeSlip => Face::FreeSlip,
+            Boundary::Velocity { .. } => Face::Velocity(face_velocity(scene, units, face, 0.0)?),
+            Boundary::Pressure {
+                pressure,
+                reflecting,
+            } => {
+                let density = units.pressure_to_lattice(*pressure);
+                if *reflecting {
+                    Face::Pressure { density }
+                } else {
+                    Face::Outflow { density }
+                }
+            }
+        };
+    }
+    if !scene.solids.is_empty() {
+        let mask = scene.solid_mask()?;
+        if mask.solid_count() > 0 {
+            setup.solid = mask.as_slice().iter().map(|&s| s != 0).collect();
+        }
+    }
+    Ok(setup)
+}
+
+/// Velocity of a face at the time `t` (s), lattice units.
+///
+/// # Errors
+/// If a formula is not finite somewhere.
+pub fn face_velocity(
+    scene: &Scene,
+    units: &Units,
+    face: scene::Face,
+    t: f64,
+) -> Result<Vec<[f32; 3]>> {
+    let velocity = scene.face_velocity(face, t)?;
+    let lattice = |v: f64| units.velocity_to_lattice(v) as f32;
+    Ok(velocity.into_iter().map(|u| u.map(lattice)).collect())
+}

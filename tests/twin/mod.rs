@@ -5,7 +5,12 @@
 
 #![allow(
     dead_code,
+    unused_imports,
     reason = "each test program includes the whole twin and uses a part of it"
+)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "indices are those of the formulas"
 )]
 
 pub mod collide;

@@ -1,0 +1,172 @@
+//! A flow in time: collide every cell, then stream.
+
+use super::collide::collide;
+use super::domain::{Domain, Link};
+use super::lattice::{OPPOSITE, Q, W, c_dot, macroscopic};
+use super::rates::{Config, OddClass};
+use super::{start, wale};
+
+/// Force per cell.
+#[derive(Clone, Debug)]
+pub enum Force {
+    /// The same in every cell.
+    Uniform([f64; 3]),
+    /// One value a cell.
+    Field(Vec<[f64; 3]>),
+}
+
+/// State of a flow.
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// Grid and borders.
+    pub domain: Domain,
+    /// Collision.
+    pub config: Config,
+    /// Body force.
+    pub force: Force,
+    /// Shifted populations before collision; 0 in solids.
+    pub f: Vec<[f64; Q]>,
+    /// Velocity of the step before, which WALE reads.
+    previous_velocity: Option<Vec<[f64; 3]>>,
+    links: Vec<[Link; Q]>,
+}
+
+impl Twin {
+    /// Fluid at rest, ρ = 1, without force. The domain must not be changed afterwards.
+    pub fn new(domain: Domain, config: Config) -> Self {
+        Self {
+            f: vec![[0.0; Q]; domain.len()],
+            links: domain.links(),
+            domain,
+            config,
+            force: Force::Uniform([0.0; 3]),
+            previous_velocity: None,
+        }
+    }
+
+    /// Start anew from ρ and u of each cell (see [`start::consistent`]).
+    pub fn start(&mut self, rho: &[f64], u: &[[f64; 3]]) {
+        self.f = start::consistent(&self.domain, &self.config, rho, u);
+        self.previous_velocity = None;
+    }
+
+    /// Force on a cell.
+    pub fn force_at(&self, cell: usize) -> [f64; 3] {
+        match &self.force {
+            Force::Uniform(force) => *force,
+            Force::Field(values) => values[cell],
+        }
+    }
+
+    /// Density and velocity of a cell; 1 and 0 in solids.
+    pub fn macroscopic(&self, cell: usize) -> (f64, [f64; 3]) {
+        if self.domain.solid[cell] {
+            return (1.0, [0.0; 3]);
+        }
+        macroscopic(&self.f[cell], self.force_at(cell))
+    }
+
+    /// Density of every cell.
+    pub fn density(&self) -> Vec<f64> {
+        self.cells().map(|cell| self.macroscopic(cell).0).collect()
+    }
+
+    /// Velocity of every cell.
+    pub fn velocity(&self) -> Vec<[f64; 3]> {
+        self.cells().map(|cell| self.macroscopic(cell).1).collect()
+    }
+
+    /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE.
+    pub fn nu_t(&self) -> Vec<f64> {
+        let Some(c_w) = self.config.c_w else {
+            return vec![0.0; self.domain.len()];
+        };
+        let u = match &self.previous_velocity {
+            Some(previous) => previous,
+            None => &self.velocity(),
+        };
+        self.cells()
+            .map(|cell| {
+                if self.domain.solid[cell] {
+                    return 0.0;
+                }
+                wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w)
+            })
+            .collect()
+    }
+
+    /// Whether a cell is beside a bounce-back wall.
+    pub fn odd_class(&self, cell: usize) -> OddClass {
+        let wall = self.links[cell]
+            .iter()
+            .any(|link| matches!(link, Link::Bounce | Link::Moving(_)));
+        if wall { OddClass::Wall } else { OddClass::Bulk }
+    }
+
+    /// Populations after the collision of the coming step.
+    pub fn collided(&self) -> Vec<[f64; Q]> {
+        let nu_t = self.nu_t();
+        self.cells()
+            .map(|cell| {
+                if self.domain.solid[cell] {
+                    return [0.0; Q];
+                }
+                collide(
+                    &self.config,
+                    &self.f[cell],
+                    self.force_at(cell),
+                    nu_t[cell],
+                    self.odd_class(cell),
+                )
+            })
+            .collect()
+    }
+
+    /// Collide, then stream.
+    pub fn step(&mut self) {
+        let velocity = self.velocity();
+        let collided = self.collided();
+        self.f = self
+            .cells()
+            .map(|cell| {
+                if self.domain.solid[cell] {
+                    return [0.0; Q];
+                }
+                self.stream(&collided, cell)
+            })
+            .collect();
+        self.previous_velocity = Some(velocity);
+    }
+
+    /// Several steps.
+    pub fn run(&mut self, steps: usize) {
+        for _ in 0..steps {
+            self.step();
+        }
+    }
+
+    /// What arrives at a cell. Off moving walls f_ī = f_i* − 6 w_i ρ c_i·u_w (Ladd 1994), with ρ the density that results:
+    /// summing over all directions, ρ = (1 + Σ f̃ without the wall's term) / (1 + 6 Σ w_i c_i·u_w).
+    fn stream(&self, collided: &[[f64; Q]], cell: usize) -> [f64; Q] {
+        let mut f = [0.0; Q];
+        let mut wall_term = [0.0; Q];
+        for i in 0..Q {
+            let r = OPPOSITE[i];
+            f[r] = match self.links[cell][i] {
+                Link::Fluid(neighbour) => collided[neighbour][r],
+                Link::Mirror { cell, direction } => collided[cell][direction],
+                Link::Bounce => collided[cell][i],
+                Link::Moving(u_w) => {
+                    wall_term[r] = 6.0 * W[i] * c_dot(i, u_w);
+                    collided[cell][i]
+                }
+            };
+        }
+        let rho = (1.0 + f.iter().sum::<f64>()) / (1.0 + wall_term.iter().sum::<f64>());
+        std::array::from_fn(|r| f[r] - rho * wall_term[r])
+    }
+
+    fn cells(&self) -> std::ops::Range<usize> {
+        0..self.domain.len()
+    }
+}

@@ -1,0 +1,176 @@
+//! What a scene chooses about its collision, and the relaxation rates that follow from it.
+
+use super::lattice::Q;
+
+/// Form of the equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Equilibrium {
+    /// Second order in u.
+    Order2,
+    /// Full product form.
+    Product,
+}
+
+/// Collision operator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operator {
+    /// One rate for everything.
+    Bgk,
+    /// Suga et al. (2015): moments orthogonal with unit weight.
+    Suga,
+    /// The same polynomials, orthogonal with the weights w_i.
+    Hermite,
+}
+
+/// Whether a cell lies beside a bounce-back wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OddClass {
+    /// No bounce-back link leaves the cell.
+    Bulk,
+    /// At least one of the 26 neighbours is a wall, a solid or a velocity face.
+    Wall,
+}
+
+/// Rates of the moments that carry neither mass, momentum nor shear (Suga et al. 2015, §2).
+/// The shear rate s5 = s7 is 1/τ_eff and so belongs to the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    /// Trace of second order: bulk viscosity.
+    pub s4: f64,
+    /// 120 + 102 and its permutations.
+    pub s10: f64,
+    /// 122 and its permutations.
+    pub s13: f64,
+    /// Trace of fourth order, 220 + 202 + 022.
+    pub s16: f64,
+    /// 222.
+    pub s17: f64,
+    /// Deviators of fourth order.
+    pub s18: f64,
+    /// 112 and its permutations.
+    pub s20: f64,
+    /// 120 − 102 and its permutations.
+    pub s23: f64,
+    /// 111.
+    pub s26: f64,
+}
+
+impl Rates {
+    /// The published constants.
+    pub const SUGA: Self = Self {
+        s4: 1.54,
+        s10: 1.5,
+        s13: 1.83,
+        s16: 1.4,
+        s17: 1.61,
+        s18: 1.98,
+        s20: 1.98,
+        s23: 1.74,
+        s26: 1.74,
+    };
+
+    /// The same rate for every moment.
+    pub const fn equal(s: f64) -> Self {
+        Self {
+            s4: s,
+            s10: s,
+            s13: s,
+            s16: s,
+            s17: s,
+            s18: s,
+            s20: s,
+            s23: s,
+            s26: s,
+        }
+    }
+}
+
+/// Everything that decides the collision of a cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Config {
+    /// Laminar relaxation time, ν = (τ − ½)/3.
+    pub tau: f64,
+    /// Form of the equilibrium.
+    pub equilibrium: Equilibrium,
+    /// Collision operator.
+    pub operator: Operator,
+    /// Rates of the MRT operators away from walls.
+    pub rates: Rates,
+    /// Λ of cells beside bounce-back walls, `Hermite` only.
+    pub lambda_wall: f64,
+    /// Λ of every cell, `Hermite` only, instead of the constants and of `lambda_wall`.
+    pub lambda_everywhere: Option<f64>,
+    /// Lowest odd rate that a Λ may ask for.
+    pub floor: f64,
+    /// WALE's C_w; `None` is laminar.
+    pub c_w: Option<f64>,
+}
+
+impl Config {
+    /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 beside walls but no odd rate below 0.8.
+    pub const fn new(tau: f64) -> Self {
+        Self {
+            tau,
+            equilibrium: Equilibrium::Product,
+            operator: Operator::Hermite,
+            rates: Rates::SUGA,
+            lambda_wall: 3.0 / 16.0,
+            lambda_everywhere: None,
+            floor: 0.8,
+            c_w: None,
+        }
+    }
+
+    /// Laminar viscosity.
+    pub fn nu(&self) -> f64 {
+        (self.tau - 0.5) / 3.0
+    }
+
+    /// τ_eff = ½ + 3 (ν + ν_t).
+    pub fn tau_eff(&self, nu_t: f64) -> f64 {
+        self.tau + 3.0 * nu_t
+    }
+}
+
+/// s_odd = max(floor, 1/(½ + Λ/(τ − ½))), from (1/s_odd − ½)(τ − ½) = Λ (Ginzburg & d'Humières 2003).
+pub fn odd_rate(tau: f64, lambda: f64, floor: f64) -> f64 {
+    floor.max(1.0 / (0.5 + lambda / (tau - 0.5)))
+}
+
+/// Rate of each of the 27 moments in the order of Suga's matrix.
+pub fn moment_rates(config: &Config, nu_t: f64, odd: OddClass) -> [f64; Q] {
+    let r = match odd_override(config, odd) {
+        None => config.rates,
+        Some(s_odd) => Rates {
+            s10: s_odd,
+            s13: s_odd,
+            s23: s_odd,
+            s26: s_odd,
+            ..config.rates
+        },
+    };
+    let s5 = 1.0 / config.tau_eff(nu_t);
+    std::array::from_fn(|k| match k {
+        0..=3 => 0.0,
+        4 => r.s4,
+        5..=9 => s5,
+        10..=12 => r.s10,
+        13..=15 => r.s13,
+        16 => r.s16,
+        17 => r.s17,
+        18 | 19 => r.s18,
+        20..=22 => r.s20,
+        23..=25 => r.s23,
+        _ => r.s26,
+    })
+}
+
+/// The odd rate that replaces the constants in this cell; `Suga` keeps them, being the paper's operator.
+fn odd_override(config: &Config, odd: OddClass) -> Option<f64> {
+    let lambda = match (config.operator, config.lambda_everywhere, odd) {
+        (Operator::Hermite, Some(lambda), _) => lambda,
+        (Operator::Hermite, None, OddClass::Wall) => config.lambda_wall,
+        _ => return None,
+    };
+    Some(odd_rate(config.tau, lambda, config.floor))
+}

@@ -133,9 +133,10 @@ impl Lattice {
         &self.geometry
     }
 
-    /// Storage bindings that hold the populations.
-    pub fn population_bindings(&self) -> usize {
-        self.buffers.populations.len()
+    /// The buffers that hold the populations, by direction: the layout is that of
+    /// `kernels/lattice/stream.wgsl`, and its parity that of [`Lattice::step`].
+    pub fn population_buffers(&self) -> &[wgpu::Buffer] {
+        &self.buffers.populations
     }
 
     /// Steps recorded since the start of the run.

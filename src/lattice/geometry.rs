@@ -273,7 +273,7 @@ impl Survey<'_> {
         x + nx * (y + ny * z)
     }
 
-    /// What direction `q` leads to. Where it crosses several faces the first of: wall, moving
+    /// What direction `q` leads to. Where it crosses several faces the first of: solid, wall, moving
     /// wall, velocity, pressure or outflow, free slip decides.
     fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
@@ -286,6 +286,11 @@ impl Survey<'_> {
             } else {
                 crossed[a] = Some(usize::from(at >= n));
             }
+        }
+        // A solid beside the face goes on beyond it.
+        let beside = [0, 1, 2].map(|a| if crossed[a].is_some() { cell[a] } else { to[a] });
+        if self.is_solid(beside) {
+            return Beyond::Wall;
         }
         let mut found = Beyond::Fluid;
         let mut best = 0;
@@ -304,9 +309,6 @@ impl Survey<'_> {
             if rank > best || rank == 1 && best == 1 {
                 (best, found) = (rank, beyond);
             }
-        }
-        if best == 0 && self.is_solid(to) {
-            return Beyond::Wall;
         }
         found
     }

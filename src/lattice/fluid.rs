@@ -546,8 +546,10 @@ fn check(setup: &Setup) -> Result<()> {
             }
         }
     }
-    if setup.brick.iter().product::<u32>() != 64 {
-        return Err(Error::scene("brick", "a brick has 64 elements"));
+    let brick: u64 = setup.brick.iter().map(|&n| u64::from(n)).product();
+    if ![32, 64, 128, 256].contains(&brick) {
+        let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
+        return Err(Error::scene("brick", message));
     }
     Ok(())
 }

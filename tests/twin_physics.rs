@@ -13,105 +13,51 @@ use twin::lattice::{C, OPPOSITE, Q, W, macroscopic};
 use twin::moments::{self, exact_data, rational, scalar_product};
 use twin::{
     Config, Domain, Equilibrium, Force, OddClass, Operator, Rates, Twin, collide, equilibrium,
+    golden, noise,
 };
-
-/// Integer hash with good avalanche, so that the start is the same on every machine.
-fn hash32(mut n: u32) -> u32 {
-    n ^= n >> 16;
-    n = n.wrapping_mul(0x7feb_352d);
-    n ^= n >> 15;
-    n = n.wrapping_mul(0x846c_a68b);
-    n ^ (n >> 16)
-}
-
-/// Uniform in [−½, ½).
-fn noise(n: usize) -> f64 {
-    f64::from(hash32(n as u32)) / 4_294_967_296.0 - 0.5
-}
 
 /// Populations far from equilibrium with ρ ≈ 1 and |u| ≈ 0.1.
 fn random_populations(seed: usize) -> [f64; Q] {
-    std::array::from_fn(|i| W[i] * 0.4 * noise(Q * seed + i))
+    noise::populations(seed, 0.4)
 }
 
-fn relative(value: f64, reference: f64) -> f64 {
-    (value / reference - 1.0).abs()
-}
-
-/// Σ f, Σ f² and f_1 at (3, 2, 1) after 50 steps of a perturbed flow in 12 × 10 × 8 cells, s5 = 1.9;
-/// the start is the order-2 equilibrium plus noise whatever the collision then uses.
-fn golden_trajectory(change: impl FnOnce(&mut Twin)) -> [f64; 3] {
-    let cells = [12, 10, 8];
-    let domain = Domain::periodic(cells);
-    let config = Config {
-        operator: Operator::Suga,
-        equilibrium: Equilibrium::Order2,
-        ..Config::new(1.0 / 1.9)
-    };
-    let mut flow = Twin::new(domain, config);
+fn golden_trajectory(change: impl FnOnce(&mut Twin)) -> golden::Fingerprint {
+    let mut flow = Twin::new(Domain::periodic(golden::CELLS), golden::config());
+    flow.f = golden::start();
     change(&mut flow);
-    for cell in 0..flow.domain.len() {
-        let [x, y, z] = flow.domain.position(cell);
-        let wave = |at: usize, n: usize| 0.02 * (TAU * at as f64 / n as f64).sin();
-        let u = [wave(y, cells[1]), wave(z, cells[2]), wave(x, cells[0])];
-        let mut f = equilibrium::order2(1.0, u);
-        for i in 0..Q {
-            f[i] += W[i] * 0.05 * noise(i + Q * cell);
-        }
-        flow.f[cell] = f;
-    }
-    flow.run(50);
-    let populations = || flow.f.iter().flat_map(|f| (0..Q).map(|i| f[i] + W[i]));
-    let probe = flow.domain.index([3, 2, 1]);
-    [
-        populations().sum(),
-        populations().map(|f| f * f).sum(),
-        flow.f[probe][1] + W[1],
-    ]
+    flow.run(golden::STEPS);
+    golden::fingerprint(&flow.f)
 }
 
-fn assert_golden(measured: [f64; 3], reference: [f64; 3]) {
+fn assert_golden(measured: golden::Fingerprint, reference: golden::Fingerprint) {
     for (value, expected) in measured.into_iter().zip(reference) {
         // Both sides are f64: 960 · 27 terms and 50 steps of round-off at 1e-16 each.
-        assert!(
-            relative(value, expected) < 1e-13,
-            "{value} instead of {expected}"
-        );
+        let error = (value / expected - 1.0).abs();
+        assert!(error < 1e-13, "{value} instead of {expected}");
     }
 }
-
-const GOLDEN_MASS: f64 = 960.092464484255;
 
 #[test]
 fn golden_trajectory_plain() {
-    assert_golden(
-        golden_trajectory(|_| ()),
-        [GOLDEN_MASS, 119.97860279855975, 0.07707931536167875],
-    );
+    assert_golden(golden_trajectory(|_| ()), golden::PLAIN);
 }
 
 #[test]
 fn golden_trajectory_with_body_force() {
-    assert_golden(
-        golden_trajectory(|flow| flow.force = Force::Uniform([1e-4, -2e-4, 3e-4])),
-        [GOLDEN_MASS, 119.93706318447632, 0.07853289024989864],
-    );
+    let measured = golden_trajectory(|flow| flow.force = Force::Uniform(golden::FORCE));
+    assert_golden(measured, golden::FORCED);
 }
 
 #[test]
 fn golden_trajectory_with_wale() {
-    assert_golden(
-        golden_trajectory(|flow| flow.config.c_w = Some(0.5)),
-        [GOLDEN_MASS, 119.97977770593053, 0.07702011099166237],
-    );
+    let measured = golden_trajectory(|flow| flow.config.c_w = Some(golden::C_W));
+    assert_golden(measured, golden::WALE);
 }
 
 #[test]
 fn golden_trajectory_with_product_equilibrium() {
-    assert_golden(
-        golden_trajectory(|flow| flow.config.equilibrium = Equilibrium::Product),
-        [GOLDEN_MASS, 119.9786011214001, 0.07707880968927251],
-    );
+    let measured = golden_trajectory(|flow| flow.config.equilibrium = Equilibrium::Product);
+    assert_golden(measured, golden::PRODUCT);
 }
 
 #[test]
@@ -371,7 +317,7 @@ fn product_equilibrium_restores_galilean_invariance_of_viscosity() {
 fn growth_of_noise(config: Config, steps: usize) -> f64 {
     let mut flow = Twin::new(Domain::periodic([16; 3]), config);
     for cell in 0..flow.domain.len() {
-        flow.f[cell] = std::array::from_fn(|i| W[i] * 1e-6 * noise(i + Q * cell));
+        flow.f[cell] = noise::populations(cell, 1e-6);
     }
     let spread = |flow: &Twin| {
         let cells = flow.domain.len() as f64;

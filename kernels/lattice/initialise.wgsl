@@ -1,6 +1,7 @@
 // Latt & Chopard 2006, Math. Comput. Simul. 72:165, regularised start: f = f_eq + f_neq with second moments
-// Pi_ab = -rho tau/3 (d_a u_b + d_b u_a), so that the first steps carry the stress of the flow.
-// needs scalar_grid, incoming, cell_gradient, moments, $equilibrium
+// Pi_ab = -rho tau/3 (d_a u_b + d_b u_a), so that the first steps carry the stress of the flow. With a body force
+// sum c f = rho u - F/2 (Guo, Zheng & Shi 2002).
+// needs scalar_grid, incoming, cell_gradient, moments, $equilibrium, $cell_force
 
 override TAU: f32;
 // 1 with the non-equilibrium part, 0 without.
@@ -27,6 +28,10 @@ fn initialise(
         let rho = 1.0 + density[n];
         h = equilibrium(rho, Vector(u.x, u.y, u.z));
         h[0u] = density[n];
+        let force = cell_force(cell);
+        h[1u] -= 0.5 * force.x;
+        h[3u] -= 0.5 * force.y;
+        h[9u] -= 0.5 * force.z;
         let g = cell_gradient(cell, around);
         let factor = -NON_EQUILIBRIUM * rho * TAU / 3.0;
         h[2u] += 2.0 * factor * g.x.x;

@@ -133,9 +133,10 @@ impl Lattice {
         &self.geometry
     }
 
-    /// Storage bindings that hold the populations.
-    pub fn population_bindings(&self) -> usize {
-        self.buffers.populations.len()
+    /// The buffers that hold the populations, by direction: the layout is that of
+    /// `kernels/lattice/stream.wgsl`, and its parity that of [`Lattice::step`].
+    pub fn population_buffers(&self) -> &[wgpu::Buffer] {
+        &self.buffers.populations
     }
 
     /// Steps recorded since the start of the run.
@@ -554,8 +555,10 @@ fn check(setup: &Setup) -> Result<()> {
             }
         }
     }
-    if setup.brick.iter().product::<u32>() != 64 {
-        return Err(Error::scene("brick", "a brick has 64 elements"));
+    let brick: u64 = setup.brick.iter().map(|&n| u64::from(n)).product();
+    if ![32, 64, 128, 256].contains(&brick) {
+        let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
+        return Err(Error::scene("brick", message));
     }
     Ok(())
 }

@@ -14,7 +14,9 @@ pub struct Reach {
 
 /// A kernel over elements, with the storage, lanes and bindings of the setup.
 fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
+    let workgroup: u32 = setup.brick.iter().product();
     let program = Program::new(entry)
+        .text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
         .slot("lanes", &format!("lanes_{}", setup.lanes))
         .text(
             "populations",

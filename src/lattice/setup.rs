@@ -151,7 +151,7 @@ pub struct Setup {
     pub lanes: u32,
     /// Speed above which the guard stops the run; 0 leaves the guard out.
     pub max_speed: f64,
-    /// Elements of a brick along x, y, z; their product is the workgroup, 64.
+    /// Elements of a brick along x, y, z; their product is the workgroup: 32, 64, 128 or 256.
     pub brick: [u32; 3],
     /// Storage bindings over which the populations are spread; `None` takes as many as the
     /// device's limits ask.

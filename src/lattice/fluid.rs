@@ -144,6 +144,15 @@ impl Lattice {
         self.step
     }
 
+    /// The kernels of an even or odd step in their order, each with its workgroups.
+    pub fn kernels(&self, odd: bool) -> impl Iterator<Item = (&Kernel, u32)> {
+        let [boundary, stream] =
+            [&self.boundary, &self.stream].map(|passes| passes[usize::from(odd)].iter());
+        boundary
+            .chain(stream)
+            .map(|dispatch| (&dispatch.kernel, dispatch.groups))
+    }
+
     /// Records one step into the caller's pass.
     pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);

@@ -1,5 +1,6 @@
 //! The lattice Boltzmann fluid: D3Q27, in place, on any device.
 
+mod bytes;
 mod exchange;
 mod fluid;
 mod geometry;

@@ -2,6 +2,7 @@
 
 mod exchange;
 mod fluid;
+mod gather;
 mod geometry;
 mod grid;
 mod memory;

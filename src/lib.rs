@@ -45,6 +45,7 @@ pub mod kernel;
 pub mod lattice;
 pub mod link;
 pub mod output;
+pub mod probe;
 pub mod readback;
 pub mod scene;
 pub mod simulation;

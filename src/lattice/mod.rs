@@ -3,6 +3,7 @@
 mod bytes;
 mod exchange;
 mod fluid;
+mod gather;
 mod geometry;
 mod grid;
 mod memory;

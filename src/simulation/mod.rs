@@ -146,6 +146,11 @@ impl Simulation {
         &self.lattice
     }
 
+    /// Which cells are solid, x fastest; empty where there are none.
+    pub fn solid(&self) -> &[bool] {
+        &self.lattice.setup().solid
+    }
+
     /// The present state, for a later [`Simulation::restore`].
     ///
     /// # Errors

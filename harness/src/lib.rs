@@ -6,3 +6,4 @@ pub mod gpu;
 pub mod picture;
 pub mod print;
 pub mod schema;
+pub mod validate;

@@ -1,4 +1,5 @@
 //! The parts of the `riprap` program that tests and examples use as well.
 
+pub mod bench;
 pub mod gpu;
 pub mod picture;

@@ -50,6 +50,7 @@ pub mod readback;
 pub mod scene;
 pub mod simulation;
 pub mod solid;
+pub mod timer;
 pub mod units;
 
 pub use error::{Error, Result};

@@ -1,6 +1,7 @@
 //! The parts of the `riprap` program that tests and examples use as well.
 
 pub mod adapters;
+pub mod bench;
 pub mod check;
 pub mod gpu;
 pub mod picture;

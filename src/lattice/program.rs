@@ -71,6 +71,11 @@ pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
         )
 }
 
+/// Streaming without collision, in the layout of a setup.
+pub fn stream_only(setup: &Setup, bindings: u32) -> Program {
+    base("stream_only", setup, bindings).slot("where", "where_all")
+}
+
 /// The file of an equilibrium.
 pub fn equilibrium(kind: Equilibrium) -> &'static str {
     match kind {

@@ -1,2 +1,57 @@
-//! riprap
-fn main() {}
+//! `riprap`: computes scenes and tells about them.
+
+use clap::{Parser, Subcommand};
+use riprap_harness::run::{self, Unfinished};
+use std::{
+    process::ExitCode,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+#[derive(Parser)]
+#[command(version, about, long_about = None, after_help = EXIT)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::Args),
+}
+
+const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged; 2 the input is wrong.";
+
+/// Set by the first Ctrl-C; a run then writes its state and ends.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Run(args) => computed(&args),
+    };
+    done.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        let running = error.downcast_ref::<Unfinished>().is_some();
+        ExitCode::from(if running { 1 } else { 2 })
+    })
+}
+
+fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
+    ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            // As a shell reports a process that SIGINT killed.
+            std::process::exit(130);
+        }
+        eprintln!("stopping after this batch; Ctrl-C again ends at once");
+    })?;
+    let summary = run::run(args, &STOP)?;
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&summary)?);
+    } else {
+        println!("{summary}");
+    }
+    if let Some(divergence) = &summary.divergence {
+        eprintln!("error: {divergence}");
+        return Ok(ExitCode::from(1));
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -18,6 +18,6 @@ pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
 pub use grid::Grid;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
-pub use program::{Reach, collide_stream, constants};
+pub use program::{Reach, collide_stream, constants, single_cells};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
 pub use start::State;

@@ -170,7 +170,7 @@ impl Memory {
         Self {
             total: kinds.values().sum(),
             kinds,
-            population_bindings: lattice.population_bindings() as u32,
+            population_bindings: lattice.population_buffers().len() as u32,
         }
     }
 }

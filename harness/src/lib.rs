@@ -1,8 +1,10 @@
 //! The parts of the `riprap` program that tests and examples use as well.
 
 pub mod adapters;
+pub mod bench;
 pub mod check;
 pub mod gpu;
 pub mod picture;
 pub mod print;
 pub mod schema;
+pub mod validate;

@@ -1,7 +1,7 @@
 //! `riprap`: computes scenes and tells about them.
 
 use clap::{Parser, Subcommand};
-use riprap_harness::{adapters, check, schema};
+use riprap_harness::{adapters, bench, check, schema, validate};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -16,16 +16,21 @@ enum Command {
     Check(check::Args),
     Adapters(adapters::Args),
     Schema(schema::Args),
+    Validate(validate::Args),
+    Bench(bench::Args),
 }
 
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
-        Command::Check(args) => check::run(&args),
-        Command::Adapters(args) => adapters::run(&args),
-        Command::Schema(args) => schema::run(&args),
+        Command::Check(args) => check::run(&args).map(|()| true),
+        Command::Adapters(args) => adapters::run(&args).map(|()| true),
+        Command::Schema(args) => schema::run(&args).map(|()| true),
+        Command::Validate(args) => validate::run(args),
+        Command::Bench(args) => bench::run(args).map(|()| true),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
         Err(error) => {
             eprintln!("riprap: {error:#}");
             ExitCode::from(2)

@@ -18,6 +18,15 @@ pub(super) struct Dispatch {
 }
 
 impl Dispatch {
+    /// `groups` workgroups of a kernel with its buffers.
+    pub(super) fn new(kernel: Kernel, bind: wgpu::BindGroup, groups: u32) -> Self {
+        Self {
+            kernel,
+            bind,
+            groups,
+        }
+    }
+
     /// Records it.
     pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.kernel.record(pass, &self.bind, self.groups);
@@ -226,11 +235,7 @@ impl Lattice {
         let mut buffers = extra.0.to_vec();
         buffers.extend(self.buffers.named(odd));
         let bind = kernel.bind(device, &buffers)?;
-        Ok(Dispatch {
-            kernel,
-            bind,
-            groups: invocations.div_ceil(64),
-        })
+        Ok(Dispatch::new(kernel, bind, invocations.div_ceil(64)))
     }
 
     /// For each half of the words that 16-bit storage shares between cells, or once.
@@ -360,11 +365,7 @@ impl Lattice {
             let mut buffers = self.buffers.named(odd);
             buffers.extend(list.iter().map(|list| ("bricks", list)));
             let bind = kernel.bind(device, &buffers)?;
-            passes.push(Dispatch {
-                kernel,
-                bind,
-                groups,
-            });
+            passes.push(Dispatch::new(kernel, bind, groups));
         }
         Ok(passes)
     }

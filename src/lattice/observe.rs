@@ -3,6 +3,7 @@
 use super::{
     Lattice, State,
     fluid::{Dispatch, result_buffer},
+    gather::Gather,
 };
 use crate::{Result, readback::Readback};
 
@@ -53,6 +54,7 @@ pub struct Observer {
     derive: Vec<(Derived, Dispatch)>,
     sums: Option<(wgpu::Buffer, Dispatch)>,
     macroscopic: [Dispatch; 2],
+    gather: Gather,
     readback: Readback,
 }
 
@@ -84,6 +86,7 @@ impl Observer {
             derive: Vec::new(),
             sums: None,
             macroscopic,
+            gather: Gather::new(device, lattice)?,
             readback: Readback::default(),
         })
     }
@@ -123,7 +126,7 @@ impl Observer {
         queue.submit([encoder.finish()]);
     }
 
-    /// Reads density and velocity.
+    /// Reads density and velocity of all cells.
     ///
     /// # Errors
     /// If the device is lost.
@@ -133,17 +136,39 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<State> {
+        self.state_on(device, queue, lattice, None).await
+    }
+
+    /// Reads density and velocity of the given cells (places, x fastest), or of all.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state_on(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        cells: Option<&[u32]>,
+    ) -> Result<State> {
         self.submit(device, queue, lattice, None);
-        let cells = lattice.grid.cell_count();
-        let excess = self
-            .readback
-            .read(device, queue, &self.density, cells)
-            .await?;
-        let mut velocity = [Vec::new(), Vec::new(), Vec::new()];
-        for (component, buffer) in velocity.iter_mut().zip(&self.velocity) {
-            *component = self.readback.read(device, queue, buffer, cells).await?;
+        let count = lattice.grid.cell_count();
+        let mut fields = [const { Vec::new() }; 4];
+        let buffers = std::iter::once(&self.density).chain(&self.velocity);
+        for (field, buffer) in fields.iter_mut().zip(buffers) {
+            let readback = &mut self.readback;
+            *field = match cells {
+                None => readback.read(device, queue, buffer, count).await?,
+                Some(cells) => {
+                    let gather = &self.gather;
+                    gather.read(device, queue, readback, buffer, cells).await?
+                }
+            };
         }
-        Ok(State { excess, velocity })
+        let [excess, x, y, z] = fields;
+        Ok(State {
+            excess,
+            velocity: [x, y, z],
+        })
     }
 
     /// Reads a field that follows from the velocity gradient, lattice units.
@@ -156,6 +181,22 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
         quantity: Derived,
+    ) -> Result<Vec<f32>> {
+        self.derived_on(device, queue, lattice, quantity, None)
+            .await
+    }
+
+    /// Reads such a field on the given cells (places, x fastest), or on all, lattice units.
+    ///
+    /// # Errors
+    /// If the device is lost or does not hold the field.
+    pub async fn derived_on(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        quantity: Derived,
+        on: Option<&[u32]>,
     ) -> Result<Vec<f32>> {
         let cells = lattice.grid.cell_count();
         let buffer = match &self.derived {
@@ -171,7 +212,14 @@ impl Observer {
             }
         };
         self.submit(device, queue, lattice, Some(&self.derive[at].1));
-        let values = self.readback.read(device, queue, &buffer, cells).await;
+        let readback = &mut self.readback;
+        let values = match on {
+            None => readback.read(device, queue, &buffer, cells).await,
+            Some(on) => {
+                let gather = &self.gather;
+                gather.read(device, queue, readback, &buffer, on).await
+            }
+        };
         self.derived = Some(buffer);
         values
     }

@@ -68,6 +68,11 @@ impl Direction {
         Axis::ALL[self as usize / 2]
     }
 
+    /// As a scene has it: `-x`, `+x`, ….
+    pub fn name(self) -> &'static str {
+        ["-x", "+x", "-y", "+y", "-z", "+z"][self as usize]
+    }
+
     /// −1 or 1 along [`Self::axis`].
     pub fn sign(self) -> i32 {
         if (self as usize).is_multiple_of(2) {

@@ -50,6 +50,39 @@ pub enum Field {
     Solid,
 }
 
+impl Field {
+    /// Its name in scenes and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Pressure => "pressure",
+            Self::Density => "density",
+            Self::EddyViscosity => "eddy_viscosity",
+            Self::QCriterion => "q_criterion",
+            Self::Vorticity => "vorticity",
+            Self::Solid => "solid",
+        }
+    }
+
+    /// 1 for a scalar, 3 for a vector.
+    pub fn components(self) -> usize {
+        match self {
+            Self::Velocity | Self::Vorticity => 3,
+            _ => 1,
+        }
+    }
+
+    /// Its columns in a table: the name, for a vector with `_x`, `_y`, `_z`.
+    pub fn columns(self) -> Vec<String> {
+        match self.components() {
+            1 => vec![self.name().into()],
+            _ => Axis::ALL
+                .map(|axis| format!("{}_{}", self.name(), axis.name()))
+                .into(),
+        }
+    }
+}
+
 /// Scalar that a slice shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::{
-    Result,
+    Error, Result,
     lattice::Derived,
     output::{Array, Image},
     scene::Field,
@@ -29,108 +29,107 @@ impl Simulation {
     /// # Errors
     /// If the device is lost or does not hold a field.
     pub async fn image(&mut self, fields: &[Field]) -> Result<Image> {
-        let (device, queue) = (&self.device.clone(), &self.queue.clone());
-        let units = self.units;
-        let mut arrays = Vec::new();
-        let any = |wanted: &[Field]| fields.iter().any(|field| wanted.contains(field));
-        if any(&[Field::Velocity, Field::Pressure, Field::Density]) {
-            let state = self
-                .observer
-                .state(device, queue, &mut self.lattice)
-                .await?;
-            let rho = |excess: &f32| 1.0 + f64::from(*excess);
-            let scalar = |name: &str, of: &dyn Fn(f64) -> f64| Array {
-                name: name.into(),
-                components: 1,
-                values: state.excess.iter().map(|e| of(rho(e)) as f32).collect(),
-            };
-            for field in fields {
-                match field {
-                    Field::Velocity => {
-                        let scale = units.velocity_from_lattice(1.0) as f32;
-                        arrays.push(vector("velocity", &state.velocity, scale));
-                    }
-                    Field::Pressure => arrays.push(Array {
-                        name: "pressure".into(),
-                        components: 1,
-                        // p is linear in ρ − 1; going through ρ in f32 would lose three digits.
-                        values: state
-                            .excess
-                            .iter()
-                            .map(|&e| {
-                                let of_one = units.pressure_from_lattice(2.0);
-                                (f64::from(e) * of_one) as f32
-                            })
-                            .collect(),
-                    }),
-                    Field::Density => {
-                        arrays.push(scalar("density", &|rho| units.density_from_lattice(rho)));
-                    }
-                    _ => {}
-                }
-            }
-        }
-        let rate = units.rate_from_lattice(1.0) as f32;
-        for field in fields {
-            match field {
-                Field::EddyViscosity => {
-                    let scale = units.viscosity_from_lattice(1.0) as f32;
-                    arrays.push(
-                        self.derived("eddy_viscosity", Derived::EddyViscosity, scale)
-                            .await?,
-                    );
-                }
-                Field::QCriterion => {
-                    arrays.push(
-                        self.derived("q_criterion", Derived::QCriterion, rate * rate)
-                            .await?,
-                    );
-                }
-                Field::Vorticity => {
-                    let mut parts = [Vec::new(), Vec::new(), Vec::new()];
-                    for (axis, part) in (0..).zip(&mut parts) {
-                        *part = self
-                            .derived("", Derived::Vorticity(axis), 1.0)
-                            .await?
-                            .values;
-                    }
-                    arrays.push(vector("vorticity", &parts, rate));
-                }
-                _ => {}
-            }
-        }
-        let solid = &self.lattice.setup().solid;
-        if fields.contains(&Field::Solid) {
-            let values = match solid.is_empty() {
-                true => vec![0.0; self.lattice.grid().cell_count()],
-                false => solid.iter().map(|&s| f32::from(u8::from(s))).collect(),
-            };
-            arrays.push(Array {
-                name: "solid".into(),
-                components: 1,
-                values,
-            });
-        }
         Ok(Image {
             origin: self.scene.domain.origin,
             spacing: self.scene.domain.cell,
             cells: self.scene.cells().map(|n| n as usize),
-            arrays,
+            arrays: self.arrays(fields, None).await?,
         })
     }
 
-    async fn derived(&mut self, name: &str, quantity: Derived, scale: f32) -> Result<Array> {
-        let (device, queue) = (&self.device.clone(), &self.queue.clone());
+    /// The given fields on the given cells alone, which are places in an array over the domain, x
+    /// fastest; only their values leave the device.
+    ///
+    /// # Errors
+    /// If a cell is outside of the domain, the device is lost or does not hold a field.
+    pub async fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
+        let count = self.lattice.grid().cell_count();
+        if let Some(outside) = cells.iter().find(|cell| **cell as usize >= count) {
+            return Err(Error::scene(
+                "cells",
+                format!("cell {outside} was asked for; the domain has cells 0 to {count} − 1"),
+            ));
+        }
+        self.arrays(fields, Some(cells)).await
+    }
+
+    async fn arrays(&mut self, fields: &[Field], cells: Option<&[u32]>) -> Result<Vec<Array>> {
+        let units = self.units;
+        let mut state = None;
+        let mut arrays = Vec::with_capacity(fields.len());
+        for &field in fields {
+            if state.is_none()
+                && matches!(field, Field::Velocity | Field::Pressure | Field::Density)
+            {
+                let (device, queue) = (&self.device, &self.queue);
+                let read = self
+                    .observer
+                    .state_on(device, queue, &mut self.lattice, cells);
+                state = Some(read.await?);
+            }
+            let excess = state.iter().flat_map(|state| &state.excess);
+            let rate = units.rate_from_lattice(1.0) as f32;
+            let values = match field {
+                Field::Velocity => state.as_ref().map_or_else(Vec::new, |state| {
+                    interleave(&state.velocity, units.velocity_from_lattice(1.0) as f32)
+                }),
+                Field::Pressure => {
+                    // p is linear in ρ − 1; going through ρ in f32 would lose three digits.
+                    let of_one = units.pressure_from_lattice(2.0);
+                    excess.map(|e| (f64::from(*e) * of_one) as f32).collect()
+                }
+                Field::Density => excess
+                    .map(|e| units.density_from_lattice(1.0 + f64::from(*e)) as f32)
+                    .collect(),
+                Field::EddyViscosity => {
+                    let scale = units.viscosity_from_lattice(1.0) as f32;
+                    self.derived(Derived::EddyViscosity, scale, cells).await?
+                }
+                Field::QCriterion => {
+                    self.derived(Derived::QCriterion, rate * rate, cells)
+                        .await?
+                }
+                Field::Vorticity => {
+                    let mut parts = [const { Vec::new() }; 3];
+                    for (axis, part) in (0..).zip(&mut parts) {
+                        *part = self.derived(Derived::Vorticity(axis), rate, cells).await?;
+                    }
+                    interleave(&parts, 1.0)
+                }
+                Field::Solid => self.solid_values(cells),
+            };
+            arrays.push(Array {
+                name: field.name().into(),
+                components: field.components(),
+                values,
+            });
+        }
+        Ok(arrays)
+    }
+
+    async fn derived(
+        &mut self,
+        quantity: Derived,
+        scale: f32,
+        cells: Option<&[u32]>,
+    ) -> Result<Vec<f32>> {
+        let (device, queue) = (&self.device, &self.queue);
         let mut values = self
             .observer
-            .derived(device, queue, &mut self.lattice, quantity)
+            .derived_on(device, queue, &mut self.lattice, quantity, cells)
             .await?;
         values.iter_mut().for_each(|value| *value *= scale);
-        Ok(Array {
-            name: name.into(),
-            components: 1,
-            values,
-        })
+        Ok(values)
+    }
+
+    /// 1 in solid cells.
+    fn solid_values(&self, cells: Option<&[u32]>) -> Vec<f32> {
+        let solid = self.solid();
+        let value = |cell: usize| f32::from(u8::from(solid.get(cell).is_some_and(|s| *s)));
+        match cells {
+            Some(cells) => cells.iter().map(|cell| value(*cell as usize)).collect(),
+            None => (0..self.lattice.grid().cell_count()).map(value).collect(),
+        }
     }
 
     /// The sums over the fluid.
@@ -157,14 +156,9 @@ impl Simulation {
     }
 }
 
-fn vector(name: &str, components: &[Vec<f32>; 3], scale: f32) -> Array {
-    let [x, y, z] = components;
+/// Three components, side by side for each cell.
+fn interleave([x, y, z]: &[Vec<f32>; 3], scale: f32) -> Vec<f32> {
     let each = x.iter().zip(y).zip(z);
-    Array {
-        name: name.into(),
-        components: 3,
-        values: each
-            .flat_map(|((x, y), z)| [x * scale, y * scale, z * scale])
-            .collect(),
-    }
+    each.flat_map(|((x, y), z)| [x * scale, y * scale, z * scale])
+        .collect()
 }

@@ -12,8 +12,8 @@ pub use setup::{face_velocity, lattice_setup};
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
-    lattice::{Lattice, Observer, State},
-    scene::{Advice, Boundary, Face, Scene},
+    lattice::{Collision, Derived, Lattice, Observer, State},
+    scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
 
@@ -96,14 +96,43 @@ impl Simulation {
             self.set_changing_faces()?;
             left -= together;
         }
-        match self
+        let fault = self
             .observer
             .fault(&self.device, &self.queue, &self.lattice)
-            .await?
-        {
-            None => Ok(()),
-            Some(fault) => Err(self.diverged(fault)),
+            .await?;
+        if let Some(fault) = fault {
+            return Err(self.diverged(fault));
         }
+        self.check_suga().await
+    }
+
+    /// The published operator is unstable where WALE lifts the relaxation time over its bound.
+    async fn check_suga(&mut self) -> Result<()> {
+        let setup = self.lattice.setup();
+        if setup.collision != Collision::Suga || setup.wale.is_none() {
+            return Ok(());
+        }
+        let tau = setup.tau();
+        let (device, queue) = (&self.device, &self.queue);
+        let viscosity = self
+            .observer
+            .derived(device, queue, &mut self.lattice, Derived::EddyViscosity)
+            .await?;
+        let largest = viscosity.into_iter().fold(0.0, f32::max);
+        let effective = tau + 3.0 * f64::from(largest);
+        let bound = 0.5 + SUGA_EXCESS.end();
+        if effective <= bound {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "numerics.collision",
+            format!(
+                "in step {} WALE lifts the relaxation time to {effective:.3}, and `suga` is unstable above \
+                 {bound}; use collision = \"hermite\", or a time step of {:.2e} s",
+                self.step(),
+                self.units.time_step * (bound - 0.5) / (effective - 0.5)
+            ),
+        ))
     }
 
     fn set_changing_faces(&mut self) -> Result<()> {
@@ -144,6 +173,11 @@ impl Simulation {
     /// The fluid.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
+    }
+
+    /// Which cells are solid, x fastest; empty where there are none.
+    pub fn solid(&self) -> &[bool] {
+        &self.lattice.setup().solid
     }
 
     /// The present state, for a later [`Simulation::restore`].

@@ -8,7 +8,7 @@ use riprap::{
 use std::collections::{BTreeSet, HashMap};
 
 /// Numbers of bindings that spread 27 directions in all ways that the limits of devices ask for.
-const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
+pub const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
 pub const LAYOUTS: [(Storage, u32); 4] = [
     (Storage::F32, 1),
     (Storage::F32, 4),

@@ -1,0 +1,46 @@
+//! Reading fields where somebody looks, and nowhere else.
+
+use super::{Lattice, fluid};
+use crate::{Result, kernel::Kernel, readback::Readback};
+
+/// Copies values of listed cells together before they leave the device.
+#[derive(Debug)]
+pub(super) struct Gather(Kernel);
+
+impl Gather {
+    pub(super) fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
+        let linked = lattice.cell_program("gather").link()?;
+        let constants = super::constants(&lattice.setup, &lattice.grid, false);
+        Ok(Self(Kernel::new(device, &linked, "gather", &constants)?))
+    }
+
+    /// `field` on `cells`, which are places in it.
+    pub(super) async fn read(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        readback: &mut Readback,
+        field: &wgpu::Buffer,
+        cells: &[u32],
+    ) -> Result<Vec<f32>> {
+        if cells.is_empty() {
+            return Ok(Vec::new());
+        }
+        let list = fluid::storage(device, "listed cells", bytemuck::cast_slice(cells));
+        let out = fluid::result_buffer(device, "gathered", 4 * cells.len() as u64);
+        let buffers = [
+            ("gather_from", field),
+            ("listed", &list),
+            ("gathered", &out),
+        ];
+        let bind = self.0.bind(device, &buffers)?;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            let groups = (cells.len() as u32).div_ceil(64);
+            self.0.record(&mut pass, &bind, groups);
+        }
+        queue.submit([encoder.finish()]);
+        readback.read(device, queue, &out, cells.len()).await
+    }
+}

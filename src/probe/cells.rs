@@ -1,0 +1,89 @@
+//! The cells of a scene as probes see them.
+
+use crate::scene::{Axis, Boundary, Domain, Face, Scene};
+
+/// Part of a cell by which positions may miss cell faces: decimal numbers in scenes are rounded.
+const SLACK: f64 = 1e-6;
+
+/// A scene's grid, its solid cells, and what surrounds it.
+pub(super) struct Cells<'a> {
+    pub(super) domain: &'a Domain,
+    /// Cells along x, y, z.
+    pub(super) counts: [u32; 3],
+    /// Axes whose ends join.
+    pub(super) periodic: [bool; 3],
+    /// Velocity (m/s) of the walls at the lower and the upper end of each axis.
+    pub(super) walls: [[Option<[f64; 3]>; 2]; 3],
+    solid: &'a [bool],
+}
+
+impl<'a> Cells<'a> {
+    pub(super) fn new(scene: &'a Scene, solid: &'a [bool]) -> Self {
+        let at = |axis: usize, side: usize| scene.boundaries.face(Face::ALL[2 * axis + side]);
+        let wall = |axis, side| match at(axis, side) {
+            Boundary::Wall { velocity } => Some(*velocity),
+            _ => None,
+        };
+        Self {
+            domain: &scene.domain,
+            counts: scene.cells(),
+            periodic: [0, 1, 2].map(|axis| *at(axis, 0) == Boundary::Periodic),
+            walls: [0, 1, 2].map(|axis| [wall(axis, 0), wall(axis, 1)]),
+            solid,
+        }
+    }
+
+    /// Place of a cell in an array, x fastest.
+    pub(super) fn index(&self, [i, j, k]: [u32; 3]) -> u32 {
+        i + self.counts[0] * (j + self.counts[1] * k)
+    }
+
+    pub(super) fn is_solid(&self, cell: u32) -> bool {
+        self.solid.get(cell as usize).is_some_and(|solid| *solid)
+    }
+
+    /// `position` (m) along `axis` in cells, 0 at the centre of the first one.
+    pub(super) fn place(&self, axis: usize, position: f64) -> f64 {
+        (position - self.domain.origin[axis]) / self.domain.cell - 0.5
+    }
+
+    /// The layer of cells around `position` (m) along `axis`; on a face between two, the upper one.
+    pub(super) fn layer(&self, axis: Axis, position: f64) -> u32 {
+        let axis = axis.index();
+        let place = (self.place(axis, position) + 0.5 + SLACK).max(0.0);
+        (place as u32).min(self.counts[axis] - 1)
+    }
+
+    /// The cells whose centres lie in a box (m), x fastest.
+    pub(super) fn within(&self, min: [f64; 3], max: [f64; 3]) -> impl Iterator<Item = [u32; 3]> {
+        let ends = [0, 1, 2].map(|axis| {
+            let first = (self.place(axis, min[axis]) - SLACK).ceil().max(0.0);
+            let last = (self.place(axis, max[axis]) + SLACK).floor();
+            first as u32..(last + 1.0).clamp(0.0, self.counts[axis].into()) as u32
+        });
+        let [x, y, z] = ends;
+        z.flat_map(move |k| {
+            let (x, y) = (x.clone(), y.clone());
+            y.flat_map(move |j| x.clone().map(move |i| [i, j, k]))
+        })
+    }
+
+    /// The fluid cells whose centres lie in a box (m).
+    pub(super) fn fluid_in(&self, min: [f64; 3], max: [f64; 3]) -> Vec<u32> {
+        let cells = self.within(min, max).map(|cell| self.index(cell));
+        cells.filter(|cell| !self.is_solid(*cell)).collect()
+    }
+
+    /// The cell beside `cell` along `axis`; `None` beyond the domain.
+    pub(super) fn beside(&self, mut cell: [u32; 3], axis: usize, step: i32) -> Option<u32> {
+        let count = i64::from(self.counts[axis]);
+        let mut place = i64::from(cell[axis]) + i64::from(step);
+        if self.periodic[axis] {
+            place = place.rem_euclid(count);
+        }
+        cell[axis] = u32::try_from(place)
+            .ok()
+            .filter(|p| i64::from(*p) < count)?;
+        Some(self.index(cell))
+    }
+}

@@ -43,6 +43,7 @@ pub mod error;
 pub mod formula;
 pub mod kernel;
 pub mod lattice;
+pub mod layout;
 pub mod link;
 pub mod output;
 pub mod probe;

@@ -106,8 +106,8 @@ impl Lattice {
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
         check(&setup)?;
         let grid = Grid::new(&setup)?;
-        let geometry = Geometry::new(&setup, &grid);
         let memory = super::memory(&setup, &grid, &device.limits())?;
+        let geometry = Geometry::new(&setup, &grid);
         let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings);
         let mut lattice = Self {
             bindings: memory.bindings,
@@ -216,26 +216,7 @@ impl Lattice {
 
     /// A program for single cells, with the slots that the setup decides.
     pub(super) fn cell_program(&self, entry: &str) -> Program {
-        let either = |condition, yes, no| if condition { yes } else { no };
-        Program::new(entry)
-            .text(
-                "scalars",
-                populations::scalars(self.bindings, self.setup.storage),
-            )
-            .slot("lanes", "lanes_1")
-            .slot(
-                "beside",
-                either(self.buffers.flags.is_some(), "beside_flags", "beside_none"),
-            )
-            .slot("equilibrium", program::equilibrium(self.setup.equilibrium))
-            .slot(
-                "cell_force",
-                match self.setup.force {
-                    Force::None => "cell_force_none",
-                    Force::Constant(_) => "cell_force_constant",
-                    Force::Field(_) => "cell_force_field",
-                },
-            )
+        program::single_cells(&self.setup, self.bindings, entry)
     }
 
     /// A dispatch of a kernel for single cells; `extra` adds buffers and numbers.

@@ -21,7 +21,7 @@ pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
 pub use grid::Grid;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
-pub use program::{Reach, collide_stream, constants, stream_only};
+pub use program::{Reach, collide_stream, constants, single_cells, stream_only};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
 pub use start::State;
 pub use stream_only::StreamOnly;

@@ -6,5 +6,6 @@ pub mod check;
 pub mod gpu;
 pub mod picture;
 pub mod print;
+pub mod run;
 pub mod schema;
 pub mod validate;

@@ -1,11 +1,18 @@
 //! `riprap`: computes scenes and tells about them.
 
 use clap::{Parser, Subcommand};
-use riprap_harness::{adapters, bench, check, schema, validate};
-use std::process::ExitCode;
+use riprap_harness::{
+    adapters, bench, check,
+    run::{self, Unfinished},
+    schema, validate,
+};
+use std::{
+    process::ExitCode,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 #[derive(Parser)]
-#[command(version, about)]
+#[command(version, about, long_about = None, after_help = EXIT)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -13,6 +20,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Run(run::Args),
     Check(check::Args),
     Adapters(adapters::Args),
     Schema(schema::Args),
@@ -20,20 +28,48 @@ enum Command {
     Bench(bench::Args),
 }
 
+const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged, or a case did not pass; 2 the input is wrong.";
+
+/// Set by the first Ctrl-C; a run then writes its state and ends.
+static STOP: AtomicBool = AtomicBool::new(false);
+
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
-        Command::Check(args) => check::run(&args).map(|()| true),
-        Command::Adapters(args) => adapters::run(&args).map(|()| true),
-        Command::Schema(args) => schema::run(&args).map(|()| true),
-        Command::Validate(args) => validate::run(args),
-        Command::Bench(args) => bench::run(args).map(|()| true),
+        Command::Run(args) => computed(&args),
+        Command::Check(args) => check::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Adapters(args) => adapters::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Validate(args) => validate::run(args).map(passed),
+        Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
     };
-    match done {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("riprap: {error:#}");
-            ExitCode::from(2)
+    done.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        let running = error.downcast_ref::<Unfinished>().is_some();
+        ExitCode::from(if running { 1 } else { 2 })
+    })
+}
+
+fn passed(all: bool) -> ExitCode {
+    ExitCode::from(u8::from(!all))
+}
+
+fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
+    ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            // As a shell reports a process that SIGINT killed.
+            std::process::exit(130);
         }
+        eprintln!("stopping after this batch; Ctrl-C again ends at once");
+    })?;
+    let summary = run::run(args, &STOP)?;
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&summary)?);
+    } else {
+        println!("{summary}");
     }
+    if let Some(divergence) = &summary.divergence {
+        eprintln!("error: {divergence}");
+        return Ok(ExitCode::from(1));
+    }
+    Ok(ExitCode::SUCCESS)
 }

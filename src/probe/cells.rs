@@ -54,6 +54,19 @@ impl<'a> Cells<'a> {
         (place as u32).min(self.counts[axis] - 1)
     }
 
+    /// The cells of the layer `number` along `axis`, the lower of the other axes fastest.
+    pub(super) fn of_layer(&self, axis: Axis, number: u32) -> impl Iterator<Item = [u32; 3]> {
+        let [fast, slow] = axis.others().map(Axis::index);
+        let counts = self.counts;
+        (0..counts[slow]).flat_map(move |v| {
+            (0..counts[fast]).map(move |u| {
+                let mut cell = [number; 3];
+                (cell[fast], cell[slow]) = (u, v);
+                cell
+            })
+        })
+    }
+
     /// The cells whose centres lie in a box (m), x fastest.
     pub(super) fn within(&self, min: [f64; 3], max: [f64; 3]) -> impl Iterator<Item = [u32; 3]> {
         let ends = [0, 1, 2].map(|axis| {

@@ -25,8 +25,11 @@
 
 mod cells;
 mod interpolate;
+mod layer;
 mod points;
 mod statistics;
+
+pub use layer::Layer;
 
 use crate::{
     Error, Result,

@@ -50,28 +50,22 @@ impl Points {
 
     /// The centres of the cells that the plane at `position` (m) cuts.
     pub(super) fn plane(cells: &Cells<'_>, axis: Axis, position: f64) -> (Self, Vec<u32>) {
-        let layer = cells.layer(axis, position);
-        let [fast, slow] = axis.others().map(Axis::index);
-        let mut points = Vec::new();
-        for v in 0..cells.counts[slow] {
-            for u in 0..cells.counts[fast] {
-                let mut ijk = [layer; 3];
-                (ijk[fast], ijk[slow]) = (u, v);
-                let cell = cells.index(ijk);
-                let solid = cells.is_solid(cell);
-                let own = Share {
-                    cell,
-                    weight: 1.0,
-                    wall: None,
-                };
-                points.push(Point {
-                    coordinates: cells.domain.centre(ijk).to_vec(),
-                    shares: if solid { vec![] } else { vec![own] },
-                    solid,
-                });
+        let layer = cells.of_layer(axis, cells.layer(axis, position));
+        let points = layer.map(|ijk| {
+            let cell = cells.index(ijk);
+            let solid = cells.is_solid(cell);
+            let own = Share {
+                cell,
+                weight: 1.0,
+                wall: None,
+            };
+            Point {
+                coordinates: cells.domain.centre(ijk).to_vec(),
+                shares: if solid { vec![] } else { vec![own] },
+                solid,
             }
-        }
-        numbered(points)
+        });
+        numbered(points.collect())
     }
 
     /// A row a point: coordinates, then `arrays` of `fields` on the chosen cells.

@@ -1,0 +1,67 @@
+//! What a run says before it starts.
+
+use super::{bandwidth::bytes_a_cell, engine::Engine};
+use crate::gpu;
+use std::path::Path;
+
+/// Tells, on standard error, what will run on what.
+pub fn announce(engine: &Engine, folder: &Path, last: u64, bandwidth: f64) {
+    let simulation = &engine.simulation;
+    let (scene, units) = (simulation.scene(), simulation.units());
+    let setup = simulation.lattice().setup();
+    let memory = &engine.needs.memory;
+    let [x, y, z] = scene.cells();
+    eprintln!("{}", scene.title);
+    eprintln!("  adapter   {}", gpu::describe(&engine.adapter));
+    eprintln!(
+        "            copies {:.1} GB/s; the kernel moves {} bytes a cell and step",
+        bandwidth / 1e9,
+        bytes_a_cell(setup)
+    );
+    eprintln!(
+        "  grid      {x} × {y} × {z} cells of {:.4e} m, {} of them fluid; {} in {} bindings",
+        units.cell,
+        engine.fluid_cells(),
+        mebibytes(memory.populations + memory.others),
+        memory.bindings
+    );
+    let mach = scene.velocity_scale().map(|speed| units.mach(speed));
+    let mach = mach.map_or_else(|_| "unknown".into(), |mach| format!("{mach:.3}"));
+    eprintln!(
+        "  step      Δt = {:.4e} s, τ = {:.6}, Mach {mach}",
+        units.time_step,
+        setup.tau()
+    );
+    let odd = match (setup.lambda, setup.wall_lambda) {
+        (Some(lambda), _) => format!("Λ = {lambda} everywhere"),
+        (None, Some(lambda)) => format!(
+            "Λ = {lambda} beside walls, odd rates there at least {}",
+            setup.odd_rate_floor
+        ),
+        (None, None) => "published odd rates everywhere".into(),
+    };
+    eprintln!(
+        "  kernel    {:?}, {:?}, {:?} storage, {} lanes, {odd}{}",
+        setup.collision,
+        setup.equilibrium,
+        setup.storage,
+        setup.lanes,
+        match setup.wale {
+            Some(constant) => format!(", WALE {constant}"),
+            None => String::new(),
+        }
+    );
+    eprintln!(
+        "  run       {} to step {last}, {:.6} s; into {}",
+        simulation.step(),
+        units.time_from_lattice(last as f64),
+        folder.display()
+    );
+    for warning in simulation.advice() {
+        eprintln!("warning: {warning}");
+    }
+}
+
+fn mebibytes(bytes: u64) -> String {
+    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
+}

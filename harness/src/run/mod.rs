@@ -1,0 +1,104 @@
+//! `riprap run`: computes a scene and writes what it asks for.
+//!
+//! Everything that a run writes is a [`Recorder`](recorder::Recorder) with a schedule. The fluid
+//! advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
+//! the flow diverges, what is on disk is complete and can be continued.
+
+mod announce;
+mod bandwidth;
+mod batch;
+mod checkpoints;
+mod engine;
+mod fields;
+mod history;
+mod journey;
+mod probes;
+mod progress;
+mod recorder;
+mod schedule;
+mod slices;
+mod summary;
+mod watch;
+
+pub use schedule::Schedule;
+pub use summary::{Summary, Unfinished};
+
+use anyhow::Result;
+use engine::Engine;
+use journey::Journey;
+use riprap::{Error, checkpoint::Checkpoint, scene::Scene};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
+
+/// Computes a scene and writes fields, pictures, tables, checkpoints and a summary.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct Args {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// Folder for what is written [default: out/ and the name of the scene]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Part of the name of the adapter to compute on [default: the first GPU, else a CPU]
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Time steps at which the run ends, counted from the start of the scene [default: the scene's]
+    #[arg(long, value_name = "N")]
+    pub steps: Option<u64>,
+    /// Go on from a checkpoint of this scene; tables and collections in the folder are continued
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs a scene until its end, or until `stop` is set.
+///
+/// A flow that diverges is no error here: the summary says so and what is on disk.
+///
+/// # Errors
+/// What is wrong with the input, as [`riprap::Error`]; what ended a run that had begun, in the
+/// context of [`Unfinished`].
+pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
+    let scene = Scene::from_file(&args.scene)?;
+    let folder = folder(args);
+    let checkpoint = args.restart.as_deref().map(Checkpoint::read).transpose()?;
+    let mut engine = Engine::open(&scene, args.adapter.as_deref())?;
+    let units = *engine.simulation.units();
+    let last = args
+        .steps
+        .unwrap_or_else(|| scene.run.step_count(&units))
+        .max(1);
+    if let Some(checkpoint) = &checkpoint {
+        let done = checkpoint.populations.step;
+        if done >= last {
+            return Err(Error::scene(
+                "restart",
+                format!(
+                    "the checkpoint is of step {done} and the run ends at step {last}; give \
+                     `--steps` a larger number, or the scene a longer run"
+                ),
+            )
+            .into());
+        }
+        engine.simulation.restore(checkpoint)?;
+    }
+    std::fs::create_dir_all(&folder).map_err(|error| {
+        let message = format!("cannot make this folder: {error}; choose another one with `--out`");
+        Error::file(&folder, message)
+    })?;
+    let mut journey = Journey::new(&mut engine, &folder, last, args.restart.as_deref())?;
+    journey.summary.scene = args.scene.display().to_string();
+    announce::announce(&engine, &folder, last, journey.summary.bandwidth);
+    journey.go(&mut engine, stop)
+}
+
+/// Where a run writes to.
+fn folder(args: &Args) -> PathBuf {
+    args.out.clone().unwrap_or_else(|| {
+        let stem = args.scene.file_stem().unwrap_or("scene".as_ref());
+        Path::new("out").join(stem)
+    })
+}

@@ -1,0 +1,82 @@
+//! How far a run is, on standard error: a bar on a terminal, lines elsewhere.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::{
+    io::{IsTerminal, stderr},
+    time::{Duration, Instant},
+};
+
+/// Time between lines where there is no terminal: a log of an hour stays readable.
+const PAUSE: Duration = Duration::from_secs(15);
+
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    first: u64,
+    last: u64,
+    start: Instant,
+    said: Instant,
+}
+
+/// Speed so far.
+pub struct Speed {
+    /// Million cell updates a second.
+    pub mlups: f64,
+    /// Part of what memory allows.
+    pub share: f64,
+}
+
+impl Progress {
+    pub fn new(first: u64, last: u64) -> Self {
+        let bar = stderr().is_terminal().then(|| {
+            let target = ProgressDrawTarget::stderr();
+            let bar = ProgressBar::with_draw_target(Some(last), target).with_position(first);
+            let form = "{wide_bar} step {pos}/{len}  {msg}";
+            bar.set_style(ProgressStyle::with_template(form).unwrap_or_else(|_| {
+                // Only a misspelt template gets here.
+                ProgressStyle::default_bar()
+            }));
+            bar
+        });
+        let now = Instant::now();
+        Self {
+            bar,
+            first,
+            last,
+            start: now,
+            said: now,
+        }
+    }
+
+    pub fn show(&mut self, step: u64, speed: &Speed) {
+        let done = (step - self.first).max(1) as f64;
+        let left = self.start.elapsed().as_secs_f64() / done * (self.last - step) as f64;
+        let Speed { mlups, share } = speed;
+        let message = format!(
+            "{mlups:.1} MLUPS, {:.0} % of memory speed, {} left",
+            100.0 * share,
+            clock(left)
+        );
+        if let Some(bar) = &self.bar {
+            bar.set_position(step);
+            bar.set_message(message);
+        } else if self.said.elapsed() >= PAUSE {
+            self.said = Instant::now();
+            eprintln!("step {step}/{}: {message}", self.last);
+        }
+    }
+
+    pub fn end(&self) {
+        if let Some(bar) = &self.bar {
+            bar.abandon();
+        }
+    }
+}
+
+/// `seconds` as minutes and seconds, or hours and minutes.
+pub fn clock(seconds: f64) -> String {
+    let seconds = seconds.round() as u64;
+    match seconds {
+        0..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
+        _ => format!("{}:{:02} h", seconds / 3600, seconds / 60 % 60),
+    }
+}

@@ -1,0 +1,54 @@
+//! What a run writes, one thing a type.
+
+use super::{engine::Engine, schedule::Schedule};
+use anyhow::Result;
+use std::path::PathBuf;
+
+/// Writes something about the present state when it is due.
+pub trait Recorder {
+    /// When it is due.
+    fn schedule(&self) -> &Schedule;
+
+    /// Writes, and says which files.
+    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()>;
+
+    /// Writes what only the end of the run can show.
+    fn finish(&mut self, _engine: &Engine, _notes: &mut Notes) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// What recorders have to say about a run.
+#[derive(Clone, Debug, Default)]
+pub struct Notes {
+    /// Files written, each once.
+    pub files: Vec<PathBuf>,
+    /// What did not work and does not end the run.
+    pub warnings: Vec<String>,
+    /// The last checkpoint with its step.
+    pub checkpoint: Option<(u64, PathBuf)>,
+    /// Largest speed seen, m/s.
+    pub max_speed: f64,
+}
+
+impl Notes {
+    /// A file has been written.
+    pub fn file(&mut self, path: PathBuf) {
+        if !self.files.contains(&path) {
+            self.files.push(path);
+        }
+    }
+
+    /// A picture has been drawn, or not: that is no reason to end a run.
+    pub fn picture(&mut self, path: PathBuf, drawn: Result<()>) {
+        match drawn {
+            Ok(()) => self.file(path),
+            Err(error) => {
+                let warning = format!("{} is not drawn: {error:#}", path.display());
+                if !self.warnings.contains(&warning) {
+                    self.warnings.push(warning);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! What a run was, for people and for programs: `summary.json`.
+
+use super::{progress::clock, recorder::Notes};
+use riprap::output::replace;
+use serde::Serialize;
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+};
+
+/// A run in numbers.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Summary {
+    /// The scene's file.
+    pub scene: String,
+    /// The scene's title.
+    pub title: String,
+    /// Adapter, interface and driver.
+    pub adapter: String,
+    /// Cells along x, y, z.
+    pub cells: [u32; 3],
+    /// Cells that are not solid.
+    pub fluid_cells: u64,
+    /// Edge of a cell, m.
+    pub cell: f64,
+    /// Time step, s.
+    pub time_step: f64,
+    /// Relaxation time, in time steps.
+    pub tau: f64,
+    /// Collision operator, storage and lanes of the kernel.
+    pub kernel: String,
+    /// Step at which this run began: 0, or that of the checkpoint.
+    pub first_step: u64,
+    /// Steps that the flow has made, those before a restart included.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Seconds that this run took, with everything it wrote.
+    pub seconds: f64,
+    /// Million updates of fluid cells a second, without what was written.
+    pub mlups: f64,
+    /// Bytes that the device copies a second, read and written.
+    pub bandwidth: f64,
+    /// Bytes that a step moves for a fluid cell.
+    pub bytes_a_cell: u64,
+    /// Part of that bandwidth that the kernel uses.
+    pub bandwidth_share: f64,
+    /// Largest Mach number of the lattice that was seen.
+    pub max_mach: f64,
+    /// Whether the flow left the range of the method.
+    pub diverged: bool,
+    /// Why, where, and what to change, if it did.
+    pub divergence: Option<String>,
+    /// What may disappoint.
+    pub warnings: Vec<String>,
+    /// What was written.
+    pub files: Vec<PathBuf>,
+    /// The last checkpoint of this run, or the one that it began with.
+    pub checkpoint: Option<PathBuf>,
+    /// Its step.
+    pub checkpoint_step: Option<u64>,
+}
+
+impl Summary {
+    /// Takes over what recorders noted.
+    pub fn take(&mut self, notes: &Notes) {
+        self.files.clone_from(&notes.files);
+        self.warnings.extend(notes.warnings.iter().cloned());
+        if let Some((step, path)) = &notes.checkpoint {
+            self.checkpoint = Some(path.clone());
+            self.checkpoint_step = Some(*step);
+        }
+    }
+
+    /// Writes `summary.json` into `folder`, itself among the files.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&mut self, folder: &Path) -> anyhow::Result<()> {
+        let path = folder.join("summary.json");
+        self.files.push(path.clone());
+        let text = serde_json::to_string_pretty(self)? + "\n";
+        replace(&path, |file| file.write_all(text.as_bytes()))?;
+        Ok(())
+    }
+
+    /// What is on disk, in a sentence.
+    fn kept(&self) -> String {
+        kept(
+            self.checkpoint.as_deref(),
+            self.checkpoint_step,
+            self.files.len(),
+        )
+    }
+}
+
+fn kept(checkpoint: Option<&Path>, step: Option<u64>, files: usize) -> String {
+    match (checkpoint, step) {
+        (Some(path), Some(step)) => format!(
+            "{files} files are kept; `--restart {}` goes on from step {step}",
+            path.display()
+        ),
+        _ => format!("{files} files are kept, and no checkpoint: set run.checkpoint_every"),
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = match (self.diverged, self.complete) {
+            (true, _) => "diverged",
+            (false, true) => "done",
+            (false, false) => "stopped",
+        };
+        writeln!(
+            f,
+            "{end} at step {}, t = {:.6} s, after {}",
+            self.steps,
+            self.time,
+            clock(self.seconds)
+        )?;
+        writeln!(
+            f,
+            "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
+            self.mlups,
+            100.0 * self.bandwidth_share,
+            self.bandwidth / 1e9,
+            self.max_mach
+        )?;
+        for warning in &self.warnings {
+            writeln!(f, "  warning: {warning}")?;
+        }
+        if let Some(divergence) = &self.divergence {
+            writeln!(f, "  {divergence}")?;
+        }
+        write!(f, "  {}", self.kept())
+    }
+}
+
+/// How far a run came that something other than the flow ended: the disk, the device.
+#[derive(Clone, Debug)]
+pub struct Unfinished {
+    /// Steps done.
+    pub step: u64,
+    /// What is on disk.
+    pub kept: String,
+}
+
+impl Unfinished {
+    pub(super) fn new(step: u64, notes: &Notes) -> Self {
+        let (at, path) = notes.checkpoint.clone().unzip();
+        Self {
+            step,
+            kept: kept(path.as_deref(), at, notes.files.len()),
+        }
+    }
+}
+
+impl fmt::Display for Unfinished {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the run ended at step {} ({})", self.step, self.kept)
+    }
+}

@@ -12,7 +12,7 @@ pub use setup::{face_velocity, lattice_setup};
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
-    lattice::{Collision, Derived, Lattice, Observer, State},
+    lattice::{self, Collision, Derived, Lattice, Observer, State},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
@@ -83,18 +83,19 @@ impl Simulation {
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         let mut left = steps;
         while left > 0 {
-            // A face that changes in time gets its velocities before each step.
-            let together = if self.changing.is_empty() { left } else { 1 };
             let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut coming = Vec::new();
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
-                for _ in 0..together {
+                // A velocity that changes is written between two submissions.
+                while left > 0 && coming.is_empty() {
                     self.lattice.record(&mut pass);
+                    left -= 1;
+                    coming = self.changed_faces()?;
                 }
             }
             self.queue.submit([encoder.finish()]);
-            self.set_changing_faces()?;
-            left -= together;
+            self.set_faces(coming)?;
         }
         let fault = self
             .observer
@@ -135,9 +136,22 @@ impl Simulation {
         ))
     }
 
-    fn set_changing_faces(&mut self) -> Result<()> {
+    /// The velocity faces whose values at the present time are not those that they have.
+    fn changed_faces(&self) -> Result<Vec<(Face, Vec<[f32; 3]>)>> {
+        let mut changed = Vec::new();
         for &face in &self.changing {
             let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
+            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+            match &self.lattice.setup().faces[axis][side] {
+                lattice::Face::Velocity(old) if *old == velocity => {}
+                _ => changed.push((face, velocity)),
+            }
+        }
+        Ok(changed)
+    }
+
+    fn set_faces(&mut self, faces: Vec<(Face, Vec<[f32; 3]>)>) -> Result<()> {
+        for (face, velocity) in faces {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
             self.lattice
                 .set_face_velocity(&self.queue, axis, side, velocity)?;
@@ -213,7 +227,8 @@ impl Simulation {
         }
         self.lattice
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
-        self.set_changing_faces()
+        let changed = self.changed_faces()?;
+        self.set_faces(changed)
     }
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every test: units, kernels, flows, files, the documentation's examples and the one that
-# embeds the library. Arguments go to the test runner.
+# Runs every test: units, kernels, flows, files, the documentation's examples, and those that
+# embed the library. Arguments go to the test runner.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -15,5 +15,7 @@ else
     cargo test --workspace "$@"
 fi
 cargo test --quiet --workspace --doc
-# Both runners have built it.
-"${CARGO_TARGET_DIR:-target}/debug/examples/embed"
+# Both runners have built them.
+for example in embed own_kernel; do
+    "${CARGO_TARGET_DIR:-target}/debug/examples/$example"
+done

@@ -93,6 +93,9 @@ impl Buffers {
     }
 }
 
+/// Buffers and numbers of a kernel beside those of the fluid, by their names in WGSL.
+pub(super) type Extra<'a> = (&'a [(&'a str, &'a wgpu::Buffer)], &'a [(&'static str, f64)]);
+
 /// The guard's memory before the first step: no step counted, none bad.
 pub(super) const GUARD_START: [u32; 4] = [0, 0, u32::MAX, u32::MAX];
 
@@ -226,7 +229,7 @@ impl Lattice {
         program: &Program,
         entry: &str,
         odd: bool,
-        extra: (&[(&str, &wgpu::Buffer)], &[(&'static str, f64)]),
+        extra: Extra<'_>,
         invocations: u32,
     ) -> Result<Dispatch> {
         let mut constants = program::constants(&self.setup, &self.grid, odd);
@@ -254,7 +257,7 @@ impl Lattice {
         for links in geometry.links.chunks(limit / size_of::<Link>()) {
             let list = storage(device, "links", bytemuck::cast_slice(links));
             for &half in self.halves() {
-                let extra: (&[_], &[_]) = (&[("links", &list)], &[("HALF", half)]);
+                let extra: Extra<'_> = (&[("links", &list)], &[("HALF", half)]);
                 let n = links.len() as u32;
                 passes.push(self.cell_dispatch(device, &program, "reflect", odd, extra, n)?);
             }
@@ -267,7 +270,7 @@ impl Lattice {
                 bytemuck::cast_slice(&geometry.moving),
             );
             for &half in self.halves() {
-                let extra: (&[_], &[_]) = (&[("moving_cells", &list)], &[("HALF", half)]);
+                let extra: Extra<'_> = (&[("moving_cells", &list)], &[("HALF", half)]);
                 let n = geometry.moving.len() as u32;
                 passes.push(self.cell_dispatch(device, &program, "move_wall", odd, extra, n)?);
             }

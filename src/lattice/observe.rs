@@ -2,7 +2,7 @@
 
 use super::{
     Lattice, State,
-    fluid::{Dispatch, result_buffer},
+    fluid::{Dispatch, Extra, result_buffer},
     gather::Gather,
 };
 use crate::{Result, readback::Readback};
@@ -75,7 +75,7 @@ impl Observer {
         buffers.extend(VELOCITY_OUT.into_iter().zip(&velocity));
         let program = lattice.cell_program("macroscopic");
         let make = |odd| {
-            let extra: (&[_], &[_]) = (&buffers, &[("HALF", 0.0)]);
+            let extra: Extra<'_> = (&buffers, &[("HALF", 0.0)]);
             lattice.cell_dispatch(device, &program, "macroscopic", odd, extra, cells as u32)
         };
         let macroscopic = [make(false)?, make(true)?];
@@ -269,7 +269,7 @@ impl Observer {
                 let mut buffers = vec![("partial_sums", &buffer), ("density", &self.density)];
                 buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
                 let program = lattice.cell_program("sums");
-                let extra: (&[_], &[_]) = (&buffers, &[]);
+                let extra: Extra<'_> = (&buffers, &[]);
                 let n = turns as u32;
                 let dispatch =
                     lattice.cell_dispatch(device, &program, "sum_cells", false, extra, n)?;

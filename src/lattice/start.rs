@@ -1,6 +1,9 @@
 //! The first state of a fluid.
 
-use super::{Lattice, fluid, fluid::GUARD_START};
+use super::{
+    Lattice, fluid,
+    fluid::{Extra, GUARD_START},
+};
 use crate::{Error, Result};
 
 /// Density and velocity on the domain cells, lattice units, x fastest.
@@ -75,7 +78,7 @@ impl Lattice {
         for &half in self.halves() {
             let share = f64::from(u8::from(non_equilibrium));
             let numbers = [("HALF", half), ("NON_EQUILIBRIUM", share)];
-            let extra: (&[_], &[_]) = (&buffers, &numbers);
+            let extra: Extra<'_> = (&buffers, &numbers);
             let dispatch =
                 self.cell_dispatch(device, &program, "initialise", false, extra, cells as u32)?;
             let mut pass = encoder.begin_compute_pass(&Default::default());

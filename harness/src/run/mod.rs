@@ -1,6 +1,6 @@
 //! `riprap run`: computes a scene and writes what it asks for.
 //!
-//! Everything that a run writes is a [`Recorder`](recorder::Recorder) with a schedule. The fluid
+//! Everything that a run writes is a `Recorder` with a schedule. The fluid
 //! advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
 //! the flow diverges, what is on disk is complete and can be continued.
 

@@ -103,7 +103,8 @@ fn expected(setup: &Setup, bindings: u32, reach: Reach) -> Vec<String> {
     names.extend(
         optional
             .into_iter()
-            .filter_map(|(used, name)| used.then(|| name.to_owned())),
+            .filter(|(used, _)| *used)
+            .map(|(_, name)| name.to_owned()),
     );
     names.sort();
     names

@@ -44,6 +44,14 @@ pub enum Error {
         /// What to change.
         remedy: String,
     },
+    /// A structure of the host and its twin in WGSL differ.
+    #[error("struct {structure}: {message}")]
+    Layout {
+        /// Name in WGSL.
+        structure: String,
+        /// What differs.
+        message: String,
+    },
     /// A buffer bound to a kernel does not exist under that name, or is missing.
     #[error("kernel {kernel}: binding {binding}: {message}")]
     Binding {

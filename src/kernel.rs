@@ -6,6 +6,8 @@ use crate::{Error, Result, link::Linked};
 #[derive(Debug)]
 pub struct Kernel {
     entry: String,
+    file: String,
+    slots: Vec<(String, String)>,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     bindings: Vec<Binding>,
@@ -100,10 +102,27 @@ impl Kernel {
         });
         Ok(Self {
             entry: entry.into(),
+            file: linked.file.clone(),
+            slots: linked.slots.clone().into_iter().collect(),
             pipeline,
             layout,
             bindings,
         })
+    }
+
+    /// Name of the entry point.
+    pub fn entry(&self) -> &str {
+        &self.entry
+    }
+
+    /// The file of the entry point, without folder and ending.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Its slots and the files that fill them.
+    pub fn slots(&self) -> &[(String, String)] {
+        &self.slots
     }
 
     /// What must be bound, in the order of the binding numbers.

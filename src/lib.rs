@@ -1,6 +1,39 @@
-//! GPU compute kernels for rock blocks in water.
+//! GPU compute kernels for rock blocks in water, on any vendor's GPU through wgpu.
 //!
-//! The data goes one way: [`scene`] → [`units`] → `lattice` → [`output`].
+//! The data goes one way, and so do the modules: [`scene`] (what the user wrote, SI) → [`units`]
+//! (the border to lattice units) → [`lattice`] (the fluid on the device) → [`simulation`] (the
+//! loop) → [`output`] (files). Below them, [`link`] makes one shader of the files in `kernels/`
+//! and [`kernel`] binds and records it.
+//!
+//! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
+//! adapter, reads no environment, never blocks and does not panic on input.
+//!
+//! ```
+//! use riprap::{lattice::{Lattice, Observer, Setup, State}, wgpu};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Any device; this one does nothing, so that the example runs everywhere.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//!
+//! // A periodic box of 16³ cells with the lattice viscosity 0.01.
+//! let mut lattice = Lattice::new(&device, Setup::periodic([16, 16, 16], 0.01))?;
+//! lattice.start(&device, &queue, &State::rest(16 * 16 * 16), true)?;
+//! let observer = Observer::new(&device, &lattice)?;
+//!
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! {
+//!     let mut pass = encoder.begin_compute_pass(&Default::default());
+//!     for _ in 0..10 {
+//!         lattice.record(&mut pass);
+//!     }
+//!     // Density and velocity, in buffers that your own kernels can bind.
+//!     observer.record(&mut lattice, &mut pass);
+//! }
+//! queue.submit([encoder.finish()]);
+//! assert_eq!(lattice.step(), 10);
+//! # Ok(())
+//! # }
+//! ```
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -10,6 +43,7 @@ pub mod error;
 pub mod formula;
 pub mod kernel;
 pub mod lattice;
+pub mod layout;
 pub mod link;
 pub mod output;
 pub mod probe;
@@ -17,7 +51,14 @@ pub mod readback;
 pub mod scene;
 pub mod simulation;
 pub mod solid;
+pub mod timer;
 pub mod units;
 
 pub use error::{Error, Result};
+
 pub use wgpu;
+
+/// The README's examples, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -52,18 +52,32 @@ impl Program {
         let mut linked = Linking {
             program: self,
             done: BTreeSet::new(),
+            slots: BTreeMap::new(),
             text: String::new(),
             lines: Vec::new(),
         };
         linked.take(&self.entry, &self.entry, 1)?;
-        let Linking { text, lines, .. } = linked;
-        check(text, lines)
+        let Linking {
+            slots, text, lines, ..
+        } = linked;
+        let (module, info) = check(&text, &lines)?;
+        Ok(Linked {
+            file: self.entry.clone(),
+            slots,
+            text,
+            module,
+            info,
+        })
     }
 }
 
 /// A linked and validated shader.
 #[derive(Debug)]
 pub struct Linked {
+    /// The file that it starts at.
+    pub file: String,
+    /// The slots that it has, each with the file that fills it.
+    pub slots: BTreeMap<String, String>,
     /// WGSL, complete.
     pub text: String,
     /// The same, as naga sees it.
@@ -75,6 +89,7 @@ pub struct Linked {
 struct Linking<'a> {
     program: &'a Program,
     done: BTreeSet<String>,
+    slots: BTreeMap<String, String>,
     text: String,
     /// File and line that each line of `text` came from.
     lines: Vec<(String, u32)>,
@@ -83,14 +98,17 @@ struct Linking<'a> {
 impl Linking<'_> {
     fn take(&mut self, name: &str, wanted_by: &str, at: u32) -> Result<()> {
         let name = match name.strip_prefix('$') {
-            None => name,
-            Some(slot) => self.program.slots.get(slot).ok_or_else(|| Error::Shader {
-                file: wanted_by.into(),
-                line: at,
-                message: format!("the slot ${slot} is empty; fill it with Program::slot"),
-            })?,
-        }
-        .to_owned();
+            None => name.to_owned(),
+            Some(slot) => {
+                let file = self.program.slots.get(slot).ok_or_else(|| Error::Shader {
+                    file: wanted_by.into(),
+                    line: at,
+                    message: format!("the slot ${slot} is empty; fill it with Program::slot"),
+                })?;
+                self.slots.insert(slot.into(), file.clone());
+                file.clone()
+            }
+        };
         if !self.done.insert(name.clone()) {
             return Ok(());
         }
@@ -123,7 +141,7 @@ pub fn needs(text: &str) -> impl Iterator<Item = (u32, &str)> {
         .flat_map(|(line, list)| list.split(',').map(move |name| (line, name.trim())))
 }
 
-fn check(text: String, lines: Vec<(String, u32)>) -> Result<Linked> {
+fn check(text: &str, lines: &[(String, u32)]) -> Result<(naga::Module, naga::valid::ModuleInfo)> {
     let locate = |line: Option<u32>, message: String| {
         let (file, line) = line
             .and_then(|line| lines.get(line as usize - 1).cloned())
@@ -134,8 +152,8 @@ fn check(text: String, lines: Vec<(String, u32)>) -> Result<Linked> {
             message,
         }
     };
-    let module = naga::front::wgsl::parse_str(&text)
-        .map_err(|e| locate(e.location(&text).map(|l| l.line_number), e.message().into()))?;
+    let module = naga::front::wgsl::parse_str(text)
+        .map_err(|e| locate(e.location(text).map(|l| l.line_number), e.message().into()))?;
     let info = naga::valid::Validator::new(
         naga::valid::ValidationFlags::all(),
         // unpack2x16float; wgpu checks it against the adapter.
@@ -149,7 +167,7 @@ fn check(text: String, lines: Vec<(String, u32)>) -> Result<Linked> {
             message = format!("{message}: {inner}");
             cause = inner.source();
         }
-        locate(e.location(&text).map(|l| l.line_number), message)
+        locate(e.location(text).map(|l| l.line_number), message)
     })?;
-    Ok(Linked { text, module, info })
+    Ok((module, info))
 }

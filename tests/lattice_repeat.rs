@@ -69,7 +69,7 @@ fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
     let reference = bits(&run(&rig, setup(), 51).1);
     let mut others = vec![setup(); 6];
     others[0].lanes = 4;
-    others[1].bindings = Some(27);
+    others[1].bindings = Some(rig.most_bindings());
     others[2].brick = [64, 1, 1];
     others[3].brick = [32, 4, 2];
     others[4].brick = [4, 4, 8];

@@ -169,7 +169,7 @@ fn collisions_and_equilibria() {
 #[test]
 fn layouts_with_everything_on() {
     for (storage, lanes) in layouts() {
-        for bindings in [2, 27] {
+        for bindings in [2, Rig::new().most_bindings()] {
             let mut setup = box_of(0.01);
             (setup.storage, setup.lanes, setup.bindings) = (storage, lanes, Some(bindings));
             setup.wale = Some(0.5);

@@ -1,5 +1,11 @@
 //! The parts of the `riprap` program that tests and examples use as well.
 
+pub mod adapters;
+pub mod bench;
+pub mod check;
 pub mod gpu;
 pub mod picture;
+pub mod print;
 pub mod run;
+pub mod schema;
+pub mod validate;

@@ -1,7 +1,11 @@
 //! `riprap`: computes scenes and tells about them.
 
 use clap::{Parser, Subcommand};
-use riprap_harness::run::{self, Unfinished};
+use riprap_harness::{
+    adapters, bench, check,
+    run::{self, Unfinished},
+    schema, validate,
+};
 use std::{
     process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
@@ -17,9 +21,14 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Check(check::Args),
+    Adapters(adapters::Args),
+    Schema(schema::Args),
+    Validate(validate::Args),
+    Bench(bench::Args),
 }
 
-const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged; 2 the input is wrong.";
+const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged, or a case did not pass; 2 the input is wrong.";
 
 /// Set by the first Ctrl-C; a run then writes its state and ends.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -27,12 +36,21 @@ static STOP: AtomicBool = AtomicBool::new(false);
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Run(args) => computed(&args),
+        Command::Check(args) => check::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Adapters(args) => adapters::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Validate(args) => validate::run(args).map(passed),
+        Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
         eprintln!("error: {error:#}");
         let running = error.downcast_ref::<Unfinished>().is_some();
         ExitCode::from(if running { 1 } else { 2 })
     })
+}
+
+fn passed(all: bool) -> ExitCode {
+    ExitCode::from(u8::from(!all))
 }
 
 fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {

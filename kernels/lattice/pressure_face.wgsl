@@ -29,10 +29,11 @@ fn hold_pressure(
         diagonal += f * (c * c - 1.0 / 3.0);
         mixed += f * c.xyz * c.yzx;
     }
-    // The density is given; velocity and stress are as they are inside.
-    let change = FACE_DENSITY - 1.0 - excess;
+    // The density is given on the face, half a cell beyond this cell and one and a half beyond the
+    // inner one; velocity and stress are as they are inside.
+    let change = (FACE_DENSITY - 1.0 - excess) * (2.0 / 3.0);
     let u = j / (1.0 + excess);
-    let rho_excess = FACE_DENSITY - 1.0;
+    let rho_excess = excess + change;
     let flux = j + change * u;
     let along = diagonal + change * u * u;
     let across = mixed + change * u.xyz * u.yzx;

@@ -1,5 +1,6 @@
-// Partial sums over 64 domain cells an invocation, in a fixed order: excess mass, momentum, kinetic energy
-// rho u.u/2, enstrophy (curl u)^2/2, largest u.u; the caller adds the partial sums in f64.
+// Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums: over 64 domain cells an invocation, in a fixed
+// order, excess mass, momentum, kinetic energy rho u.u/2, enstrophy (curl u)^2/2, largest u.u; the caller adds
+// the partial sums in f64.
 // needs scalar_grid, cell_gradient
 
 // Density minus one, of each domain cell.

@@ -18,6 +18,15 @@ pub(super) struct Dispatch {
 }
 
 impl Dispatch {
+    /// `groups` workgroups of a kernel with its buffers.
+    pub(super) fn new(kernel: Kernel, bind: wgpu::BindGroup, groups: u32) -> Self {
+        Self {
+            kernel,
+            bind,
+            groups,
+        }
+    }
+
     /// Records it.
     pub(super) fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.kernel.record(pass, &self.bind, self.groups);
@@ -97,8 +106,8 @@ impl Lattice {
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
         check(&setup)?;
         let grid = Grid::new(&setup)?;
-        let geometry = Geometry::new(&setup, &grid);
         let memory = super::memory(&setup, &grid, &device.limits())?;
+        let geometry = Geometry::new(&setup, &grid);
         let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings);
         let mut lattice = Self {
             bindings: memory.bindings,
@@ -142,6 +151,15 @@ impl Lattice {
     /// Steps recorded since the start of the run.
     pub fn step(&self) -> u64 {
         self.step
+    }
+
+    /// The kernels of an even or odd step in their order, each with its workgroups.
+    pub fn kernels(&self, odd: bool) -> impl Iterator<Item = (&Kernel, u32)> {
+        let [boundary, stream] =
+            [&self.boundary, &self.stream].map(|passes| passes[usize::from(odd)].iter());
+        boundary
+            .chain(stream)
+            .map(|dispatch| (&dispatch.kernel, dispatch.groups))
     }
 
     /// Records one step into the caller's pass.
@@ -198,26 +216,7 @@ impl Lattice {
 
     /// A program for single cells, with the slots that the setup decides.
     pub(super) fn cell_program(&self, entry: &str) -> Program {
-        let either = |condition, yes, no| if condition { yes } else { no };
-        Program::new(entry)
-            .text(
-                "scalars",
-                populations::scalars(self.bindings, self.setup.storage),
-            )
-            .slot("lanes", "lanes_1")
-            .slot(
-                "beside",
-                either(self.buffers.flags.is_some(), "beside_flags", "beside_none"),
-            )
-            .slot("equilibrium", program::equilibrium(self.setup.equilibrium))
-            .slot(
-                "cell_force",
-                match self.setup.force {
-                    Force::None => "cell_force_none",
-                    Force::Constant(_) => "cell_force_constant",
-                    Force::Field(_) => "cell_force_field",
-                },
-            )
+        program::single_cells(&self.setup, self.bindings, entry)
     }
 
     /// A dispatch of a kernel for single cells; `extra` adds buffers and numbers.
@@ -236,11 +235,7 @@ impl Lattice {
         let mut buffers = extra.0.to_vec();
         buffers.extend(self.buffers.named(odd));
         let bind = kernel.bind(device, &buffers)?;
-        Ok(Dispatch {
-            kernel,
-            bind,
-            groups: invocations.div_ceil(64),
-        })
+        Ok(Dispatch::new(kernel, bind, invocations.div_ceil(64)))
     }
 
     /// For each half of the words that 16-bit storage shares between cells, or once.
@@ -370,11 +365,7 @@ impl Lattice {
             let mut buffers = self.buffers.named(odd);
             buffers.extend(list.iter().map(|list| ("bricks", list)));
             let bind = kernel.bind(device, &buffers)?;
-            passes.push(Dispatch {
-                kernel,
-                bind,
-                groups,
-            });
+            passes.push(Dispatch::new(kernel, bind, groups));
         }
         Ok(passes)
     }

@@ -260,12 +260,24 @@ impl Survey<'_> {
         !solid.is_empty() && solid[self.grid.index(cell)]
     }
 
-    /// Whether no neighbour can be anything but fluid.
+    /// Whether all 26 neighbours are fluid cells of the domain, or may be taken so: the quick way
+    /// out for the bulk of the cells. Cells at faces answer no where solids have to be looked up.
     fn is_inside(&self, cell: [u32; 3]) -> bool {
-        self.setup.solid.is_empty()
-            && (0..3).all(|a| {
-                self.periodic[a] || (1..self.grid.cells[a].saturating_sub(1)).contains(&cell[a])
-            })
+        let off_the_face = |a: usize| (1..self.grid.cells[a].saturating_sub(1)).contains(&cell[a]);
+        let solid = &self.setup.solid;
+        if solid.is_empty() {
+            return (0..3).all(|a| self.periodic[a] || off_the_face(a));
+        }
+        if !(0..3).all(off_the_face) {
+            return false;
+        }
+        let [nx, ny, _] = self.grid.cells.map(|n| n as usize);
+        let here = self.grid.index(cell);
+        let rows = [0, nx, 2 * nx].into_iter().flat_map(|row| {
+            [0, nx * ny, 2 * nx * ny].map(|plane| here - nx * ny - nx - 1 + row + plane)
+        });
+        rows.into_iter()
+            .all(|first| !solid[first..first + 3].contains(&true))
     }
 
     fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {

@@ -1,5 +1,6 @@
 //! The lattice Boltzmann fluid: D3Q27, in place, on any device.
 
+mod bytes;
 mod exchange;
 mod fluid;
 mod gather;
@@ -11,6 +12,8 @@ mod populations;
 mod program;
 mod setup;
 mod start;
+mod stream_only;
+mod traffic;
 
 pub use exchange::Populations;
 pub use fluid::{Lattice, face_name, in_plane};
@@ -18,6 +21,8 @@ pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
 pub use grid::Grid;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
-pub use program::{Reach, collide_stream, constants};
+pub use program::{Reach, collide_stream, constants, single_cells, stream_only};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
 pub use start::State;
+pub use stream_only::StreamOnly;
+pub use traffic::{bytes_a_cell, bytes_a_step};

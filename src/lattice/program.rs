@@ -71,6 +71,30 @@ pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
         )
 }
 
+/// A kernel of a setup for single cells: at walls and faces, at the start, for output.
+pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
+    let beside = match setup.is_all_fluid() {
+        true => "beside_none",
+        false => "beside_flags",
+    };
+    let force = match setup.force {
+        Force::None => "cell_force_none",
+        Force::Constant(_) => "cell_force_constant",
+        Force::Field(_) => "cell_force_field",
+    };
+    Program::new(entry)
+        .text("scalars", populations::scalars(bindings, setup.storage))
+        .slot("lanes", "lanes_1")
+        .slot("beside", beside)
+        .slot("equilibrium", equilibrium(setup.equilibrium))
+        .slot("cell_force", force)
+}
+
+/// Streaming without collision, in the layout of a setup.
+pub fn stream_only(setup: &Setup, bindings: u32) -> Program {
+    base("stream_only", setup, bindings).slot("where", "where_all")
+}
+
 /// The file of an equilibrium.
 pub fn equilibrium(kind: Equilibrium) -> &'static str {
     match kind {

@@ -20,6 +20,8 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "relax_bgk", "relax_hermite", "relax_suga", "scalar_grid", "store_f16", "store_f32",
         "stream", "sums", "velocity", "wale", "weights", "where_all", "where_listed",
         "word_f16_2", "word_f16_4";
+    "measure":
+        "copy_four_vectors", "copy_scalar", "copy_vector", "stream_only";
 };
 
 /// The text of the file `name`.

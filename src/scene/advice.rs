@@ -12,7 +12,7 @@ const MOST_MACH: f64 = 0.3;
 /// Above this Mach number the error of compressibility exceeds 2 %.
 const HIGH_MACH: f64 = 0.15;
 /// Range of τ − ½ in which the rates of Suga et al. (2015) are linearly stable at rest.
-const SUGA: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
+pub const SUGA_EXCESS: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
 /// Below this τ − ½ the viscosity drowns in the rounding of f32.
 const LEAST_TAU: f64 = 1e-6;
 /// Above this τ half-way walls and the discretisation lose accuracy quickly.
@@ -146,10 +146,10 @@ impl Adviser<'_> {
 
     fn suga(&self) -> Result<()> {
         let suga = self.scene.numerics.collision == Collision::Suga;
-        if !suga || SUGA.contains(&self.excess) {
+        if !suga || SUGA_EXCESS.contains(&self.excess) {
             return Ok(());
         }
-        let (low, high) = (*SUGA.start(), *SUGA.end());
+        let (low, high) = (*SUGA_EXCESS.start(), *SUGA_EXCESS.end());
         let remedy = if self.excess > high {
             format!("time_step ≤ {:.3e} s", self.step_for(high))
         } else {

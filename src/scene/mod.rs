@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use advice::{Advice, Warning};
+pub use advice::{Advice, SUGA_EXCESS, Warning};
 pub use boundaries::{Boundaries, Boundary};
 pub use domain::Domain;
 pub use face::{Axis, Direction, Face};

@@ -12,8 +12,8 @@ pub use setup::{face_velocity, lattice_setup};
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
-    lattice::{Lattice, Observer, State},
-    scene::{Advice, Boundary, Face, Scene},
+    lattice::{self, Collision, Derived, Lattice, Observer, State},
+    scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
 
@@ -83,32 +83,75 @@ impl Simulation {
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         let mut left = steps;
         while left > 0 {
-            // A face that changes in time gets its velocities before each step.
-            let together = if self.changing.is_empty() { left } else { 1 };
             let mut encoder = self.device.create_command_encoder(&Default::default());
+            let mut coming = Vec::new();
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
-                for _ in 0..together {
+                // A velocity that changes is written between two submissions.
+                while left > 0 && coming.is_empty() {
                     self.lattice.record(&mut pass);
+                    left -= 1;
+                    coming = self.changed_faces()?;
                 }
             }
             self.queue.submit([encoder.finish()]);
-            self.set_changing_faces()?;
-            left -= together;
+            self.set_faces(coming)?;
         }
-        match self
+        let fault = self
             .observer
             .fault(&self.device, &self.queue, &self.lattice)
-            .await?
-        {
-            None => Ok(()),
-            Some(fault) => Err(self.diverged(fault)),
+            .await?;
+        if let Some(fault) = fault {
+            return Err(self.diverged(fault));
         }
+        self.check_suga().await
     }
 
-    fn set_changing_faces(&mut self) -> Result<()> {
+    /// The published operator is unstable where WALE lifts the relaxation time over its bound.
+    async fn check_suga(&mut self) -> Result<()> {
+        let setup = self.lattice.setup();
+        if setup.collision != Collision::Suga || setup.wale.is_none() {
+            return Ok(());
+        }
+        let tau = setup.tau();
+        let (device, queue) = (&self.device, &self.queue);
+        let viscosity = self
+            .observer
+            .derived(device, queue, &mut self.lattice, Derived::EddyViscosity)
+            .await?;
+        let largest = viscosity.into_iter().fold(0.0, f32::max);
+        let effective = tau + 3.0 * f64::from(largest);
+        let bound = 0.5 + SUGA_EXCESS.end();
+        if effective <= bound {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "numerics.collision",
+            format!(
+                "in step {} WALE lifts the relaxation time to {effective:.3}, and `suga` is unstable above \
+                 {bound}; use collision = \"hermite\", or a time step of {:.2e} s",
+                self.step(),
+                self.units.time_step * (bound - 0.5) / (effective - 0.5)
+            ),
+        ))
+    }
+
+    /// The velocity faces whose values at the present time are not those that they have.
+    fn changed_faces(&self) -> Result<Vec<(Face, Vec<[f32; 3]>)>> {
+        let mut changed = Vec::new();
         for &face in &self.changing {
             let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
+            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+            match &self.lattice.setup().faces[axis][side] {
+                lattice::Face::Velocity(old) if *old == velocity => {}
+                _ => changed.push((face, velocity)),
+            }
+        }
+        Ok(changed)
+    }
+
+    fn set_faces(&mut self, faces: Vec<(Face, Vec<[f32; 3]>)>) -> Result<()> {
+        for (face, velocity) in faces {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
             self.lattice
                 .set_face_velocity(&self.queue, axis, side, velocity)?;
@@ -184,7 +227,8 @@ impl Simulation {
         }
         self.lattice
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
-        self.set_changing_faces()
+        let changed = self.changed_faces()?;
+        self.set_faces(changed)
     }
 }
 

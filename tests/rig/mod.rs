@@ -16,16 +16,21 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// The first adapter with all it offers; panics with the install hint where there is none.
+    /// The first adapter, or the one that RIPRAP_ADAPTER names, with all it offers; panics with the
+    /// install hint where there is none.
     pub fn new() -> Self {
-        let adapter = gpu::pick(None).unwrap();
-        Self::with_limits(adapter.limits())
+        Self::with_limits(adapter().limits())
     }
 
     pub fn with_limits(limits: wgpu::Limits) -> Self {
-        let adapter = gpu::pick(None).unwrap();
+        let adapter = adapter();
         let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits).unwrap();
         Self { device, queue }
+    }
+
+    /// Bindings for the populations where each kernel has at most five others.
+    pub fn most_bindings(&self) -> u32 {
+        (self.device.limits().max_storage_buffers_per_shader_stage - 5).min(27)
     }
 
     pub fn wait<T>(&self, future: impl Future<Output = T>) -> T {
@@ -65,4 +70,8 @@ impl Rig {
         self.wait(observer.state(&self.device, &self.queue, lattice))
             .unwrap()
     }
+}
+
+fn adapter() -> wgpu::Adapter {
+    gpu::pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref()).unwrap()
 }

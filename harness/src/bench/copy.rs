@@ -1,0 +1,142 @@
+//! The copy bandwidth of an adapter: the fastest of four ways to copy.
+
+use super::{clock::Clock, subject::Subject};
+use riprap::{Error, kernel::Kernel, link::Program, wgpu};
+use std::time::{Duration, Instant};
+
+/// A way to copy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// `copy_buffer_to_buffer`.
+    Buffer,
+    /// A kernel of [`KERNELS`].
+    Kernel(usize),
+}
+
+/// Files of the copy kernels, and the bytes that a workgroup of each copies.
+const KERNELS: [(&str, u64); 3] = [
+    ("copy_scalar", 64 * 4),
+    ("copy_vector", 64 * 16),
+    ("copy_four_vectors", 256 * 16),
+];
+
+/// All ways.
+pub const METHODS: [Method; 4] = [
+    Method::Buffer,
+    Method::Kernel(0),
+    Method::Kernel(1),
+    Method::Kernel(2),
+];
+
+/// Two stretches of memory, in pieces that a binding holds.
+pub struct Copy {
+    pieces: Vec<Piece>,
+    kernels: Vec<Kernel>,
+    bytes: u64,
+}
+
+struct Piece {
+    original: wgpu::Buffer,
+    duplicate: wgpu::Buffer,
+    binds: Vec<wgpu::BindGroup>,
+}
+
+impl Copy {
+    /// At least `bytes` on either side.
+    ///
+    /// # Errors
+    /// If the device refuses the kernels.
+    pub fn new(device: &wgpu::Device, bytes: u64) -> Result<Self, Error> {
+        let limits = device.limits();
+        let largest = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size);
+        // Whole workgroups of every kernel.
+        let unit = KERNELS[2].1;
+        let count = bytes.div_ceil(largest - largest % unit).max(1);
+        let size = bytes.div_ceil(count).next_multiple_of(unit);
+        let kernels = KERNELS
+            .iter()
+            .map(|(file, _)| Kernel::new(device, &Program::new(file).link()?, file, &[]))
+            .collect::<Result<Vec<_>, _>>()?;
+        let buffer = |label| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let piece = |_| {
+            let (original, duplicate) = (buffer("original"), buffer("duplicate"));
+            let named = [("original", &original), ("duplicate", &duplicate)];
+            let binds = kernels.iter().map(|kernel| kernel.bind(device, &named));
+            let binds = binds.collect::<Result<Vec<_>, _>>()?;
+            Ok(Piece {
+                original,
+                duplicate,
+                binds,
+            })
+        };
+        let pieces = (0..count).map(piece).collect::<Result<Vec<_>, Error>>()?;
+        Ok(Self {
+            pieces,
+            kernels,
+            bytes: count * size,
+        })
+    }
+
+    /// Bytes read and written by a copy.
+    pub fn traffic(&self) -> f64 {
+        2.0 * self.bytes as f64
+    }
+
+    /// Records a copy by `copy_buffer_to_buffer`.
+    pub fn record_buffers(&self, encoder: &mut wgpu::CommandEncoder) {
+        for piece in &self.pieces {
+            encoder.copy_buffer_to_buffer(&piece.original, 0, &piece.duplicate, 0, None);
+        }
+    }
+
+    /// Records a copy by a kernel.
+    pub fn record(&self, method: Method, pass: &mut wgpu::ComputePass<'_>) {
+        let Method::Kernel(n) = method else { return };
+        for piece in &self.pieces {
+            let groups = piece.original.size().div_ceil(KERNELS[n].1) as u32;
+            self.kernels[n].record(pass, &piece.binds[n], groups);
+        }
+    }
+}
+
+/// Bytes that the device reads and writes a second when it copies: the fastest way, over `bytes`
+/// or as many as a quarter of a second allows.
+///
+/// # Errors
+/// If the device refuses or is lost.
+pub fn copy_bandwidth(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    bytes: u64,
+) -> Result<f64, Error> {
+    // 32 MiB on either side are more than most caches hold and take a CPU some 10 ms.
+    const MOST: u64 = 32 << 20;
+    const TIME: Duration = Duration::from_millis(250);
+    let start = Instant::now();
+    let copy = Copy::new(device, bytes.min(MOST))?;
+    let mut clock = Clock::new(device, queue, false);
+    let mut best: f64 = 0.0;
+    // Vectors are the fastest way on most adapters, so they are tried first. The first turn
+    // compiles and clears.
+    for method in METHODS.into_iter().rev() {
+        for _turn in 0..3 {
+            if best > 0.0 && start.elapsed() > TIME {
+                return Ok(best);
+            }
+            let spent = clock.run(&mut Subject::Copying(&copy, method), 1)?;
+            best = best.max(copy.traffic() / spent.basis);
+        }
+    }
+    Ok(best)
+}

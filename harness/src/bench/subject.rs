@@ -1,0 +1,43 @@
+//! What is measured: a lattice that steps, one that only streams, or a copy.
+
+use super::copy::{Copy, Method};
+use riprap::{
+    lattice::{Lattice, StreamOnly},
+    timer::{self, Timer},
+    wgpu,
+};
+
+/// Something that can be recorded over and over.
+pub enum Subject<'a> {
+    /// Steps of a fluid.
+    Steps(Box<Lattice>),
+    /// Steps without collision.
+    Streaming(Box<StreamOnly>),
+    /// Copies of a stretch of memory.
+    Copying(&'a Copy, Method),
+}
+
+impl Subject<'_> {
+    /// Records `turns`; says whether they are between timestamps.
+    pub fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: Option<&mut Timer>,
+        turns: u32,
+    ) -> bool {
+        if let Self::Copying(copy, Method::Buffer) = self {
+            (0..turns).for_each(|_| copy.record_buffers(encoder));
+            return false;
+        }
+        let timed = timer.is_some();
+        let mut pass = encoder.begin_compute_pass(&timer::pass(timer, "turns"));
+        for _ in 0..turns {
+            match self {
+                Self::Steps(lattice) => lattice.record(&mut pass),
+                Self::Streaming(lattice) => lattice.record(&mut pass),
+                Self::Copying(copy, method) => copy.record(*method, &mut pass),
+            }
+        }
+        timed
+    }
+}

@@ -1,0 +1,170 @@
+//! The forms of the kernel that are measured, and which of them run side by side.
+
+use super::report::Machine;
+use riprap::{
+    lattice::{Collision, Equilibrium, Face, Force, Grid, Memory, Setup, Storage, memory},
+    wgpu,
+};
+
+/// The plain step, with which the others are compared: f32, Hermite MRT, nothing else.
+pub const PLAIN: &str = "mrt";
+/// Streaming without collision.
+pub const STREAM_ONLY: &str = "stream only";
+
+/// A named setup.
+#[derive(Clone)]
+pub struct Variant {
+    /// What it is.
+    pub name: &'static str,
+    /// Its setup.
+    pub setup: Setup,
+    /// Bytes and bindings.
+    pub memory: Memory,
+}
+
+/// Variants of one layout that are measured in turns; the first only streams, the second is plain.
+pub struct Group {
+    /// Cells an axis.
+    pub grid: u32,
+    /// Streaming, plain, then the others.
+    pub variants: Vec<Variant>,
+}
+
+type Change = fn(&mut Setup);
+
+/// What changes the plain step.
+const MAIN: [(&str, Change); 6] = [
+    ("bgk", |s| s.collision = Collision::Bgk),
+    ("mrt, force", |s| s.force = FORCE),
+    ("mrt, WALE", |s| s.wale = Some(0.5)),
+    ("mrt, guard", |s| s.max_speed = 0.3),
+    ("mrt, walls", |s| s.faces = walls()),
+    ("all of these", |s| {
+        (s.force, s.wale, s.max_speed, s.faces) = (FORCE, Some(0.5), 0.3, walls());
+    }),
+];
+
+/// The rest, in the layout that the adapter likes best.
+const REST: [(&str, Change); 8] = [
+    ("mrt, second-order equilibrium", |s| {
+        s.equilibrium = Equilibrium::SecondOrder;
+    }),
+    ("Suga's mrt", |s| {
+        (s.collision, s.equilibrium) = (Collision::Suga, Equilibrium::SecondOrder);
+    }),
+    ("mrt, 1 binding", |s| s.bindings = Some(1)),
+    ("mrt, 2 bindings", |s| s.bindings = Some(2)),
+    ("mrt, 7 bindings", |s| s.bindings = Some(7)),
+    ("mrt, 27 bindings", |s| s.bindings = Some(27)),
+    ("mrt, bricks 16 × 2 × 2", |s| s.brick = [16, 2, 2]),
+    ("mrt, bricks 64 × 1 × 1", |s| s.brick = [64, 1, 1]),
+];
+
+/// A weak one: its value does not matter to the time.
+const FORCE: Force = Force::Constant([1e-6, 0.0, 0.0]);
+
+fn walls() -> [[Face; 2]; 3] {
+    let wall = || Face::Wall([0.0; 3]);
+    [[wall(), wall()], [wall(), wall()], [wall(), wall()]]
+}
+
+/// The groups on a grid; a variant that the adapter cannot hold is named and left out.
+pub fn groups(
+    grid: u32,
+    machine: &Machine,
+    quick: bool,
+    budget: u64,
+    limits: &wgpu::Limits,
+) -> Vec<Group> {
+    // The layout that the adapter likes best first, then the one that is there to compare.
+    let layouts = match machine.software {
+        true => [
+            (Storage::F32, 4),
+            (Storage::F16, 4),
+            (Storage::F32, 1),
+            (Storage::F16, 2),
+        ],
+        false => [
+            (Storage::F32, 1),
+            (Storage::F16, 2),
+            (Storage::F32, 4),
+            (Storage::F16, 4),
+        ],
+    };
+    let mut all = Vec::new();
+    for (rank, (storage, lanes)) in layouts.into_iter().enumerate() {
+        let wanted: Vec<_> = match (rank, quick) {
+            (0, true) => MAIN.to_vec(),
+            (0, false) => MAIN.into_iter().chain(REST).collect(),
+            (1, _) => MAIN[..3].to_vec(),
+            (_, true) => continue,
+            (_, false) => Vec::new(),
+        };
+        let make = |name, change: Change| {
+            let mut setup = Setup::periodic([grid; 3], 0.01);
+            (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
+            if machine.software {
+                setup.brick = [64, 1, 1];
+            }
+            change(&mut setup);
+            let memory = Grid::new(&setup).and_then(|g| memory(&setup, &g, limits));
+            match memory {
+                Ok(memory) => Some(Variant {
+                    name,
+                    setup,
+                    memory,
+                }),
+                Err(error) => {
+                    println!("{name}, {storage:?}, {lanes} lanes: left out, {error}");
+                    None
+                }
+            }
+        };
+        let (Some(stream), Some(plain)) = (make(STREAM_ONLY, |_| {}), make(PLAIN, |_| {})) else {
+            continue;
+        };
+        let others = wanted
+            .into_iter()
+            .filter_map(|(name, change)| make(name, change));
+        all.extend(split(grid, [stream, plain], others.collect(), budget));
+    }
+    all
+}
+
+/// Puts as many variants side by side as memory holds, each group with the two it is compared to.
+fn split(grid: u32, base: [Variant; 2], others: Vec<Variant>, budget: u64) -> Vec<Group> {
+    let bytes = |v: &Variant| v.memory.populations + v.memory.others;
+    // The copies have two stretches as long as the populations.
+    let fixed = base.iter().map(bytes).sum::<u64>() + 2 * base[0].memory.populations;
+    let new = || Group {
+        grid,
+        variants: base.to_vec(),
+    };
+    if fixed > budget {
+        println!(
+            "{grid}³, {:?}: left out, takes {:.1} GiB of the {:.1} allowed; use --memory",
+            base[0].setup.storage,
+            fixed as f64 / 2f64.powi(30),
+            budget as f64 / 2f64.powi(30)
+        );
+        return Vec::new();
+    }
+    let mut groups = vec![new()];
+    let mut taken = fixed;
+    for variant in others {
+        let more = bytes(&variant);
+        if fixed + more > budget {
+            println!("{}: left out, memory; use --memory", variant.name);
+            continue;
+        }
+        if taken + more > budget {
+            groups.push(new());
+            taken = fixed;
+        }
+        taken += more;
+        if let Some(group) = groups.last_mut() {
+            group.variants.push(variant);
+        }
+    }
+    groups
+}

@@ -1,0 +1,208 @@
+//! What a scene will run.
+
+use crate::adapters::Adapter;
+use anyhow::Result;
+use riprap::{lattice::Lattice, simulation::Simulation, units::Units};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// All that `riprap check` says.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// What it runs on.
+    pub adapter: Adapter,
+    /// The grid.
+    pub cells: Cells,
+    /// Bytes on the device.
+    pub memory: Memory,
+    /// What a step dispatches.
+    pub kernels: Vec<Kernel>,
+    /// Time and the numbers of the method.
+    pub numerics: Numerics,
+    /// What may disappoint.
+    pub warnings: Vec<String>,
+    /// How long it takes.
+    pub time: Time,
+}
+
+/// The grid.
+#[derive(Debug, Serialize)]
+pub struct Cells {
+    /// Cells along x, y, z.
+    pub size: [u32; 3],
+    /// Fluid cells.
+    pub fluid: u64,
+    /// Cells of static solids.
+    pub solid: u64,
+    /// Cells an invocation.
+    pub lanes: u32,
+    /// Groups of 64 invocations of plain fluid.
+    pub plain_bricks: u64,
+    /// Those with a wall, a solid or a face.
+    pub mixed_bricks: u64,
+    /// Those without fluid, which are never dispatched.
+    pub idle_bricks: u64,
+    /// Populations that walls and free-slip faces reflect in each step.
+    pub links: u64,
+    /// Cells at moving walls and velocity faces.
+    pub moving: u64,
+    /// Cells at pressure faces.
+    pub open: u64,
+}
+
+/// Bytes on the device.
+#[derive(Debug, Serialize)]
+pub struct Memory {
+    /// By kind.
+    pub kinds: BTreeMap<String, u64>,
+    /// In all.
+    pub total: u64,
+    /// Storage bindings that hold the populations.
+    pub population_bindings: u32,
+}
+
+/// A dispatch of a step.
+#[derive(Debug, Serialize)]
+pub struct Kernel {
+    /// File under `kernels/`, without folder and ending.
+    pub file: String,
+    /// Its entry point.
+    pub entry: String,
+    /// Its slots, with the files that fill them.
+    pub slots: BTreeMap<String, String>,
+    /// Names of its buffers.
+    pub bindings: Vec<String>,
+    /// Groups of 64 invocations.
+    pub workgroups: u32,
+}
+
+/// Time step and the numbers of the method.
+#[derive(Debug, Serialize)]
+pub struct Numerics {
+    /// Time step, s.
+    pub time_step: f64,
+    /// Steps of the run.
+    pub steps: u64,
+    /// Simulated time of the run, s.
+    pub duration: f64,
+    /// Relaxation time of the viscosity, lattice units.
+    pub tau: f64,
+    /// Speed that Mach and Reynolds number are of, m/s; none if nothing moves at the start.
+    pub speed: Option<f64>,
+    /// Mach number of the lattice at that speed.
+    pub mach: Option<f64>,
+    /// Reynolds number of a cell at that speed.
+    pub cell_reynolds: Option<f64>,
+    /// Magic parameter of the odd moments everywhere.
+    pub lambda: Option<f64>,
+    /// Magic parameter of the odd moments beside walls.
+    pub wall_lambda: Option<f64>,
+    /// Least rate of the odd moments beside walls.
+    pub odd_rate_floor: f64,
+}
+
+/// How long the run takes, without its output.
+#[derive(Debug, Default, Serialize)]
+pub struct Time {
+    /// One step, s.
+    pub step: f64,
+    /// All steps, s.
+    pub run: f64,
+    /// Updates of fluid cells a second.
+    pub cells_a_second: f64,
+    /// Steps that were timed.
+    pub trial_steps: u64,
+}
+
+impl Report {
+    /// What is known of a scene before it runs.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub fn of(simulation: &Simulation, adapter: Adapter) -> Result<Self> {
+        let lattice = simulation.lattice();
+        let scene = simulation.scene();
+        let warnings = simulation.advice().iter().map(ToString::to_string);
+        Ok(Self {
+            title: scene.title.clone(),
+            adapter,
+            cells: Cells::of(lattice),
+            memory: Memory::of(lattice),
+            kernels: lattice.kernels(false).map(Kernel::of).collect(),
+            numerics: Numerics::of(simulation, simulation.units())?,
+            warnings: warnings.collect(),
+            time: Time::default(),
+        })
+    }
+}
+
+impl Cells {
+    fn of(lattice: &Lattice) -> Self {
+        let (grid, geometry) = (lattice.grid(), lattice.geometry());
+        let all: u64 = grid.bricks().iter().map(|&n| u64::from(n)).product();
+        let mixed = geometry.mixed.len() as u64;
+        let idle = u64::from(geometry.solid_bricks);
+        let open = geometry.open.iter().map(|(_, _, cells)| cells.len() as u64);
+        Self {
+            size: grid.cells,
+            fluid: geometry.fluid_cells,
+            solid: grid.cell_count() as u64 - geometry.fluid_cells,
+            lanes: grid.lanes,
+            plain_bricks: all - mixed - idle,
+            mixed_bricks: mixed,
+            idle_bricks: idle,
+            links: geometry.links.len() as u64,
+            moving: geometry.moving.len() as u64,
+            open: open.sum(),
+        }
+    }
+}
+
+impl Memory {
+    fn of(lattice: &Lattice) -> Self {
+        let bytes = lattice.bytes().into_iter();
+        let mut kinds: BTreeMap<_, _> = bytes.map(|(kind, n)| (kind.to_owned(), n)).collect();
+        // Density and three components of the velocity in f32.
+        let output = 16 * lattice.grid().cell_count() as u64;
+        kinds.insert("density and velocity for output".into(), output);
+        Self {
+            total: kinds.values().sum(),
+            kinds,
+            population_bindings: lattice.population_buffers().len() as u32,
+        }
+    }
+}
+
+impl Kernel {
+    fn of((kernel, workgroups): (&riprap::kernel::Kernel, u32)) -> Self {
+        Self {
+            file: kernel.file().into(),
+            entry: kernel.entry().into(),
+            slots: kernel.slots().iter().cloned().collect(),
+            bindings: kernel.bindings().iter().map(|b| b.name.clone()).collect(),
+            workgroups,
+        }
+    }
+}
+
+impl Numerics {
+    fn of(simulation: &Simulation, units: &Units) -> Result<Self> {
+        let (scene, setup) = (simulation.scene(), simulation.lattice().setup());
+        let given = scene.numerics.velocity_scale.unwrap_or_default();
+        let speed = Some(given.max(scene.sampled_speed()?)).filter(|speed| *speed > 0.0);
+        Ok(Self {
+            time_step: units.time_step,
+            steps: scene.run.step_count(units),
+            duration: scene.run.duration(units),
+            tau: setup.tau(),
+            speed,
+            mach: speed.map(|speed| units.mach(speed)),
+            cell_reynolds: speed.map(|speed| speed * units.cell / scene.fluid.viscosity),
+            lambda: setup.lambda,
+            wall_lambda: setup.wall_lambda,
+            odd_rate_floor: setup.odd_rate_floor,
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Lid-driven cavity against the tables of Ghia, Ghia & Shin 1982.
+
+use super::{Outcome, Stand, fields};
+use anyhow::Context;
+use riprap::lattice::{Face, State};
+use serde_json::Value;
+
+/// Speed of the lid: its square is what the weak compressibility costs.
+const SPEED: f64 = 0.1;
+/// Largest change of the velocity in a time L/U, in units of U, that counts as steady.
+const STEADY: f64 = 1e-5;
+/// Times L/U after which a cavity that is not steady is taken as it is.
+const LONGEST: u64 = 150;
+
+/// The published tables that several cases compare with.
+pub fn literature() -> anyhow::Result<Value> {
+    let text = include_str!("../../../tests/data/literature_tables.json");
+    serde_json::from_str(text).context("the table of published values")
+}
+
+/// A list of numbers of the tables.
+pub fn list(table: &Value, names: [&str; 2]) -> anyhow::Result<Vec<f64>> {
+    let values = table[names[0]][names[1]].as_array();
+    let values = values.with_context(|| format!("no published list {names:?}"))?;
+    Ok(values.iter().filter_map(Value::as_f64).collect())
+}
+
+/// Re = 100: on 64 cells, with `--full` on 128.
+pub fn re100(stand: &Stand) -> Outcome {
+    let sizes: &[u32] = if stand.full { &[64, 128] } else { &[64] };
+    run(stand, sizes, 100.0, "Re100", 0.005)
+}
+
+/// Re = 1000 on 64 cells for comparison and on 128.
+pub fn re1000(stand: &Stand) -> Outcome {
+    run(stand, &[64, 128], 1000.0, "Re1000", 0.01)
+}
+
+/// `limit` is of the rms error on the centre lines over U; it holds on the finest grid.
+fn run(stand: &Stand, sizes: &[u32], reynolds: f64, column: &str, limit: f64) -> Outcome {
+    let tables = literature()?;
+    let u_at = list(&tables, ["ghia_1982_u_x0.5", "y"])?;
+    let u = list(&tables, ["ghia_1982_u_x0.5", column])?;
+    let v_at = list(&tables, ["ghia_1982_v_y0.5", "x"])?;
+    let v = list(&tables, ["ghia_1982_v_y0.5", column])?;
+    let mut records = Vec::new();
+    for &n in sizes {
+        let cells = [n, n, 4];
+        let mut setup = stand.setup(cells, SPEED * f64::from(n) / reynolds);
+        setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([SPEED, 0.0, 0.0])];
+        let turn = (f64::from(n) / SPEED).round() as u64;
+        let mut before = State::rest((4 * n * n) as usize);
+        let mut flow = stand.flow(setup, &before, false)?;
+        let mut change = f64::INFINITY;
+        while change > STEADY && flow.trial().steps < LONGEST * turn {
+            flow.advance(turn)?;
+            let state = flow.state()?;
+            change = fields::largest_change(&before, &state) / SPEED;
+            before = state;
+        }
+        let at = |x: u32, y: u32| (x + n * y) as usize;
+        let middle = [n / 2 - 1, n / 2];
+        let mean = |values: [f32; 2]| 0.5 * f64::from(values[0] + values[1]) / SPEED;
+        let u_line = line(n, [0.0, 1.0], |y| {
+            mean(middle.map(|x| before.velocity[0][at(x, y)]))
+        });
+        let v_line = line(n, [0.0, 0.0], |x| {
+            mean(middle.map(|y| before.velocity[1][at(x, y)]))
+        });
+        let trial = flow.trial();
+        let mut all = Vec::new();
+        for (name, line, places, values) in [("u", &u_line, &u_at, &u), ("v", &v_line, &v_at, &v)] {
+            let errors = errors(line, places, values);
+            let quantity = format!("rms error of {name} / U, {n} cells");
+            records.push(trial.report(quantity, rms(&errors), None));
+            all.extend(errors);
+        }
+        let quantity = format!("rms error of u and v / U, {n} cells");
+        records.push(if Some(&n) == sizes.last() {
+            trial.at_most(quantity, rms(&all), limit)
+        } else {
+            trial.report(quantity, rms(&all), None)
+        });
+        records.push(trial.report("change in the last L/U / U", change, None));
+    }
+    Ok(records)
+}
+
+/// Places and values on a centre line, walls included.
+fn line(n: u32, walls: [f64; 2], value: impl Fn(u32) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let inside = (0..n).map(|k| ((f64::from(k) + 0.5) / f64::from(n), value(k)));
+    std::iter::once((0.0, walls[0]))
+        .chain(inside)
+        .chain(std::iter::once((1.0, walls[1])))
+        .unzip()
+}
+
+/// Differences from the table inside; on the walls both have the boundary's value.
+fn errors(line: &(Vec<f64>, Vec<f64>), places: &[f64], values: &[f64]) -> Vec<f64> {
+    let inside = places
+        .iter()
+        .zip(values)
+        .filter(|(x, _)| **x > 0.0 && **x < 1.0);
+    inside
+        .map(|(&x, value)| fields::cubic(&line.0, &line.1, x) - value)
+        .collect()
+}
+
+fn rms(errors: &[f64]) -> f64 {
+    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
+}

@@ -1,0 +1,108 @@
+//! Vortices that keep their shape as they decay: order of convergence and viscosity.
+
+use super::{Outcome, Stand, fields};
+use std::f64::consts::{LN_2, TAU};
+
+/// Viscosity on every grid: in diffusive scaling the step goes with the square of the cell.
+const NU: f64 = 0.02;
+/// Velocity of the coarsest grid, 16 cells; it falls with the cell, so that compressibility errors
+/// fall with the square.
+const COARSE_SPEED: f64 = 0.04;
+const SIZES: [u32; 3] = [16, 32, 64];
+/// Order that a scheme of second order shows on these grids.
+const LEAST_ORDER: f64 = 1.95;
+/// Of the viscosity on 64 cells: (2π/64)² = 0.01 times the leading coefficient of the error, 0.1.
+const VISCOSITY_LIMIT: f64 = 1e-3;
+
+/// A decaying flow in units of its speed, on a periodic box of edge 2π.
+struct Vortices {
+    /// Whether the flow is the same at every z.
+    flat: bool,
+    /// The amplitude falls as exp(−rate ν k² t).
+    rate: f64,
+    /// Share of the amplitude that is lost in the run: exp(−loss).
+    loss: f64,
+    velocity: fn([f64; 3]) -> [f64; 3],
+    pressure: fn([f64; 3]) -> f64,
+}
+
+/// Taylor & Green 1937, two-dimensional.
+pub fn taylor_green(stand: &Stand) -> Outcome {
+    convergence(
+        stand,
+        &Vortices {
+            flat: true,
+            rate: 2.0,
+            loss: LN_2,
+            velocity: |[x, y, _]| [x.sin() * y.cos(), -x.cos() * y.sin(), 0.0],
+            pressure: |[x, y, _]| 0.25 * ((2.0 * x).cos() + (2.0 * y).cos()),
+        },
+    )
+}
+
+/// Arnold, Beltrami & Childress (Dombre et al. 1986), A = B = C: curl u = u, so that p + u²/2 is
+/// the same everywhere.
+pub fn abc_flow(stand: &Stand) -> Outcome {
+    fn velocity([x, y, z]: [f64; 3]) -> [f64; 3] {
+        // The largest speed of the sum is about 2.
+        [
+            0.5 * (z.sin() + y.cos()),
+            0.5 * (x.sin() + z.cos()),
+            0.5 * (y.sin() + x.cos()),
+        ]
+    }
+    convergence(
+        stand,
+        &Vortices {
+            flat: false,
+            rate: 1.0,
+            loss: 0.5 * LN_2,
+            velocity,
+            // The mean of u² is 3/4: the mean density stays 1.
+            pressure: |at| 0.375 - 0.5 * velocity(at).iter().map(|u| u * u).sum::<f64>(),
+        },
+    )
+}
+
+fn convergence(stand: &Stand, flow: &Vortices) -> Outcome {
+    let mut records = Vec::new();
+    let mut errors = Vec::new();
+    for n in SIZES {
+        let cells = [n, n, if flow.flat { 4 } else { n }];
+        let k = TAU / f64::from(n);
+        let speed = COARSE_SPEED * f64::from(SIZES[0]) / f64::from(n);
+        let scaled = |at: [f64; 3]| at.map(|x| k * x);
+        let decay = |steps: f64| (-flow.rate * NU * k * k * steps).exp();
+        let start = fields::state(cells, |at| {
+            let at = scaled(at);
+            let excess = 3.0 * speed * speed * (flow.pressure)(at);
+            (excess, (flow.velocity)(at).map(|u| speed * u))
+        });
+        let half = (0.5 * flow.loss / (flow.rate * NU * k * k)).round();
+        let mut run = stand.flow(stand.setup(cells, NU), &start, true)?;
+        let mode = |at| (flow.velocity)(scaled(at)).map(|u| speed * u);
+        run.advance(half as u64)?;
+        let middle = fields::amplitude(cells, &run.state()?, mode);
+        run.advance(half as u64)?;
+        let state = run.state()?;
+        let end = fields::amplitude(cells, &state, mode);
+        let error = fields::l2_error(cells, &state, |at| mode(at).map(|u| decay(2.0 * half) * u));
+        let trial = run.trial();
+        records.push(trial.report(format!("L2 error of u, {n} cells"), error, None));
+        let nu = (middle / end).ln() / (flow.rate * k * k * half);
+        let quantity = format!("viscosity / nominal, {n} cells");
+        records.push(if n == SIZES[2] {
+            trial.relative(quantity, nu / NU, 1.0, VISCOSITY_LIMIT)
+        } else {
+            trial.report(quantity, nu / NU, Some(1.0))
+        });
+        errors.push(error);
+        if n == SIZES[2] {
+            let coarse = (errors[0] / errors[1]).log2();
+            let fine = (errors[1] / errors[2]).log2();
+            records.push(trial.report("order, 16 to 32 cells", coarse, Some(2.0)));
+            records.push(trial.at_least("order, 32 to 64 cells", fine, LEAST_ORDER));
+        }
+    }
+    Ok(records)
+}

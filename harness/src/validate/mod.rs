@@ -1,0 +1,172 @@
+//! Flows whose answer is known, run on the device of the user, judged against published limits.
+//!
+//! A case is a function that runs flows on a [`Stand`] and returns [`Record`]s: a number, what it
+//! should be, the error, the limit and the cost. Cases are named `family/case`, one family a file.
+//! The short form fits a CPU adapter of two cores within minutes; `--full` adds the fine grids and
+//! long runs. Everything is in lattice units: cell, step and density of the fluid are 1.
+
+pub mod fields;
+pub mod record;
+pub mod stand;
+
+mod cavity;
+mod conservation;
+mod decay;
+mod golden;
+mod null_models;
+mod open_channel;
+mod outlet;
+mod plane_walls;
+mod repeatability;
+mod shear_wave;
+mod slots;
+mod stability;
+mod turbulent_channel;
+mod wake;
+mod wale;
+
+pub use record::{Record, Trial};
+pub use stand::{Flow, Stand};
+
+use anyhow::Context;
+use std::path::PathBuf;
+
+/// Compares flows with exact solutions, published tables and float64 references.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Args {
+    /// Cases to run, such as `cavity/*`; all without it
+    #[arg(long, value_name = "GLOB")]
+    pub case: Option<String>,
+    /// Finer grids, longer runs, and the cases that need them
+    #[arg(long)]
+    pub full: bool,
+    /// Where to write the records as a JSON array
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Part of the name of the adapter to use
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+/// What a case returns: its records, without its name.
+type Outcome = anyhow::Result<Vec<Record>>;
+
+/// A named case.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Family and case, as `--case` matches them.
+    pub name: &'static str,
+    /// Whether it only runs with `--full`.
+    pub only_full: bool,
+    run: fn(&Stand) -> Outcome,
+}
+
+const fn short(name: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+    Case {
+        name,
+        only_full: false,
+        run,
+    }
+}
+
+const fn long(name: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+    Case {
+        name,
+        only_full: true,
+        run,
+    }
+}
+
+/// All cases, in the order in which they run.
+pub const CASES: &[Case] = &[
+    short("kernels/slots", slots::run),
+    short("kernels/golden", golden::run),
+    short("kernels/null-models", null_models::run),
+    short("kernels/repeatability", repeatability::run),
+    short("kernels/conservation", conservation::run),
+    short("taylor-green/convergence", decay::taylor_green),
+    short("abc-flow/convergence", decay::abc_flow),
+    short("shear-wave/galilean", shear_wave::run),
+    short("walls/couette", plane_walls::couette),
+    short("walls/poiseuille", plane_walls::poiseuille),
+    short("walls/film", plane_walls::film),
+    short("channel/velocity-pressure", open_channel::velocity_pressure),
+    short("channel/velocity-outflow", open_channel::velocity_outflow),
+    short("channel/pressure-pressure", open_channel::pressure_pressure),
+    short("wake/pressure", wake::pressure),
+    short("wake/outflow", wake::outflow),
+    short("cavity/re100", cavity::re100),
+    long("cavity/re1000", cavity::re1000),
+    short("wale/pure-shear", wale::pure_shear),
+    short("wale/near-wall", wale::near_wall),
+    short("wale/solid-rotation", wale::solid_rotation),
+    long("wale/channel-re-tau-180", turbulent_channel::run),
+    short("outlet/pulse", outlet::pulse),
+    short("stability/quiescent", stability::quiescent),
+    short("stability/taylor-green", stability::taylor_green),
+];
+
+/// The cases whose names match.
+///
+/// # Errors
+/// If the pattern is not one, or no case matches: the names there are.
+pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
+    let pattern = glob::Pattern::new(pattern.unwrap_or("*"))
+        .with_context(|| format!("--case {} is no pattern", pattern.unwrap_or_default()))?;
+    let found: Vec<_> = CASES
+        .iter()
+        .filter(|case| pattern.matches(case.name))
+        .copied()
+        .collect();
+    if found.is_empty() {
+        let names: Vec<_> = CASES.iter().map(|case| case.name).collect();
+        anyhow::bail!(
+            "no case matches --case {pattern}; there are: {}",
+            names.join(", ")
+        );
+    }
+    Ok(found)
+}
+
+/// Runs the cases that match, prints each record as its case ends; whether all passed.
+///
+/// # Errors
+/// If no case matches, there is no adapter, or the JSON file cannot be written. A case that breaks
+/// off does not end the others: it fails with what went wrong.
+pub fn run(args: Args) -> anyhow::Result<bool> {
+    let cases = select(args.case.as_deref())?;
+    let stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    let mut records = Vec::new();
+    println!("{}", record::header());
+    for case in cases {
+        println!("{}", case.name);
+        if case.only_full && !args.full {
+            println!("     left out, it runs with --full");
+            continue;
+        }
+        let mut found = (case.run)(&stand).unwrap_or_else(|error| vec![broken_off(&error)]);
+        for record in &mut found {
+            record.case = case.name.into();
+            println!("{}", record::row(record));
+        }
+        records.append(&mut found);
+    }
+    if let Some(path) = &args.json {
+        let text = serde_json::to_string_pretty(&records)?;
+        std::fs::write(path, text + "\n")
+            .with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    let failed = records.iter().filter(|record| !record.passed).count();
+    let judged = records.iter().filter(|r| r.limit.is_some()).count();
+    println!("{} of {judged} checks passed", judged - failed);
+    Ok(failed == 0)
+}
+
+/// The record of a case that could not finish.
+fn broken_off(error: &anyhow::Error) -> Record {
+    let trial = Trial {
+        setup: format!("{error:#}"),
+        ..Trial::default()
+    };
+    trial.at_least("runs to its end", 0.0, 1.0)
+}

@@ -1,0 +1,78 @@
+//! Flows between plane walls: with Λ = 3/16 half-way bounce-back is exact at every τ.
+
+use super::{Outcome, Stand, fields};
+use riprap::lattice::{Face, Force, Setup, State};
+
+/// Ginzburg & d'Humières 2003: the parabola is exact, and the straight line at any Λ.
+const LAMBDA: f64 = 3.0 / 16.0;
+const TAUS: [f64; 6] = [0.55, 0.6, 0.8, 1.0, 2.0, 3.0];
+/// Largest velocity: its square is what the weak compressibility costs.
+const SPEED: f64 = 0.01;
+/// Round-off of f32 in a steady state.
+const LIMIT: f64 = 1e-5;
+const REST: [f64; 3] = [0.0; 3];
+
+/// Couette flow: straight, u = U y/H.
+pub fn couette(stand: &Stand) -> Outcome {
+    let h = 9;
+    each_tau(stand, h, |setup| {
+        setup.faces[1] = [Face::Wall(REST), Face::Wall([SPEED, 0.0, 0.0])];
+        |_, y, h| SPEED * y / h
+    })
+}
+
+/// Poiseuille flow driven by a force: u = F y (H − y)/(2ν).
+pub fn poiseuille(stand: &Stand) -> Outcome {
+    each_tau(stand, 9, |setup| {
+        setup.faces[1] = [Face::Wall(REST), Face::Wall(REST)];
+        setup.force = Force::Constant([8.0 * setup.nu * SPEED / 81.0, 0.0, 0.0]);
+        |_, y, h| 4.0 * SPEED * y * (h - y) / (h * h)
+    })
+}
+
+/// A film with a slip top: u = F (H y − y²/2)/ν.
+pub fn film(stand: &Stand) -> Outcome {
+    each_tau(stand, 8, |setup| {
+        setup.faces[1] = [Face::Wall(REST), Face::FreeSlip];
+        setup.force = Force::Constant([2.0 * setup.nu * SPEED / 64.0, 0.0, 0.0]);
+        |_, y, h| SPEED * (2.0 * h * y - y * y) / (h * h)
+    })
+}
+
+/// Runs the flow that `arrange` makes at each τ to its steady state.
+fn each_tau<Exact: Fn(f64, f64, f64) -> f64>(
+    stand: &Stand,
+    height: u32,
+    arrange: impl Fn(&mut Setup) -> Exact,
+) -> Outcome {
+    let cells = [4, height, 4];
+    let h = f64::from(height);
+    let mut records = Vec::new();
+    for tau in TAUS {
+        let mut setup = stand.setup(cells, (tau - 0.5) / 3.0);
+        setup.lambda = Some(LAMBDA);
+        let exact = arrange(&mut setup);
+        // The slowest mode of a film falls as exp(−(π/2)² ν t/H²): to 1e-7 of the start.
+        let steps = (7.0 * h * h / setup.nu).ceil().max(1000.0);
+        let mut flow = stand.flow(setup, &State::rest(16 * height as usize), false)?;
+        flow.advance(steps as u64)?;
+        let end = flow.state()?;
+        let error = fields::l2_error(cells, &end, |[_, y, _]| [exact(tau, y, h), 0.0, 0.0]);
+        let trial = flow.trial();
+        records.push(trial.at_most(format!("L2 error of u, τ = {tau}"), error, LIMIT));
+        let profile: Vec<_> = (0..3).map(|y| f64::from(end.velocity[0][4 * y])).collect();
+        let quantity = format!("wall at y, cells, τ = {tau}");
+        records.push(trial.report(quantity, root(&profile), None));
+    }
+    Ok(records)
+}
+
+/// Where the parabola through u(½), u(1½), u(2½) is zero, next to y = 0.
+fn root(u: &[f64]) -> f64 {
+    let curvature = u[0] - 2.0 * u[1] + u[2];
+    let first = u[1] - u[0];
+    let value = |y: f64| u[0] + first * (y - 0.5) + 0.5 * curvature * (y - 0.5) * (y - 1.5);
+    let derivative = |y: f64| first + curvature * (y - 1.0);
+    // Newton's method; the parabola is nearly straight there.
+    (0..20).fold(0.0, |y, _| y - value(y) / derivative(y))
+}

@@ -1,0 +1,193 @@
+//! What a case found: one number with its reference, its error, its limit and its cost.
+
+use riprap::lattice::{Collision, Equilibrium, Force, Setup, Storage};
+use serde::Serialize;
+
+/// One number that a case measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Record {
+    /// Name of the case, such as `cavity/re100`.
+    pub case: String,
+    /// What was run, in one line.
+    pub setup: String,
+    /// Fluid and solid cells of the domain.
+    pub cells: u64,
+    /// Steps done.
+    pub steps: u64,
+    /// Time on the device, read-outs included, s.
+    pub seconds: f64,
+    /// What `value` is, with its unit where it has one.
+    pub quantity: String,
+    /// What was found.
+    pub value: f64,
+    /// What it should be, if that is known.
+    pub reference: Option<f64>,
+    /// How far it is off, in the measure of `limit`.
+    pub error: Option<f64>,
+    /// Largest error that passes; none where the number is only reported.
+    pub limit: Option<f64>,
+    /// Whether the error is within the limit.
+    pub passed: bool,
+}
+
+/// What was run and what it cost: the part that the records of one run share.
+#[derive(Clone, Debug, Default)]
+pub struct Trial {
+    /// What was run, in one line.
+    pub setup: String,
+    /// Cells of the domain.
+    pub cells: u64,
+    /// Steps done.
+    pub steps: u64,
+    /// Time on the device, s.
+    pub seconds: f64,
+}
+
+impl Trial {
+    fn record(&self, quantity: impl Into<String>, value: f64) -> Record {
+        Record {
+            case: String::new(),
+            setup: self.setup.clone(),
+            cells: self.cells,
+            steps: self.steps,
+            seconds: self.seconds,
+            quantity: quantity.into(),
+            value,
+            reference: None,
+            error: None,
+            limit: None,
+            passed: true,
+        }
+    }
+
+    fn judged(mut record: Record, error: f64, limit: f64) -> Record {
+        record.error = Some(error);
+        record.limit = Some(limit);
+        // A comparison with NaN is false: what is not a number does not pass.
+        record.passed = error <= limit;
+        record
+    }
+
+    /// Passes if |value/reference − 1| ≤ limit.
+    pub fn relative(
+        &self,
+        quantity: impl Into<String>,
+        value: f64,
+        reference: f64,
+        limit: f64,
+    ) -> Record {
+        let mut record = self.record(quantity, value);
+        record.reference = Some(reference);
+        Self::judged(record, (value / reference - 1.0).abs(), limit)
+    }
+
+    /// Passes if |value − reference| ≤ limit.
+    pub fn absolute(
+        &self,
+        quantity: impl Into<String>,
+        value: f64,
+        reference: f64,
+        limit: f64,
+    ) -> Record {
+        let mut record = self.record(quantity, value);
+        record.reference = Some(reference);
+        Self::judged(record, (value - reference).abs(), limit)
+    }
+
+    /// For a value that is an error itself: passes if value ≤ limit.
+    pub fn at_most(&self, quantity: impl Into<String>, value: f64, limit: f64) -> Record {
+        let mut record = self.record(quantity, value);
+        record.reference = Some(0.0);
+        Self::judged(record, value, limit)
+    }
+
+    /// Passes if value ≥ bound; the error is what is missing.
+    pub fn at_least(&self, quantity: impl Into<String>, value: f64, bound: f64) -> Record {
+        let mut record = self.record(quantity, value);
+        record.reference = Some(bound);
+        // `f64::max` would turn NaN into 0.
+        let missing = if value >= bound { 0.0 } else { bound - value };
+        Self::judged(record, missing, 0.0)
+    }
+
+    /// A number without a limit; with a reference the relative error is told.
+    pub fn report(
+        &self,
+        quantity: impl Into<String>,
+        value: f64,
+        reference: Option<f64>,
+    ) -> Record {
+        let mut record = self.record(quantity, value);
+        record.reference = reference;
+        record.error = reference.map(|r| (value / r - 1.0).abs());
+        record
+    }
+}
+
+/// A setup in one line: cells, relaxation time, and what differs from the defaults.
+pub fn describe(setup: &Setup) -> String {
+    let [x, y, z] = setup.cells;
+    let collision = match setup.collision {
+        Collision::Bgk => "bgk",
+        Collision::Hermite => "hermite",
+        Collision::Suga => "suga",
+    };
+    let equilibrium = match setup.equilibrium {
+        Equilibrium::Product => "product",
+        Equilibrium::SecondOrder => "order 2",
+    };
+    let mut text = format!("{x}x{y}x{z} τ {:.5} {collision} {equilibrium}", setup.tau());
+    if let Some(constant) = setup.wale {
+        text += &format!(" wale {constant}");
+    }
+    if let Some(lambda) = setup.lambda {
+        text += &format!(" Λ {lambda}");
+    }
+    text += match setup.force {
+        Force::None => "",
+        Force::Constant(_) => " force",
+        Force::Field(_) => " force field",
+    };
+    text += match setup.storage {
+        Storage::F32 => " f32",
+        Storage::F16 => " 16-bit",
+    };
+    text + &format!(" lanes {}", setup.lanes)
+}
+
+/// Heads of the columns of [`row`].
+pub fn header() -> String {
+    format!(
+        "{:4} {:44} {:>13} {:>13} {:>10} {:>10} {:>8} {:>7}  setup",
+        "", "quantity", "value", "reference", "error", "limit", "steps", "s"
+    )
+}
+
+/// A record as a line of the table.
+pub fn row(record: &Record) -> String {
+    let small = |value: Option<f64>| value.map_or(String::from("-"), |v| format!("{v:.2e}"));
+    let verdict = match (record.passed, record.limit) {
+        (false, _) => "FAIL",
+        (true, Some(_)) => "ok",
+        (true, None) => "info",
+    };
+    format!(
+        "{verdict:4} {:44} {:>13} {:>13} {:>10} {:>10} {:>8} {:>7.1}  {}",
+        record.quantity,
+        number(record.value),
+        record.reference.map_or(String::from("-"), number),
+        small(record.error),
+        small(record.limit),
+        record.steps,
+        record.seconds,
+        record.setup,
+    )
+}
+
+fn number(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.6}")
+    } else {
+        format!("{value:.5e}")
+    }
+}

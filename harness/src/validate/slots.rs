@@ -1,0 +1,110 @@
+//! Every combination of slots is valid WGSL, and what a setup does not use is not bound.
+
+use super::{Outcome, Record, Stand, Trial};
+use anyhow::Context;
+use riprap::{
+    kernel,
+    lattice::{Collision, Equilibrium, Force, Reach, Setup, Storage, collide_stream},
+};
+use std::time::Instant;
+
+/// Runs the case.
+pub fn run(_: &Stand) -> Outcome {
+    let begin = Instant::now();
+    let mut linked = 0;
+    let mut wrong: Vec<String> = Vec::new();
+    for setup in setups() {
+        for (listed, flagged) in [(false, false), (true, false), (true, true)] {
+            // One binding as on most devices, and four as large grids need.
+            for bindings in [1, 4] {
+                let reach = Reach { listed, flagged };
+                let program = collide_stream(&setup, bindings, reach);
+                let shader = program
+                    .link()
+                    .with_context(|| format!("{} {reach:?}", super::record::describe(&setup)))?;
+                let found = kernel::bindings(&shader, "collide_stream")?;
+                let mut found: Vec<_> = found.into_iter().map(|b| b.name).collect();
+                found.sort();
+                if found != expected(&setup, bindings, reach) {
+                    wrong.push(format!("{found:?}"));
+                }
+                linked += 1;
+            }
+        }
+    }
+    let trial = Trial {
+        setup: wrong
+            .first()
+            .map_or("collide_stream, all slots".into(), |w| {
+                format!("first: {w}")
+            }),
+        seconds: begin.elapsed().as_secs_f64(),
+        ..Trial::default()
+    };
+    Ok(vec![
+        Record {
+            seconds: trial.seconds,
+            ..trial.report("combinations that naga validates", f64::from(linked), None)
+        },
+        trial.at_most("combinations with other bindings", wrong.len() as f64, 0.0),
+    ])
+}
+
+fn setups() -> Vec<Setup> {
+    let mut all = vec![Setup::periodic([16; 3], 0.01)];
+    let mut vary = |choices: &[&dyn Fn(&mut Setup)]| {
+        all = all
+            .iter()
+            .flat_map(|setup| {
+                choices.iter().map(|choice| {
+                    let mut setup = setup.clone();
+                    choice(&mut setup);
+                    setup
+                })
+            })
+            .collect();
+    };
+    vary(&[
+        &|s| s.collision = Collision::Bgk,
+        &|s| s.collision = Collision::Hermite,
+        &|s| s.collision = Collision::Suga,
+    ]);
+    vary(&[&|s| s.equilibrium = Equilibrium::Product, &|s| {
+        s.equilibrium = Equilibrium::SecondOrder
+    }]);
+    vary(&[&|s| s.wale = None, &|s| s.wale = Some(0.5)]);
+    vary(&[
+        &|s| s.force = Force::None,
+        &|s| s.force = Force::Constant([1e-5, 0.0, 0.0]),
+        &|s| s.force = Force::Field(Vec::new()),
+    ]);
+    vary(&[
+        &|s| (s.storage, s.lanes) = (Storage::F32, 1),
+        &|s| (s.storage, s.lanes) = (Storage::F32, 4),
+        &|s| (s.storage, s.lanes) = (Storage::F16, 2),
+        &|s| (s.storage, s.lanes) = (Storage::F16, 4),
+    ]);
+    vary(&[&|s| s.max_speed = 0.0, &|s| s.max_speed = 0.3]);
+    all
+}
+
+/// The names that the kernel of a setup binds, sorted.
+fn expected(setup: &Setup, bindings: u32, reach: Reach) -> Vec<String> {
+    let mut names: Vec<_> = (0..bindings).map(|b| format!("populations_{b}")).collect();
+    let wale = setup.wale.is_some();
+    let optional = [
+        (wale, "velocity_before"),
+        (wale, "velocity_after"),
+        (matches!(setup.force, Force::Field(_)), "force_field"),
+        (setup.max_speed > 0.0, "guard_state"),
+        (reach.listed, "bricks"),
+        (reach.flagged, "flags"),
+    ];
+    names.extend(
+        optional
+            .into_iter()
+            .filter_map(|(used, name)| used.then(|| name.to_owned())),
+    );
+    names.sort();
+    names
+}

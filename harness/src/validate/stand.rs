@@ -1,0 +1,217 @@
+//! The device of a validation, and a flow that runs on it.
+
+use super::record::{Trial, describe};
+use crate::gpu;
+use riprap::{
+    lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
+    wgpu,
+};
+use std::time::{Duration, Instant};
+
+/// Longest silence of a device that is not taken for a hang.
+const PATIENCE: Duration = Duration::from_secs(300);
+/// Cell updates in one submission: under a second on a CPU, several milliseconds on a GPU.
+const SUBMISSION: u64 = 20_000_000;
+
+/// Where the cases run.
+#[derive(Debug)]
+pub struct Stand {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// Whether the adapter computes on the CPU.
+    pub software: bool,
+    /// Whether the long form of the cases is wanted.
+    pub full: bool,
+}
+
+impl Stand {
+    /// Opens the adapter whose description contains `name`, or the first one, with all its limits.
+    ///
+    /// # Errors
+    /// If there is no such adapter or its driver refuses.
+    pub fn open(name: Option<&str>, full: bool) -> anyhow::Result<Self> {
+        let adapter = gpu::pick(name)?;
+        let info = adapter.get_info();
+        println!("on {}", gpu::describe(&info));
+        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits())?;
+        Ok(Self {
+            device,
+            queue,
+            software: gpu::is_software(&info),
+            full,
+        })
+    }
+
+    /// A periodic box with the library's defaults and the lanes that suit the adapter.
+    pub fn setup(&self, cells: [u32; 3], nu: f64) -> Setup {
+        let mut setup = Setup::periodic(cells, nu);
+        if self.software && cells[2].is_multiple_of(4) {
+            setup.lanes = 4;
+        }
+        setup
+    }
+
+    /// A flow that starts from a state; with `non_equilibrium` from its viscous stress too.
+    ///
+    /// # Errors
+    /// What [`Lattice::new`] and [`Lattice::start`] refuse.
+    pub fn flow(
+        &self,
+        setup: Setup,
+        state: &State,
+        non_equilibrium: bool,
+    ) -> anyhow::Result<Flow<'_>> {
+        let mut flow = self.still(setup)?;
+        flow.lattice
+            .start(&self.device, &self.queue, state, non_equilibrium)?;
+        Ok(flow)
+    }
+
+    /// A flow that goes on from populations.
+    ///
+    /// # Errors
+    /// What [`Lattice::new`] and [`Lattice::set_populations`] refuse.
+    pub fn resumed(&self, setup: Setup, populations: &Populations) -> anyhow::Result<Flow<'_>> {
+        let mut flow = self.still(setup)?;
+        flow.lattice
+            .set_populations(&self.device, &self.queue, populations)?;
+        Ok(flow)
+    }
+
+    fn still(&self, setup: Setup) -> anyhow::Result<Flow<'_>> {
+        let lattice = Lattice::new(&self.device, setup)?;
+        Ok(Flow {
+            stand: self,
+            lattice,
+            observer: None,
+            seconds: 0.0,
+        })
+    }
+
+    fn drive<T>(&self, what: &str, future: impl Future<Output = T>) -> riprap::Result<T> {
+        gpu::drive(&self.device, PATIENCE, what, future)
+    }
+}
+
+/// A lattice that runs, with the time that it took.
+#[derive(Debug)]
+pub struct Flow<'a> {
+    stand: &'a Stand,
+    lattice: Lattice,
+    /// Made when first asked for.
+    observer: Option<Observer>,
+    seconds: f64,
+}
+
+impl Flow<'_> {
+    /// What has been run so far.
+    pub fn trial(&self) -> Trial {
+        Trial {
+            setup: describe(self.lattice.setup()),
+            cells: self.lattice.grid().cell_count() as u64,
+            steps: self.lattice.step(),
+            seconds: self.seconds,
+        }
+    }
+
+    /// Runs steps until they are done or the guard finds a fault.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn try_advance(&mut self, steps: u64) -> anyhow::Result<Option<Fault>> {
+        let begin = Instant::now();
+        let cells = self.lattice.grid().cell_count() as u64;
+        let chunk = (SUBMISSION / cells).clamp(1, 512);
+        let (device, queue) = (&self.stand.device, &self.stand.queue);
+        let end = self.lattice.step() + steps;
+        let mut fault = None;
+        while fault.is_none() && self.lattice.step() < end {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                for _ in 0..chunk.min(end - self.lattice.step()) {
+                    self.lattice.record(&mut pass);
+                }
+            }
+            queue.submit([encoder.finish()]);
+            fault = self.fault()?;
+        }
+        self.seconds += begin.elapsed().as_secs_f64();
+        Ok(fault)
+    }
+
+    /// Runs steps.
+    ///
+    /// # Errors
+    /// If the guard finds a fault, or the device is lost or silent.
+    pub fn advance(&mut self, steps: u64) -> anyhow::Result<()> {
+        match self.try_advance(steps)? {
+            None => Ok(()),
+            Some(Fault { step, cell }) => {
+                let setup = describe(self.lattice.setup());
+                anyhow::bail!("diverged at step {step} in cell {cell:?}: {setup}")
+            }
+        }
+    }
+
+    fn observer(&mut self) -> riprap::Result<(&mut Observer, &mut Lattice, &Stand)> {
+        let observer = match self.observer.take() {
+            Some(made) => made,
+            None => Observer::new(&self.stand.device, &self.lattice)?,
+        };
+        let observer = self.observer.insert(observer);
+        Ok((observer, &mut self.lattice, self.stand))
+    }
+
+    /// What the guard found; also waits for all that was submitted.
+    fn fault(&mut self) -> riprap::Result<Option<Fault>> {
+        let (observer, lattice, stand) = self.observer()?;
+        let future = observer.fault(&stand.device, &stand.queue, lattice);
+        stand.drive("a validation case", future)?
+    }
+
+    /// Density and velocity, lattice units.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn state(&mut self) -> anyhow::Result<State> {
+        let begin = Instant::now();
+        let (observer, lattice, stand) = self.observer()?;
+        let future = observer.state(&stand.device, &stand.queue, lattice);
+        let state = stand.drive("reading a state", future)??;
+        self.seconds += begin.elapsed().as_secs_f64();
+        Ok(state)
+    }
+
+    /// A field that follows from the velocity gradient, lattice units.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn derived(&mut self, quantity: Derived) -> anyhow::Result<Vec<f32>> {
+        let (observer, lattice, stand) = self.observer()?;
+        let future = observer.derived(&stand.device, &stand.queue, lattice, quantity);
+        Ok(stand.drive("reading a field", future)??)
+    }
+
+    /// Sums over the fluid, lattice units.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn sums(&mut self) -> anyhow::Result<Sums> {
+        let (observer, lattice, stand) = self.observer()?;
+        let future = observer.sums(&stand.device, &stand.queue, lattice);
+        Ok(stand.drive("reading sums", future)??)
+    }
+
+    /// The populations in canonical order.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn populations(&mut self) -> anyhow::Result<Populations> {
+        let stand = self.stand;
+        let future = self.lattice.populations(&stand.device, &stand.queue);
+        Ok(stand.drive("reading populations", future)??)
+    }
+}

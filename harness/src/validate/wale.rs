@@ -1,0 +1,119 @@
+//! Eddy viscosity of WALE (Nicoud & Ducros 1999) on velocity fields that it knows.
+
+use super::{Flow, Outcome, Stand, fields};
+use riprap::lattice::{Derived, Face, State};
+use std::f64::consts::TAU;
+
+const CONSTANT: f64 = 0.5;
+const WALLS: [Face; 2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+
+fn prescribed<'a>(
+    stand: &'a Stand,
+    cells: [u32; 3],
+    walls: [bool; 3],
+    state: &State,
+) -> anyhow::Result<(Flow<'a>, Vec<f64>)> {
+    let mut setup = stand.setup(cells, 0.01);
+    setup.wale = Some(CONSTANT);
+    for axis in (0..3).filter(|&axis| walls[axis]) {
+        setup.faces[axis] = WALLS;
+    }
+    let mut flow = stand.flow(setup, state, false)?;
+    let nu_t = flow.derived(Derived::EddyViscosity)?;
+    Ok((flow, nu_t.into_iter().map(f64::from).collect()))
+}
+
+/// u = γy has no eddy viscosity.
+pub fn pure_shear(stand: &Stand) -> Outcome {
+    let cells = [8, 32, 8];
+    let gamma = 2e-3;
+    let state = fields::state(cells, |[_, y, _]| (0.0, [gamma * y, 0.0, 0.0]));
+    let (flow, nu_t) = prescribed(stand, cells, [false, true, false], &state)?;
+    let largest = nu_t.iter().fold(0.0, |a: f64, b| a.max(*b));
+    // The gradient's round-off δ ~ 1e-8 enters as (δ/γ)³: far below f32's resolution of a sum.
+    Ok(vec![flow.trial().at_most(
+        "largest ν_t / (C_w² γ)",
+        largest / (CONSTANT * CONSTANT * gamma),
+        1e-12,
+    )])
+}
+
+/// u = γy (1 + α sin kz), w = βγy sin kx meets a wall without slip: ν_t grows as y³ there.
+pub fn near_wall(stand: &Stand) -> Outcome {
+    let n = 128;
+    let cells = [n, 16, n];
+    let (gamma, alpha, beta) = (4e-3, 0.5, 0.5);
+    let k = TAU / f64::from(n);
+    let state = fields::state(cells, |[x, y, z]| {
+        let u = gamma * y * (1.0 + alpha * (k * z).sin());
+        (0.0, [u, 0.0, beta * gamma * y * (k * x).sin()])
+    });
+    let (flow, nu_t) = prescribed(stand, cells, [false, true, false], &state)?;
+    // The mean over each of the four layers next to the wall, (ky)² ≤ 0.03.
+    let plane = |y: usize| {
+        let rows = (0..n as usize).map(|z| n as usize * (y + 16 * z));
+        let total: f64 = rows.flat_map(|row| &nu_t[row..row + n as usize]).sum();
+        total / f64::from(n * n)
+    };
+    let layers: Vec<_> = (0..4).map(|y| (y as f64 + 0.5, plane(y))).collect();
+    let logs: Vec<_> = layers.iter().map(|(y, nu)| (y.ln(), nu.ln())).collect();
+    let exact = |y: f64| mean_near_wall(y, k, [gamma, alpha, beta]);
+    let worst = layers
+        .iter()
+        .map(|&(y, nu)| (nu / exact(y) - 1.0).abs())
+        .fold(0.0, f64::max);
+    let trial = flow.trial();
+    Ok(vec![
+        // The terms of the next order, (ky)², bend the power law by 0.02.
+        trial.absolute("exponent of ν_t over y", fields::slope(&logs), 3.0, 0.05),
+        // Gradients of f32 velocities, u·6e-8 of γ·k·y, cubed.
+        trial.at_most("largest error of the mean ν_t(y)", worst, 1e-2),
+    ])
+}
+
+/// The mean over x and z of the eddy viscosity of that field, from its formula in f64; sin k takes
+/// the place of k, as central differences have it.
+fn mean_near_wall(y: f64, k: f64, [gamma, alpha, beta]: [f64; 3]) -> f64 {
+    let n = 128;
+    let mut total = 0.0;
+    for i in 0..n * n {
+        let (x, z) = (k * (f64::from(i % n) + 0.5), k * (f64::from(i / n) + 0.5));
+        let (u_y, u_z) = (
+            gamma * (1.0 + alpha * z.sin()),
+            gamma * y * alpha * k.sin() * z.cos(),
+        );
+        let (w_x, w_y) = (beta * gamma * y * k.sin() * x.cos(), beta * gamma * x.sin());
+        let s = 0.5 * (u_y * u_y + w_y * w_y + (u_z + w_x).powi(2));
+        // g² has u_z w_x at xx and zz, u_z w_y at xy, w_x u_y at zy.
+        let diagonal = (2.0 / 3.0) * (u_z * w_x).powi(2);
+        let d = diagonal + 0.5 * ((u_z * w_y).powi(2) + (w_x * u_y).powi(2));
+        total += CONSTANT * CONSTANT * d.powf(1.5) / (s.powf(2.5) + d.powf(1.25));
+    }
+    total / f64::from(n * n)
+}
+
+/// Solid rotation: S = 0, ν_t = C_w² (2/3)^¼ Ω, 0.226 Ω at C_w = 0.5.
+pub fn solid_rotation(stand: &Stand) -> Outcome {
+    let cells = [24, 24, 4];
+    let spin = 2e-3;
+    let state = fields::state(cells, |[x, y, _]| {
+        (0.0, [-spin * (y - 12.0), spin * (x - 12.0), 0.0])
+    });
+    let (flow, nu_t) = prescribed(stand, cells, [true, true, false], &state)?;
+    let mean = nu_t.iter().sum::<f64>() / nu_t.len() as f64;
+    let worst = nu_t.iter().map(|nu| (nu / mean - 1.0).abs());
+    let trial = flow.trial();
+    Ok(vec![
+        trial.relative(
+            "ν_t / Ω",
+            mean / spin,
+            CONSTANT * CONSTANT * (2.0f64 / 3.0).powf(0.25),
+            1e-4,
+        ),
+        trial.at_most(
+            "largest deviation of a cell",
+            worst.fold(0.0, f64::max),
+            1e-3,
+        ),
+    ])
+}

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Runs every test: units, kernels, flows, files, the documentation's examples and the one that
+# embeds the library. Arguments go to the test runner.
+set -euo pipefail
+root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+# Mesa would ask a display which GPU to prefer, and complain where there is none.
+export NODEVICE_SELECT=1
+
+harness/setup.sh --tests
+harness/python.sh
+if cargo nextest --version >/dev/null 2>&1; then
+    cargo nextest run --workspace "$@"
+else
+    cargo test --workspace "$@"
+fi
+cargo test --quiet --workspace --doc
+# Both runners have built it.
+"${CARGO_TARGET_DIR:-target}/debug/examples/embed"

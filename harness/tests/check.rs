@@ -1,0 +1,125 @@
+//! What `check`, `adapters` and `schema` say.
+
+use serde_json::Value;
+use std::process::Command;
+
+fn json(arguments: &[&str]) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_riprap"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {said}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// 64 × 64 × 4 periodic cells without forces: one kernel, and nothing that it does not need.
+#[test]
+fn a_periodic_scene_runs_one_kernel() {
+    let report = json(&["check", &scene("taylor_green"), "--json"]);
+    let cells = &report["cells"];
+    assert_eq!(cells["fluid"], 16384);
+    assert_eq!((&cells["solid"], &cells["links"]), (&0.into(), &0.into()));
+    assert_eq!(report["memory"]["kinds"]["populations"], 16384 * 27 * 4);
+    let kernels = report["kernels"].as_array().unwrap();
+    assert_eq!(kernels.len(), 1);
+    assert_eq!(kernels[0]["file"], "collide_stream");
+    let slots = &kernels[0]["slots"];
+    let absent = [
+        ("eddy", "eddy_none"),
+        ("force", "force_none"),
+        ("cells", "cells_plain"),
+    ];
+    for (slot, file) in absent {
+        assert_eq!(slots[slot], file);
+    }
+    // Ma = 0.05 at the largest speed: Δt = 0.05 Δx/(√3 U) = 4.52 ms, τ = ½ + 3 ν Δt/Δx².
+    let numerics = &report["numerics"];
+    let number = |key: &str| numerics[key].as_f64().unwrap();
+    assert!((number("mach") - 0.05).abs() < 1e-12);
+    assert!((number("time_step") - 4.5214e-3).abs() < 1e-7);
+    assert!((number("tau") - 0.555559).abs() < 1e-6);
+    assert_eq!(numerics["steps"], 1942);
+    assert!(report["time"]["run"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn a_scene_with_everything_names_its_kernels_and_solids() {
+    let report = json(&["check", &scene("offset_joint"), "--json"]);
+    let cells = &report["cells"];
+    // Below y = 0.0508 m 80 × 32, and from 0.1397 m on 112 × 40 cells of 200 × 96 are rock.
+    assert_eq!(cells["solid"], 4 * (80 * 32 + 112 * 40));
+    let bricks = ["plain_bricks", "mixed_bricks", "idle_bricks"];
+    assert!(
+        bricks.iter().all(|kind| cells[kind].as_u64() > Some(0)),
+        "{cells}"
+    );
+    let kernels = report["kernels"].as_array().unwrap();
+    let entries: Vec<_> = kernels
+        .iter()
+        .map(|k| k["entry"].as_str().unwrap())
+        .collect();
+    for entry in ["reflect", "move_wall", "flow_out", "collide_stream"] {
+        assert!(entries.contains(&entry), "{entries:?}");
+    }
+    let wale = |kernel: &Value| kernel["slots"]["eddy"] == "eddy_wale";
+    assert_eq!(kernels.iter().filter(|k| wale(k)).count(), 2);
+}
+
+#[test]
+fn the_report_for_people_has_the_same_facts() {
+    let output = Command::new(env!("CARGO_BIN_EXE_riprap"))
+        .args(["check", &scene("couette")])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for fact in [
+        "8 × 32 × 8: 2048 fluid, 0 solid",
+        "16628 steps of 9.0211e-3 s",
+        "Mach 0.100",
+        "0.1875 everywhere, no floor",
+        "moving_wall (move_wall)",
+    ] {
+        assert!(text.contains(fact), "{fact} is not in:\n{text}");
+    }
+}
+
+#[test]
+fn adapters_are_listed_with_the_default_first() {
+    let all = json(&["adapters", "--json"]);
+    let all = all.as_array().unwrap();
+    let default: Vec<_> = all
+        .iter()
+        .map(|a| a["default"].as_bool().unwrap())
+        .collect();
+    assert!(default[0] && !default[1..].contains(&true));
+    for adapter in all {
+        assert!(
+            adapter["limits"]["storage_buffers"].as_u64() >= Some(8),
+            "{adapter}"
+        );
+    }
+}
+
+/// The schema knows every key of the shipped scenes' tables, and that others are refused.
+#[test]
+fn the_schema_is_that_of_scenes() {
+    let schema = json(&["schema"]);
+    assert_eq!(schema["additionalProperties"], false);
+    let properties = &schema["properties"];
+    for key in [
+        "domain",
+        "fluid",
+        "numerics",
+        "boundaries",
+        "solids",
+        "run",
+        "probes",
+    ] {
+        assert!(properties[key].is_object(), "{key}");
+    }
+}

@@ -1,0 +1,16 @@
+// McCalpin 1995, STREAM, the copy test: every value is read once and written once, 4 bytes an invocation.
+
+@group(0) @binding(0) var<storage, read> original: array<f32>;
+@group(0) @binding(1) var<storage, read_write> duplicate: array<f32>;
+
+@compute @workgroup_size(64)
+fn copy_scalar(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = (group.x + group.y * groups.x) * 64u + local;
+    if (n < arrayLength(&original)) {
+        duplicate[n] = original[n];
+    }
+}

@@ -1,0 +1,45 @@
+//! What a lattice takes on its device, by kind.
+
+use super::Lattice;
+
+impl Lattice {
+    /// Bytes of its buffers, each kind with a name; kinds that it does not have are left out.
+    pub fn bytes(&self) -> Vec<(&'static str, u64)> {
+        let buffers = &self.buffers;
+        let size = |buffer: &Option<wgpu::Buffer>| buffer.as_ref().map_or(0, wgpu::Buffer::size);
+        let velocity = buffers.velocity.iter().flatten();
+        let open = buffers.open_faces.iter();
+        let geometry = &self.geometry;
+        // The kernels of even and odd steps keep a list each.
+        let list = |bytes: usize| 2 * bytes as u64;
+        let kinds = [
+            (
+                "populations",
+                buffers.populations.iter().map(wgpu::Buffer::size).sum(),
+            ),
+            (
+                "velocity of the last two steps",
+                velocity.map(wgpu::Buffer::size).sum(),
+            ),
+            ("flags of cells", size(&buffers.flags)),
+            ("body force", size(&buffers.force)),
+            (
+                "links at walls",
+                list(size_of_val(&geometry.links[..]))
+                    + list(size_of_val(&geometry.moving[..]))
+                    + size(&buffers.wall_velocity),
+            ),
+            (
+                "open faces",
+                open.map(|(cells, carried)| cells.size() + carried.size())
+                    .sum(),
+            ),
+            (
+                "lists of bricks",
+                list(size_of_val(&geometry.plain[..])) + list(size_of_val(&geometry.mixed[..])),
+            ),
+            ("guard", size(&buffers.guard)),
+        ];
+        kinds.into_iter().filter(|(_, bytes)| *bytes > 0).collect()
+    }
+}

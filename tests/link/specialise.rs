@@ -1,0 +1,88 @@
+//! Variants, and a linked kernel as drivers see it.
+
+use riprap::{
+    kernel::bindings,
+    lattice::{Force, Grid, Setup, Storage, constants},
+    link::Linked,
+};
+use std::collections::{BTreeSet, HashMap};
+
+/// Numbers of bindings that spread 27 directions in all ways that the limits of devices ask for.
+pub const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
+pub const LAYOUTS: [(Storage, u32); 4] = [
+    (Storage::F32, 1),
+    (Storage::F32, 4),
+    (Storage::F16, 2),
+    (Storage::F16, 4),
+];
+
+/// The kinds of body force.
+pub fn forces() -> [Force; 3] {
+    [
+        Force::None,
+        Force::Constant([1e-6; 3]),
+        Force::Field(vec![[1e-6; 3]; 64]),
+    ]
+}
+
+/// One of each choice that a setup offers.
+pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+    let counts = counts.to_vec();
+    (0..counts.iter().product()).map(move |mut n| {
+        let digit = |count: &usize| {
+            let digit = n % count;
+            n /= count;
+            digit
+        };
+        counts.iter().map(digit).collect()
+    })
+}
+
+/// Each number of bindings occurs with each value of each choice: the others run through all
+/// remainders of their sum.
+pub fn bindings_of(variant: &[usize]) -> u32 {
+    BINDINGS[variant.iter().sum::<usize>() % BINDINGS.len()]
+}
+
+/// naga's last step before a driver sees a shader: overrides become numbers, and expressions of
+/// them are evaluated and validated.
+pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
+    let grid = Grid::new(setup).unwrap();
+    let mut numbers: HashMap<String, f64> = [
+        ("BRICKS", 1.0),
+        ("GUARD_COUNTS", 1.0),
+        ("HALF", 1.0),
+        ("NON_EQUILIBRIUM", 1.0),
+        ("AXIS", 2.0),
+        ("FACE_DENSITY", 1.0),
+        ("HOLD", 0.1),
+        ("INTEGRAL", 0.01),
+        ("NORMAL_X", 1.0),
+        ("NORMAL_Y", 0.0),
+        ("NORMAL_Z", 0.0),
+    ]
+    .into_iter()
+    .chain(constants(setup, &grid, odd))
+    .map(|(name, value)| (name.into(), value))
+    .collect();
+    let overrides = linked.module.overrides.iter();
+    let declared: BTreeSet<_> = overrides.filter_map(|(_, o)| o.name.clone()).collect();
+    numbers.retain(|name, _| declared.contains(name));
+    naga::back::pipeline_constants::process_overrides(
+        &linked.module,
+        &linked.info,
+        Some((naga::ShaderStage::Compute, entry)),
+        &numbers.into_iter().collect(),
+    )
+    .unwrap_or_else(|error| panic!("{entry} {setup:?}: {error}"));
+}
+
+/// Names of the buffers but those of the populations, and how many those are.
+pub fn names(linked: &Linked, entry: &str) -> (BTreeSet<String>, usize) {
+    let (populations, others): (Vec<_>, Vec<_>) = bindings(linked, entry)
+        .unwrap()
+        .into_iter()
+        .map(|binding| binding.name)
+        .partition(|name| name.starts_with("populations_"));
+    (others.into_iter().collect(), populations.len())
+}

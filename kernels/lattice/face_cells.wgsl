@@ -9,4 +9,7 @@ struct FaceCell {
 
 @group(0) @binding(40) var<storage, read> face_cells: array<FaceCell>;
 
+// The cells of the list that are completed now.
+override FROM: u32;
+override TO: u32;
 override FACE_DENSITY: f32;

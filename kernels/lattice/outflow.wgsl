@@ -54,8 +54,8 @@ fn remember(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n < arrayLength(&face_cells)) {
+    let n = FROM + invocation(group, groups, local);
+    if (n < TO) {
         remember_cell(n, inside(padded_cell(face_cells[n].inner)));
     }
 }
@@ -66,8 +66,8 @@ fn flow_out(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= arrayLength(&face_cells)) {
+    let n = FROM + invocation(group, groups, local);
+    if (n >= TO) {
         return;
     }
     let here = face_cells[n];

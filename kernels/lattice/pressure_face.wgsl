@@ -10,8 +10,8 @@ fn hold_pressure(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= arrayLength(&face_cells)) {
+    let n = FROM + invocation(group, groups, local);
+    if (n >= TO) {
         return;
     }
     let here = face_cells[n];

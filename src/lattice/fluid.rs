@@ -2,7 +2,7 @@
 
 use super::{
     Face, Force, Geometry, Grid, Setup, Storage,
-    geometry::{FaceCell, Link, MovingCell},
+    geometry::{FaceCell, MovingCell},
     populations,
     program::{self, Reach},
 };
@@ -247,88 +247,6 @@ impl Lattice {
             Storage::F32 => &[0.0],
             Storage::F16 => &[0.0, 1.0],
         }
-    }
-
-    fn boundary_passes(&self, device: &wgpu::Device, odd: bool) -> Result<Vec<Dispatch>> {
-        let mut passes = Vec::new();
-        let limit = device.limits().max_storage_buffer_binding_size as usize;
-        let geometry = &self.geometry;
-        let program = self.cell_program("links");
-        for links in geometry.links.chunks(limit / size_of::<Link>()) {
-            let list = storage(device, "links", bytemuck::cast_slice(links));
-            for &half in self.halves() {
-                let extra: Extra<'_> = (&[("links", &list)], &[("HALF", half)]);
-                let n = links.len() as u32;
-                passes.push(self.cell_dispatch(device, &program, "reflect", odd, extra, n)?);
-            }
-        }
-        if !geometry.moving.is_empty() {
-            let program = self.cell_program("moving_wall");
-            let list = storage(
-                device,
-                "moving cells",
-                bytemuck::cast_slice(&geometry.moving),
-            );
-            for &half in self.halves() {
-                let extra: Extra<'_> = (&[("moving_cells", &list)], &[("HALF", half)]);
-                let n = geometry.moving.len() as u32;
-                passes.push(self.cell_dispatch(device, &program, "move_wall", odd, extra, n)?);
-            }
-        }
-        passes.extend(self.open_passes(device, odd, true)?);
-        Ok(passes)
-    }
-
-    /// The passes over pressure and outflow faces. Outflow carries something from each step to the
-    /// next: with `apply` off only that is recorded, from the present state.
-    pub(super) fn open_passes(
-        &self,
-        device: &wgpu::Device,
-        odd: bool,
-        apply: bool,
-    ) -> Result<Vec<Dispatch>> {
-        let mut passes = Vec::new();
-        let faces = self.geometry.open.iter().zip(&self.buffers.open_faces);
-        for ((axis, side, cells), (list, carried)) in faces {
-            let (file, entry, density) = match self.setup.faces[*axis][*side] {
-                Face::Pressure { density } => ("pressure_face", "hold_pressure", density),
-                Face::Outflow { density } => ("outflow", "flow_out", density),
-                _ => continue,
-            };
-            // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
-            // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
-            // twenty passages of sound, slow enough not to ring.
-            let length = f64::from(self.grid.cells[*axis]);
-            let hold = 0.4 / length;
-            let integral = 0.05 * hold / length;
-            let mut normal = [0.0; 3];
-            normal[*axis] = if *side == 0 { -1.0 } else { 1.0 };
-            let program = self.cell_program(file);
-            let buffers = [("face_cells", list), ("carried", carried)];
-            let mut add = |entry, half| {
-                let numbers = [
-                    ("HALF", half),
-                    ("FACE_DENSITY", density),
-                    ("HOLD", hold),
-                    ("INTEGRAL", integral),
-                    ("NORMAL_X", normal[0]),
-                    ("NORMAL_Y", normal[1]),
-                    ("NORMAL_Z", normal[2]),
-                ];
-                let (extra, n) = ((&buffers[..], &numbers[..]), cells.len() as u32);
-                passes.push(self.cell_dispatch(device, &program, entry, odd, extra, n)?);
-                Ok::<_, Error>(())
-            };
-            if apply {
-                self.halves()
-                    .iter()
-                    .try_for_each(|&half| add(entry, half))?;
-            }
-            if file == "outflow" {
-                add("remember", 0.0)?;
-            }
-        }
-        Ok(passes)
     }
 
     fn stream_passes(&self, device: &wgpu::Device, odd: bool) -> Result<Vec<Dispatch>> {

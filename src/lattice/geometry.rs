@@ -1,6 +1,6 @@
 //! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
 
-use super::{Face, Grid, Setup};
+use super::{Face, Grid, Setup, stages::Stages};
 
 /// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
 pub const C: [[i32; 3]; 27] = [
@@ -98,10 +98,12 @@ pub struct Geometry {
     pub flags: Vec<u32>,
     /// Populations that walls at rest and free-slip faces return.
     pub links: Vec<Link>,
-    /// Cells at moving walls and velocity faces.
+    /// Cells at moving walls and velocity faces; in the order of their stages.
     pub moving: Vec<MovingCell>,
-    /// Axis and side of each pressure or outflow face with its cells.
+    /// Axis and side of each pressure or outflow face with its cells in the order of their stages.
     pub open: Vec<(usize, usize, Vec<FaceCell>)>,
+    /// The order in which the cells of both are completed.
+    pub stages: Stages,
     /// Bricks of plain fluid.
     pub plain: Vec<u32>,
     /// Bricks with flagged cells.
@@ -159,6 +161,11 @@ impl Geometry {
             let (element, lane) = grid.element_of(cell);
             let word = &mut geometry.flags[element as usize];
             *word = *word & !(0xff << (8 * lane)) | u32::from(bits) << (8 * lane);
+        }
+        geometry.stages = Stages::new(&geometry.open);
+        geometry.stages.sort(&mut geometry.moving);
+        for (_, _, cells) in &mut geometry.open {
+            geometry.stages.sort(cells);
         }
         geometry.sort_bricks(grid);
         geometry

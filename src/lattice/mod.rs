@@ -1,5 +1,6 @@
 //! The lattice Boltzmann fluid: D3Q27, in place, on any device.
 
+mod boundary;
 mod bytes;
 mod exchange;
 mod fluid;
@@ -11,6 +12,7 @@ mod observe;
 mod populations;
 mod program;
 mod setup;
+mod stages;
 mod start;
 mod stream_only;
 mod traffic;
@@ -23,6 +25,7 @@ pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
 pub use program::{Reach, collide_stream, constants, single_cells, stream_only};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
+pub use stages::Stages;
 pub use start::State;
 pub use stream_only::StreamOnly;
 pub use traffic::{bytes_a_cell, bytes_a_step};

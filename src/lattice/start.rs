@@ -93,7 +93,7 @@ impl Lattice {
         for (_, carried) in &self.buffers.open_faces {
             queue.write_buffer(carried, 0, &vec![0; carried.size() as usize]);
         }
-        let passes = self.open_passes(device, self.parity() == 1, false)?;
+        let passes = self.remember_passes(device, self.parity() == 1)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

@@ -82,7 +82,10 @@ fn bench(
         for (variant, change) in VARIANTS {
             let mut setup = Setup::periodic([n; 3], 0.01);
             setup.max_speed = 0.0;
-            setup.lanes = if software { 4 } else { 1 };
+            if software {
+                setup.lanes = 4;
+                setup.use_long_bricks();
+            }
             change(&mut setup);
             let state = flow::sheared_noise(&setup)?;
             let mut lattice = Lattice::new(&device, setup)?;

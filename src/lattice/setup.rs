@@ -184,6 +184,15 @@ impl Setup {
         }
     }
 
+    /// Shapes the bricks for an adapter that computes on the CPU: as long along x as the grid is, up
+    /// to 64. Its threads walk through an invocation's neighbours one after the other, so that
+    /// long rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
+    pub fn use_long_bricks(&mut self) {
+        // Eight invocations are a vector of such an adapter.
+        let long = self.cells[0].next_power_of_two().clamp(8, 64);
+        self.brick = [long, 64 / long, 1];
+    }
+
     /// Relaxation time of the laminar viscosity.
     pub fn tau(&self) -> f64 {
         0.5 + 3.0 * self.nu

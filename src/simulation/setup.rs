@@ -31,6 +31,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, software: bool) -> Result<Set
         }
     });
     setup.storage = storage;
+    if software {
+        setup.use_long_bricks();
+    }
     setup.collision = match numerics.collision {
         scene::Collision::Hermite => Collision::Hermite,
         scene::Collision::Suga => Collision::Suga,

@@ -104,7 +104,7 @@ pub fn groups(
             let mut setup = Setup::periodic([grid; 3], 0.01);
             (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
             if machine.software {
-                setup.brick = [64, 1, 1];
+                setup.use_long_bricks();
             }
             change(&mut setup);
             let memory = Grid::new(&setup).and_then(|g| memory(&setup, &g, limits));

@@ -22,7 +22,7 @@ fn collide_stream(
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
-    guard(p, cell, rho, u);
+    let bad = out_of_range(cell, rho, u);
     let shear_rate = 1.0 / relaxation_time(p, cell);
     keep_velocity(p, cell, u);
     var d = equilibrium(rho, u);
@@ -35,4 +35,5 @@ fn collide_stream(
     from_moments(&h);
     clear_solid(cell, &h);
     store(p, &h);
+    guard(p, bad, turn == 0u && local == 0u);
 }

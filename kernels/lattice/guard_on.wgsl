@@ -1,14 +1,17 @@
-// Divergence guard: NaN, a density that is not positive, or a speed above MAX_SPEED, in the first step
+// Divergence guard: NaN, a density that is not positive, or a speed above MAX_SPEED; of the first step
 // where it happens the cell of the lowest index. Bits are compared as integers, because a compiler
 // may assume that there is no NaN: for a square they order as the numbers do, NaN above all.
+// A CPU adapter runs both sides of every branch, so that what is done only once is kept short.
 // needs $lanes, velocity, grid, $cells
 
 struct Guard {
     // Steps done after an even one, after an odd one: each is written only while the other is read.
+    // The step after the first fault marks the count as STOPPED and keeps it.
     even: u32,
     odd: u32,
-    first_step: atomic<u32>,
-    first_cell: atomic<u32>,
+    // Lowest cell at fault in the even steps, in the odd ones, until the count stops.
+    even_cell: atomic<u32>,
+    odd_cell: atomic<u32>,
 }
 
 @group(0) @binding(34) var<storage, read_write> guard_state: Guard;
@@ -18,29 +21,35 @@ override MAX_SPEED_SQUARED: f32;
 override GUARD_ODD: bool;
 override GUARD_COUNTS: bool;
 
-fn guard(p: Place, cell: u32, rho: Real, u: Vector) {
+const NO_CELL = 0xffffffffu;
+const STOPPED = 0x80000000u;
+
+fn out_of_range(cell: u32, rho: Real, u: Vector) -> Mask {
     let q = u.x * u.x + u.y * u.y + u.z * u.z;
-    let bad = above(q, MAX_SPEED_SQUARED) | not_positive(rho);
-    if (mask_any(bad)) {
-        report(p, bad, solid(cell));
-    }
-    if (GUARD_COUNTS && p.element == 0u) {
+    return (above(q, MAX_SPEED_SQUARED) | not_positive(rho)) & !solid(cell);
+}
+
+// Notes the cells at fault; one invocation of the step counts it.
+fn guard(p: Place, bad: Mask, first: bool) {
+    let done = select(guard_state.odd, guard_state.even, GUARD_ODD);
+    if (mask_any(bad) && done < STOPPED) {
+        let z = p.coordinates.z + SLICES * lowest_lane(bad);
+        let cell = p.coordinates.x + NX * (p.coordinates.y + NY * z);
         if (GUARD_ODD) {
-            guard_state.odd = guard_state.even + 1u;
+            atomicMin(&guard_state.odd_cell, cell);
         } else {
-            guard_state.even = guard_state.odd + 1u;
+            atomicMin(&guard_state.even_cell, cell);
+        }
+    }
+    if (GUARD_COUNTS && first) {
+        if (GUARD_ODD) {
+            guard_state.odd = count(done, atomicLoad(&guard_state.even_cell));
+        } else {
+            guard_state.even = count(done, atomicLoad(&guard_state.odd_cell));
         }
     }
 }
 
-fn report(p: Place, bad: Mask, empty: Mask) {
-    let step = select(guard_state.odd, guard_state.even, GUARD_ODD);
-    for (var l = 0u; l < LANES; l++) {
-        if (!mask_lane(bad, l) || mask_lane(empty, l) || atomicLoad(&guard_state.first_step) < step) {
-            continue;
-        }
-        let z = p.coordinates.z + l * SLICES;
-        atomicMin(&guard_state.first_step, step);
-        atomicMin(&guard_state.first_cell, p.coordinates.x + NX * (p.coordinates.y + NY * z));
-    }
+fn count(done: u32, cell_before: u32) -> u32 {
+    return select(done + 1u, done | STOPPED, cell_before != NO_CELL || done >= STOPPED);
 }

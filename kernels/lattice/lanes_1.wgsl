@@ -22,14 +22,6 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (word & (1u << bit)) != 0u;
 }
 
-fn lane(v: Real, l: u32) -> f32 {
-    return v;
-}
-
-fn pack_lanes(values: array<f32, 4>) -> Real {
-    return values[0];
-}
-
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<u32>(v) >= bitcast<u32>(limit);
@@ -39,6 +31,7 @@ fn not_positive(v: Real) -> Mask {
     return bitcast<u32>(v) - u32(1u) >= u32(0x7f7fffffu);
 }
 
-fn mask_lane(m: Mask, l: u32) -> bool {
-    return m;
+// The first lane in which the mask is set, if there is one.
+fn lowest_lane(m: Mask) -> u32 {
+    return 0u;
 }

@@ -22,14 +22,6 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (vec2(word) & (vec2(1u, 0x100u) << vec2(bit))) != vec2(0u);
 }
 
-fn lane(v: Real, l: u32) -> f32 {
-    return v[l];
-}
-
-fn pack_lanes(values: array<f32, 4>) -> Real {
-    return vec2(values[0], values[1]);
-}
-
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<vec2<u32>>(v) >= vec2<u32>(bitcast<u32>(limit));
@@ -39,6 +31,7 @@ fn not_positive(v: Real) -> Mask {
     return bitcast<vec2<u32>>(v) - vec2<u32>(1u) >= vec2<u32>(0x7f7fffffu);
 }
 
-fn mask_lane(m: Mask, l: u32) -> bool {
-    return m[l];
+// The first lane in which the mask is set, if there is one.
+fn lowest_lane(m: Mask) -> u32 {
+    return select(1u, 0u, m.x);
 }

@@ -23,14 +23,6 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (vec4(word) & (vec4(1u, 0x100u, 0x10000u, 0x1000000u) << vec4(bit))) != vec4(0u);
 }
 
-fn lane(v: Real, l: u32) -> f32 {
-    return v[l];
-}
-
-fn pack_lanes(values: array<f32, 4>) -> Real {
-    return vec4(values[0], values[1], values[2], values[3]);
-}
-
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<vec4<u32>>(v) >= vec4<u32>(bitcast<u32>(limit));
@@ -40,6 +32,7 @@ fn not_positive(v: Real) -> Mask {
     return bitcast<vec4<u32>>(v) - vec4<u32>(1u) >= vec4<u32>(0x7f7fffffu);
 }
 
-fn mask_lane(m: Mask, l: u32) -> bool {
-    return m[l];
+// The first lane in which the mask is set, if there is one.
+fn lowest_lane(m: Mask) -> u32 {
+    return select(select(select(3u, 2u, m.z), 1u, m.y), 0u, m.x);
 }

@@ -99,9 +99,13 @@ impl Lattice {
         self.step = state.step;
         self.closed = true;
         if let Some(guard) = &self.buffers.guard {
-            let [_, _, step, cell] = GUARD_START;
+            let [_, _, even_cell, odd_cell] = GUARD_START;
             let done = state.step as u32;
-            queue.write_buffer(guard, 0, bytemuck::cast_slice(&[done, done, step, cell]));
+            queue.write_buffer(
+                guard,
+                0,
+                bytemuck::cast_slice(&[done, done, even_cell, odd_cell]),
+            );
         }
         if let [x, y, z] = state.velocity.chunks(cells.max(1)).collect::<Vec<_>>()[..] {
             self.set_velocity_before(queue, &[x.to_vec(), y.to_vec(), z.to_vec()]);

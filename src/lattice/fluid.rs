@@ -96,7 +96,7 @@ impl Buffers {
 /// Buffers and numbers of a kernel beside those of the fluid, by their names in WGSL.
 pub(super) type Extra<'a> = (&'a [(&'a str, &'a wgpu::Buffer)], &'a [(&'static str, f64)]);
 
-/// The guard's memory before the first step: no step counted, none bad.
+/// The guard's memory before the first step: no step counted, no cell at fault.
 pub(super) const GUARD_START: [u32; 4] = [0, 0, u32::MAX, u32::MAX];
 
 impl Lattice {
@@ -355,7 +355,7 @@ impl Lattice {
                 .map(|(reach, list)| (reach, list.as_slice(), list.len() as u32))
                 .collect()
         };
-        // One dispatch of a step counts it for the guard: the one that has element 0, or the first.
+        // One dispatch of a step counts it for the guard: the first.
         let mut passes = Vec::new();
         for (n, (reach, list, groups)) in wanted.into_iter().enumerate() {
             let linked = program::collide_stream(&self.setup, self.bindings, reach).link()?;

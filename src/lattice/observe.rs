@@ -308,13 +308,19 @@ impl Observer {
             return Ok(None);
         };
         let found: Vec<u32> = self.readback.read(device, queue, guard, 4).await?;
-        if found[2] == u32::MAX {
+        // Both counts are of steps done, the latest one the larger, or stopped at the same number.
+        const STOPPED: u32 = 1 << 31;
+        let done = (found[0] & !STOPPED).max(found[1] & !STOPPED);
+        let Some(step) = done.checked_sub(1) else {
+            return Ok(None);
+        };
+        let cell = found[2 + (step % 2) as usize];
+        if cell == u32::MAX {
             return Ok(None);
         }
         let [nx, ny, _] = lattice.grid.elements;
-        let cell = found[3];
         Ok(Some(Fault {
-            step: found[2].into(),
+            step: step.into(),
             cell: [cell % nx, (cell / nx) % ny, cell / (nx * ny)],
         }))
     }

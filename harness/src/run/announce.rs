@@ -1,7 +1,8 @@
 //! What a run says before it starts.
 
-use super::{bandwidth::bytes_a_cell, engine::Engine};
-use crate::gpu;
+use super::engine::Engine;
+use crate::{gpu, print};
+use riprap::lattice::bytes_a_cell;
 use std::path::Path;
 
 /// Tells, on standard error, what will run on what.
@@ -21,8 +22,8 @@ pub fn announce(engine: &Engine, folder: &Path, last: u64, bandwidth: f64) {
     eprintln!(
         "  grid      {x} × {y} × {z} cells of {:.4e} m, {} of them fluid; {} in {} bindings",
         units.cell,
-        engine.fluid_cells(),
-        mebibytes(memory.populations + memory.others),
+        simulation.lattice().geometry().fluid_cells,
+        print::bytes(memory.populations + memory.others),
         memory.bindings
     );
     let mach = scene.velocity_scale().map(|speed| units.mach(speed));
@@ -60,8 +61,4 @@ pub fn announce(engine: &Engine, folder: &Path, last: u64, bandwidth: f64) {
     for warning in simulation.advice() {
         eprintln!("warning: {warning}");
     }
-}
-
-fn mebibytes(bytes: u64) -> String {
-    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }

@@ -70,10 +70,4 @@ impl Engine {
         let checkpoint = self.simulation.checkpoint();
         gpu::drive(&self.device, PATIENCE, "reading the state", checkpoint)?
     }
-
-    /// Fluid cells.
-    pub fn fluid_cells(&self) -> u64 {
-        let solid = self.simulation.solid().iter().filter(|solid| **solid);
-        (self.scene().domain.cell_count() - solid.count()) as u64
-    }
 }

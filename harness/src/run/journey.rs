@@ -1,7 +1,6 @@
 //! From the first step to the last, writing what is due on the way.
 
 use super::{
-    bandwidth::{bytes_a_cell, copy_bandwidth},
     batch::Batch,
     checkpoints::Checkpoints,
     engine::Engine,
@@ -14,14 +13,20 @@ use super::{
     summary::{Summary, Unfinished},
     watch::Watch,
 };
-use crate::gpu;
+use crate::{bench::copy_bandwidth, gpu};
 use anyhow::{Context, Result};
-use riprap::Error;
+use riprap::{
+    Error,
+    lattice::{bytes_a_cell, bytes_a_step},
+};
 use std::{
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
     time::{Duration, Instant},
 };
+
+/// Bytes whose copying shows what memory allows: more than caches hold.
+const BYTES: u64 = 128 << 20;
 
 /// A run under way.
 pub struct Journey {
@@ -65,7 +70,8 @@ impl Journey {
         // Last, so that what it continues from has been written.
         recorders.push(Box::new(Checkpoints::new(engine, folder, last)));
         let step = engine.simulation.step();
-        let summary = summary(engine, copy_bandwidth(&engine.device, &engine.queue)?);
+        let bandwidth = copy_bandwidth(&engine.device, &engine.queue, BYTES)?;
+        let summary = summary(engine, bandwidth);
         let notes = Notes {
             checkpoint: restart.map(|path| (step, path.to_owned())),
             ..Notes::default()
@@ -156,11 +162,10 @@ impl Journey {
 
     fn speed(&self, engine: &Engine) -> Speed {
         let steps = engine.simulation.step() - self.summary.first_step;
-        let updates = steps as f64 * self.summary.fluid_cells as f64;
-        let rate = updates / self.stepping.as_secs_f64().max(1e-9);
+        let rate = steps as f64 / self.stepping.as_secs_f64().max(1e-9);
         Speed {
-            mlups: rate / 1e6,
-            share: rate * self.summary.bytes_a_cell as f64 / self.summary.bandwidth,
+            mlups: rate * self.summary.fluid_cells as f64 / 1e6,
+            share: rate * self.summary.bytes_a_step as f64 / self.summary.bandwidth,
         }
     }
 }
@@ -169,12 +174,13 @@ impl Journey {
 fn summary(engine: &Engine, bandwidth: f64) -> Summary {
     let simulation = &engine.simulation;
     let (scene, units) = (simulation.scene(), simulation.units());
-    let setup = simulation.lattice().setup();
+    let lattice = simulation.lattice();
+    let setup = lattice.setup();
     Summary {
         title: scene.title.clone(),
         adapter: gpu::describe(&engine.adapter),
         cells: scene.cells(),
-        fluid_cells: engine.fluid_cells(),
+        fluid_cells: lattice.geometry().fluid_cells,
         cell: units.cell,
         time_step: units.time_step,
         tau: setup.tau(),
@@ -189,6 +195,7 @@ fn summary(engine: &Engine, bandwidth: f64) -> Summary {
         first_step: simulation.step(),
         bandwidth,
         bytes_a_cell: bytes_a_cell(setup),
+        bytes_a_step: bytes_a_step(setup, lattice.grid(), lattice.geometry()),
         warnings: simulation
             .advice()
             .iter()

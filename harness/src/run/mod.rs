@@ -5,7 +5,6 @@
 //! the flow diverges, what is on disk is complete and can be continued.
 
 mod announce;
-mod bandwidth;
 mod batch;
 mod checkpoints;
 mod engine;

@@ -43,9 +43,11 @@ pub struct Summary {
     pub mlups: f64,
     /// Bytes that the device copies a second, read and written.
     pub bandwidth: f64,
-    /// Bytes that a step moves for a fluid cell.
+    /// Bytes that a step moves for a fluid cell away from walls.
     pub bytes_a_cell: u64,
-    /// Part of that bandwidth that the kernel uses.
+    /// Bytes that a step moves in all.
+    pub bytes_a_step: u64,
+    /// Part of that bandwidth that the steps use.
     pub bandwidth_share: f64,
     /// Largest Mach number of the lattice that was seen.
     pub max_mach: f64,

@@ -1,6 +1,7 @@
 //! `riprap`: computes scenes and tells about them.
 
 use clap::{Parser, Subcommand};
+use riprap::Error;
 use riprap_harness::{
     adapters, bench, check,
     run::{self, Unfinished},
@@ -44,7 +45,11 @@ fn main() -> ExitCode {
     };
     done.unwrap_or_else(|error| {
         eprintln!("error: {error:#}");
-        let running = error.downcast_ref::<Unfinished>().is_some();
+        let ended = matches!(
+            error.downcast_ref(),
+            Some(Error::Diverged { .. } | Error::DeviceLost(_) | Error::Timeout { .. })
+        );
+        let running = ended || error.is::<Unfinished>();
         ExitCode::from(if running { 1 } else { 2 })
     })
 }

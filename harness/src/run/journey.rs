@@ -70,8 +70,7 @@ impl Journey {
         // Last, so that what it continues from has been written.
         recorders.push(Box::new(Checkpoints::new(engine, folder, last)));
         let step = engine.simulation.step();
-        let bandwidth = copy_bandwidth(&engine.device, &engine.queue, BYTES)?;
-        let summary = summary(engine, bandwidth);
+        let summary = summary(engine, bandwidth(engine)?);
         let notes = Notes {
             checkpoint: restart.map(|path| (step, path.to_owned())),
             ..Notes::default()
@@ -107,6 +106,10 @@ impl Journey {
             recorder
                 .finish(engine, &mut self.notes)
                 .with_context(|| Unfinished::new(step, &self.notes))?;
+        }
+        // Others may have kept the device busy the first time.
+        if let Ok(again) = bandwidth(engine) {
+            self.summary.bandwidth = self.summary.bandwidth.max(again);
         }
         let speed = self.speed(engine);
         let summary = &mut self.summary;
@@ -168,6 +171,11 @@ impl Journey {
             share: rate * self.summary.bytes_a_step as f64 / self.summary.bandwidth,
         }
     }
+}
+
+/// Bytes a second that the device copies.
+fn bandwidth(engine: &Engine) -> Result<f64, Error> {
+    copy_bandwidth(&engine.device, &engine.queue, BYTES)
 }
 
 /// What is known before the first step.

@@ -58,12 +58,7 @@ fn the_guard() {
     let linked = riprap::lattice::collide_stream(&setup, 1, reach)
         .link()
         .unwrap();
-    let fields = [
-        ("even", 0),
-        ("odd", 4),
-        ("first_step", 8),
-        ("first_cell", 12),
-    ];
+    let fields = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];
     check::<[u32; 4]>(&linked.module, "Guard", &fields).unwrap();
 }
 

@@ -52,6 +52,8 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
         ("BRICKS", 1.0),
         ("GUARD_COUNTS", 1.0),
         ("HALF", 1.0),
+        ("FROM", 0.0),
+        ("TO", 1.0),
         ("NON_EQUILIBRIUM", 1.0),
         ("AXIS", 2.0),
         ("FACE_DENSITY", 1.0),

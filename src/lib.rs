@@ -38,7 +38,11 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod block;
+pub mod bodies;
+pub mod broadphase;
 pub mod checkpoint;
+pub mod contact;
 pub mod error;
 pub mod formula;
 pub mod kernel;

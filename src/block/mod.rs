@@ -1,0 +1,5 @@
+//! Shapes of blocks.
+
+mod polyhedron;
+
+pub use polyhedron::{HalfSpace, Polyhedron};

@@ -1,0 +1,88 @@
+//! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
+
+use glam::{DMat3, DQuat, DVec3};
+
+/// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
+/// one any matrix, so that the velocity of a point is the same formula for both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centroid, m.
+    pub centre: DVec3,
+    /// F: a point X of the block, m from its centroid in its own frame, is at `centre` + F X.
+    pub deformation: DMat3,
+    /// Velocity of the centroid, m/s.
+    pub velocity: DVec3,
+    /// Ḟ, 1/s.
+    pub deformation_rate: DMat3,
+}
+
+impl Pose {
+    /// A rigid block turned by `rotation` that moves with `velocity` (m/s) and turns with `spin`
+    /// (rad/s, about the axes of the world).
+    pub fn rigid(centre: DVec3, rotation: DQuat, velocity: DVec3, spin: DVec3) -> Self {
+        let deformation = DMat3::from_quat(rotation);
+        Self {
+            centre,
+            deformation,
+            velocity,
+            deformation_rate: skew(spin) * deformation,
+        }
+    }
+
+    /// Place of the point X of the block, m.
+    pub fn point(&self, x: DVec3) -> DVec3 {
+        self.centre + self.deformation * x
+    }
+
+    /// Velocity of the point X of the block, m/s.
+    pub fn point_velocity(&self, x: DVec3) -> DVec3 {
+        self.velocity + self.deformation_rate * x
+    }
+}
+
+/// The matrix W with W x = w × x.
+pub fn skew(w: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, w.z, -w.y),
+        DVec3::new(-w.z, 0.0, w.x),
+        DVec3::new(w.y, -w.x, 0.0),
+    )
+}
+
+/// What a fluid does to a block in a step, SI.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Force, N.
+    pub force: DVec3,
+    /// Σ f ⊗ r (entry i, j is f_i r_j), r from the centroid, N m; the torque is its skew part.
+    pub moment: DMat3,
+    /// Volume in which the fluid moves with the block, ΣB, m³.
+    pub entrained: f64,
+    /// Volume in which the body force is missing from `force`, Σ(ε − B), m³.
+    pub missing: f64,
+    /// First moment of the entrained volume about the centroid, m⁴.
+    pub entrained_moment: DVec3,
+    /// First moment of the missing volume about the centroid, m⁴.
+    pub missing_moment: DVec3,
+}
+
+impl Load {
+    /// A force (N) at the offset `r` (m) from the centroid.
+    pub fn at(force: DVec3, r: DVec3) -> Self {
+        Self {
+            force,
+            moment: DMat3::from_cols(force * r.x, force * r.y, force * r.z),
+            ..Self::default()
+        }
+    }
+
+    /// Torque about the centroid, Σ r × f, N m.
+    pub fn torque(&self) -> DVec3 {
+        let m = self.moment;
+        DVec3::new(
+            m.y_axis.z - m.z_axis.y,
+            m.z_axis.x - m.x_axis.z,
+            m.x_axis.y - m.y_axis.x,
+        )
+    }
+}

@@ -1,0 +1,30 @@
+//! Which pairs may touch: a list that is complete, sorted and the same from every finder.
+
+use crate::Result;
+
+/// A box along the axes around something that may touch others, already grown by the skin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Item {
+    /// Lower corner, m.
+    pub min: [f64; 3],
+    /// Upper corner, m.
+    pub max: [f64; 3],
+    /// Items of one group never pair: the parts of a compound, everything that is fixed.
+    pub group: u32,
+}
+
+impl Item {
+    /// Whether the two boxes have a point in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+    }
+}
+
+/// Finds the pairs of items of different groups whose boxes overlap.
+pub trait Broadphase {
+    /// The pairs (i, j), i < j, sorted, each once. Two finders give the same list, bit for bit.
+    ///
+    /// # Errors
+    /// If a device fails, or an item is not finite.
+    fn pairs(&mut self, items: &[Item]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
+}

@@ -84,6 +84,11 @@ impl Formula {
         self.uses(|index| index == TIME)
     }
 
+    /// Whether the value changes from place to place.
+    pub fn uses_place(&self) -> bool {
+        self.uses(|index| index != TIME)
+    }
+
     /// Whether the value is the same everywhere and always.
     pub fn is_constant(&self) -> bool {
         !self.uses(|_| true)

@@ -5,20 +5,27 @@ use serde::Deserialize;
 
 use super::{Axis, Face};
 
-/// The box of space that is computed, cut into cubic cells.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+/// The box of space that is computed, cut into cubic cells where there is a fluid. The default has no
+/// extent: there is none.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
     /// Lower corner, m. Default (0, 0, 0).
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Edges, m. Each is a whole number of cells.
+    /// Edges, m. Where there is a fluid, each is a whole number of cells.
     pub size: [f64; 3],
-    /// Edge of a cell, m.
+    /// Edge of a cell, m. Needed where there is a fluid.
+    #[serde(default)]
     pub cell: f64,
 }
 
 impl Domain {
+    /// Whether there is one.
+    pub fn is_given(&self) -> bool {
+        *self != Self::default()
+    }
+
     /// Number of cells along x, y, z.
     pub fn cells(&self) -> [u32; 3] {
         self.size.map(|edge| (edge / self.cell).round() as u32)

@@ -5,8 +5,8 @@ use serde::Deserialize;
 
 use crate::formula::Formula;
 
-/// The fluid and the body force on it.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+/// The fluid and the body force on it. The default is none: density and viscosity 0.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
     /// Density, kg/m³. Default 1000.

@@ -4,20 +4,27 @@
 //! [`Scene::schema`] is the same as a JSON schema.
 
 mod advice;
+mod block_shape;
+mod blocks;
 mod boundaries;
 mod check;
 mod domain;
 mod face;
 mod fluid;
 mod initial;
+mod materials;
 mod numerics;
+mod one_or_many;
 mod output;
 mod parse;
 mod probes;
+mod rock;
+mod rock_masses;
 mod run;
 mod sample;
 mod solids;
 mod tagged;
+mod views;
 
 use std::path::{Path, PathBuf};
 
@@ -25,38 +32,62 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use advice::{Advice, SUGA_EXCESS, Warning};
+pub use block_shape::{BlockShape, PlaneFace};
+pub use blocks::{Block, Motion, Part, Repeat, Rotation};
 pub use boundaries::{Boundaries, Boundary};
 pub use domain::Domain;
 pub use face::{Axis, Direction, Face};
 pub use fluid::Fluid;
 pub use initial::{Initial, InitialPressure};
+pub use materials::{Material, MaterialPair};
 pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, Storage};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use probes::{Probe, ProbePlace};
+pub use rock::{Rock, Search, Sleep};
+pub use rock_masses::{JointSet, RockMass, Volume};
 pub use run::Run;
 pub use sample::{BodyForce, InitialFields};
 pub use solids::{Shape, Solid};
+pub use views::View;
 
-/// A flow to compute, in SI units.
+/// A fluid, blocks of rock, or both, in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Title. Default the name of the file without its extension.
     #[serde(default)]
     pub title: String,
-    /// The box that is computed.
+    /// The box that is computed. A scene without fluid needs it only to cut half-spaces off, and may
+    /// leave it out.
+    #[serde(default)]
     pub domain: Domain,
-    /// What flows.
+    /// What flows. Default nothing: then there must be blocks, and they are dry.
+    #[serde(default)]
     pub fluid: Fluid,
-    /// How it is computed. Default: see each key.
+    /// How the fluid is computed. Default: see each key.
     #[serde(default)]
     pub numerics: Numerics,
     /// The faces of the domain. Default: all periodic.
     #[serde(default)]
     pub boundaries: Boundaries,
-    /// Static solids. Default none.
+    /// Static solids, which blocks meet as fixed blocks. Default none.
     #[serde(default)]
     pub solids: Vec<Solid>,
+    /// What holds for all blocks together. Default: see each key.
+    #[serde(default)]
+    pub rock: Rock,
+    /// What blocks and solids are made of. Needed where there are blocks.
+    #[serde(default)]
+    pub materials: Vec<Material>,
+    /// How two materials meet, where that does not follow from each of them. Default none.
+    #[serde(default)]
+    pub material_pairs: Vec<MaterialPair>,
+    /// Blocks. Default none.
+    #[serde(default)]
+    pub blocks: Vec<Block>,
+    /// Volumes of rock that joints have cut into blocks. Default none.
+    #[serde(default)]
+    pub rock_masses: Vec<RockMass>,
     /// The flow at the time 0. Default at rest, with hydrostatic pressure.
     #[serde(default)]
     pub initial: Initial,
@@ -68,6 +99,9 @@ pub struct Scene {
     /// Measurements. Default none.
     #[serde(default)]
     pub probes: Vec<Probe>,
+    /// Pictures of the blocks. Default none.
+    #[serde(default)]
+    pub views: Vec<View>,
     /// Directory to which the paths of meshes are relative.
     #[serde(skip)]
     dir: PathBuf,
@@ -82,6 +116,16 @@ impl Scene {
     /// Centre of the cell `ijk`, counted from 0 at the lower corner, m.
     pub fn centre(&self, ijk: [u32; 3]) -> [f64; 3] {
         self.domain.centre(ijk)
+    }
+
+    /// Whether something flows.
+    pub fn has_fluid(&self) -> bool {
+        self.fluid != Fluid::default()
+    }
+
+    /// Whether there are blocks, fixed ones and those of rock masses included.
+    pub fn has_blocks(&self) -> bool {
+        !self.blocks.is_empty() || !self.rock_masses.is_empty()
     }
 
     /// Directory to which the paths of meshes are relative.

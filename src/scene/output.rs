@@ -9,14 +9,18 @@ use super::Axis;
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between VTI files, s. Default: only the last state.
+    /// Time between VTI files of the fluid and VTU files of the blocks, s. Default: only the last
+    /// state.
     pub every: Option<f64>,
     /// Fields in the VTI files. Default velocity and pressure.
     pub fields: Vec<Field>,
     /// Pictures. Default none.
     pub slices: Vec<Slice>,
-    /// Integrals over the fluid in time. Default none.
+    /// Integrals over the fluid and the blocks in time. Default none.
     pub histories: Vec<History>,
+    /// Whether the contacts of the blocks are written too, as a cloud of points with force, normal
+    /// and overlap. Default true.
+    pub contacts: bool,
 }
 
 impl Default for Output {
@@ -26,6 +30,7 @@ impl Default for Output {
             fields: vec![Field::Velocity, Field::Pressure],
             slices: Vec::new(),
             histories: Vec::new(),
+            contacts: true,
         }
     }
 }
@@ -133,7 +138,7 @@ pub struct History {
     pub every: Option<f64>,
 }
 
-/// A number that sums up the whole fluid.
+/// A number that sums up the whole fluid, or all blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -149,6 +154,61 @@ pub enum Quantity {
     MomentumY,
     /// ∫ ρu_z dV, kg m/s.
     MomentumZ,
-    /// Largest speed, m/s.
+    /// Largest speed of the fluid, m/s.
     MaxSpeed,
+    /// Kinetic energy of the blocks, with that of their spin, J.
+    BlockKineticEnergy,
+    /// Potential energy of the blocks in gravity, against that at the time 0, J.
+    BlockPotentialEnergy,
+    /// Elastic energy in the contacts of the blocks, J.
+    ContactEnergy,
+    /// What friction has turned into heat, J.
+    FrictionWork,
+    /// What damping, of contacts and of mass, has turned into heat, J.
+    DampingWork,
+    /// What driven blocks and loads have added, J.
+    OutsideWork,
+    /// Energy that the sum of all of these has gained, as a part of what has been turned over: the
+    /// error of the computation, no unit.
+    EnergyError,
+    /// Number of contacts of blocks.
+    Contacts,
+    /// Number of blocks that move or might: free ones that are not asleep, and driven ones.
+    AwakeBlocks,
+    /// Largest speed of a block's centroid, m/s.
+    BlockMaxSpeed,
+}
+
+impl Quantity {
+    /// Its name in scenes and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::KineticEnergy => "kinetic_energy",
+            Self::Enstrophy => "enstrophy",
+            Self::Mass => "mass",
+            Self::MomentumX => "momentum_x",
+            Self::MomentumY => "momentum_y",
+            Self::MomentumZ => "momentum_z",
+            Self::MaxSpeed => "max_speed",
+            Self::BlockKineticEnergy => "block_kinetic_energy",
+            Self::BlockPotentialEnergy => "block_potential_energy",
+            Self::ContactEnergy => "contact_energy",
+            Self::FrictionWork => "friction_work",
+            Self::DampingWork => "damping_work",
+            Self::OutsideWork => "outside_work",
+            Self::EnergyError => "energy_error",
+            Self::Contacts => "contacts",
+            Self::AwakeBlocks => "awake_blocks",
+            Self::BlockMaxSpeed => "block_max_speed",
+        }
+    }
+
+    /// Whether it sums up the blocks, not the fluid.
+    pub fn is_of_blocks(self) -> bool {
+        use Quantity::*;
+        !matches!(
+            self,
+            KineticEnergy | Enstrophy | Mass | MomentumX | MomentumY | MomentumZ | MaxSpeed
+        )
+    }
 }

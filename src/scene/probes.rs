@@ -16,7 +16,7 @@ pub struct Probe {
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `face` always gives area, pressure and
-    /// force, and no other fields.
+    /// force, a `block` its position, velocity, rotation, spin and contact force, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
@@ -66,6 +66,13 @@ pub enum ProbePlace {
         /// Outward normal of the solid's face: the solid cell lies against it.
         normal: Direction,
     },
+    /// A block: its centroid (m) and velocity (m/s), its rotation since the start as the vector of
+    /// its axis and angle (degrees), its spin (rad/s), and the force (N) and torque (N m) of its
+    /// contacts on it.
+    Block {
+        /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
+        block: String,
+    },
 }
 
 #[derive(Deserialize)]
@@ -76,6 +83,7 @@ enum Kind {
     Plane,
     Box,
     Face,
+    Block,
 }
 
 #[derive(Deserialize)]
@@ -94,6 +102,7 @@ struct Flat {
     min: Option<[f64; 3]>,
     max: Option<[f64; 3]>,
     normal: Option<Direction>,
+    block: Option<String>,
 }
 
 impl Flat {
@@ -108,6 +117,7 @@ impl Flat {
             ("min", self.min.is_some()),
             ("max", self.max.is_some()),
             ("normal", self.normal.is_some()),
+            ("block", self.block.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
         let place = match self.kind {
@@ -153,6 +163,19 @@ impl Flat {
                     min: need(self.min, "min", "face")?,
                     max: need(self.max, "max", "face")?,
                     normal: need(self.normal, "normal", "face")?,
+                }
+            }
+            Kind::Block => {
+                only("block", &["block"])?;
+                if self.fields.is_some() {
+                    return Err(
+                        "a `block` probe always gives position, velocity, rotation, spin, \
+                                force and torque and no fields; remove `fields`"
+                            .into(),
+                    );
+                }
+                ProbePlace::Block {
+                    block: need(self.block, "block", "block")?,
                 }
             }
         };

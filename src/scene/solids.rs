@@ -9,7 +9,8 @@ use super::tagged::{need, refuse_others, through};
 
 /// A static solid, or a hole in the solids listed before it.
 ///
-/// A cell is solid if its centre lies in a solid; later entries win over earlier ones.
+/// A cell is solid if its centre lies in a solid; later entries win over earlier ones. For blocks, a
+/// solid is a fixed block; a half-space then reaches as far beyond the domain as the domain is wide.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Solid {
@@ -22,9 +23,12 @@ pub struct Solid {
     /// The shape.
     #[schemars(flatten)]
     pub shape: Shape,
+    /// Name of the material that blocks touch. Default the first one.
+    #[schemars(default)]
+    pub material: Option<String>,
 }
 
-/// Shape of a solid.
+/// Shape of a solid or of a region.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(tag = "kind", rename_all = "snake_case")]
 pub enum Shape {
@@ -66,7 +70,7 @@ fn metre() -> f64 {
     1.0
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Kind {
     Box,
@@ -80,8 +84,8 @@ enum Kind {
 struct Flat {
     kind: Kind,
     name: Option<String>,
-    #[serde(default)]
-    void: bool,
+    void: Option<bool>,
+    material: Option<String>,
     min: Option<[f64; 3]>,
     max: Option<[f64; 3]>,
     point: Option<[f64; 3]>,
@@ -94,7 +98,7 @@ struct Flat {
 }
 
 impl Flat {
-    fn typed(self) -> Result<Solid, String> {
+    fn shape(&mut self) -> Result<Shape, String> {
         let given = [
             ("min", self.min.is_some()),
             ("max", self.max.is_some()),
@@ -107,7 +111,7 @@ impl Flat {
             ("translate", self.translate.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
-        let shape = match self.kind {
+        Ok(match self.kind {
             Kind::Box => {
                 only("box", &["min", "max"])?;
                 Shape::Box {
@@ -132,18 +136,44 @@ impl Flat {
             Kind::Mesh => {
                 only("mesh", &["file", "scale", "translate"])?;
                 Shape::Mesh {
-                    file: need(self.file, "file", "mesh")?,
+                    file: need(self.file.take(), "file", "mesh")?,
                     scale: self.scale.unwrap_or_else(metre),
                     translate: self.translate.unwrap_or_default(),
                 }
             }
-        };
+        })
+    }
+
+    fn typed(mut self) -> Result<Solid, String> {
         Ok(Solid {
+            shape: self.shape()?,
             name: self.name,
-            void: self.void,
-            shape,
+            void: self.void.unwrap_or_default(),
+            material: self.material,
         })
     }
 }
 
 through!(Flat => Solid);
+
+/// The keys of a region: those of a solid that say where it is.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct Region(Flat);
+
+impl Region {
+    fn typed(mut self) -> Result<Shape, String> {
+        let solid = &self.0;
+        let others = [
+            ("name", solid.name.is_some()),
+            ("void", solid.void.is_some()),
+            ("material", solid.material.is_some()),
+        ];
+        match others.iter().find(|(_, given)| *given) {
+            Some((key, _)) => Err(format!("`{key}` has no meaning for a region; remove it")),
+            None => self.0.shape(),
+        }
+    }
+}
+
+through!(Region => Shape);

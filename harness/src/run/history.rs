@@ -57,16 +57,26 @@ pub fn claims(histories: &[scene::History], probe: &str) -> bool {
     (0..histories.len()).any(|number| name(number) == probe)
 }
 
-/// Column, name and unit.
-fn about(quantity: Quantity) -> (&'static str, &'static str, &'static str) {
+/// Name and unit of a quantity.
+pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
     match quantity {
-        Quantity::KineticEnergy => ("kinetic_energy", "kinetic energy", "J"),
-        Quantity::Enstrophy => ("enstrophy", "enstrophy", "m³/s²"),
-        Quantity::Mass => ("mass", "mass", "kg"),
-        Quantity::MomentumX => ("momentum_x", "momentum along x", "kg m/s"),
-        Quantity::MomentumY => ("momentum_y", "momentum along y", "kg m/s"),
-        Quantity::MomentumZ => ("momentum_z", "momentum along z", "kg m/s"),
-        Quantity::MaxSpeed => ("max_speed", "largest speed", "m/s"),
+        Quantity::KineticEnergy => ("kinetic energy", "J"),
+        Quantity::Enstrophy => ("enstrophy", "m³/s²"),
+        Quantity::Mass => ("mass", "kg"),
+        Quantity::MomentumX => ("momentum along x", "kg m/s"),
+        Quantity::MomentumY => ("momentum along y", "kg m/s"),
+        Quantity::MomentumZ => ("momentum along z", "kg m/s"),
+        Quantity::MaxSpeed => ("largest speed", "m/s"),
+        Quantity::BlockKineticEnergy => ("kinetic energy of blocks", "J"),
+        Quantity::BlockPotentialEnergy => ("potential energy of blocks", "J"),
+        Quantity::ContactEnergy => ("elastic energy of contacts", "J"),
+        Quantity::FrictionWork => ("work of friction", "J"),
+        Quantity::DampingWork => ("work of damping", "J"),
+        Quantity::OutsideWork => ("work of drives and loads", "J"),
+        Quantity::EnergyError => ("error of the energy", ""),
+        Quantity::Contacts => ("contacts", ""),
+        Quantity::AwakeBlocks => ("awake blocks", ""),
+        Quantity::BlockMaxSpeed => ("largest speed of a block", "m/s"),
     }
 }
 

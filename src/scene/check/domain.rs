@@ -13,6 +13,15 @@ const MOST_CELLS: f64 = (u32::MAX / 27) as f64;
 impl Scene {
     pub(super) fn check_domain(&self) -> Result<()> {
         let domain = &self.domain;
+        if !self.has_fluid() {
+            return self.check_dry_domain();
+        }
+        if !domain.is_given() {
+            return refuse(
+                "domain",
+                "a fluid needs a box to flow in; add [domain] with size and cell",
+            );
+        }
         positive("domain.cell", domain.cell, "m")?;
         finite("domain.origin", &domain.origin)?;
         for axis in Axis::ALL {
@@ -50,6 +59,19 @@ impl Scene {
                      {coarser:.3e} m or a smaller domain"
                 ),
             );
+        }
+        Ok(())
+    }
+
+    /// Without fluid there are no cells, and there need not be a box.
+    fn check_dry_domain(&self) -> Result<()> {
+        let domain = &self.domain;
+        if !domain.is_given() {
+            return Ok(());
+        }
+        finite("domain.origin", &domain.origin)?;
+        for (axis, size) in domain.size.iter().enumerate() {
+            positive(format!("domain.size[{axis}]"), *size, "m")?;
         }
         Ok(())
     }

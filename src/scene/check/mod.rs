@@ -1,12 +1,18 @@
 //! What a scene must satisfy before anything is computed from it.
 
+mod blocks;
 mod boundaries;
 mod domain;
+mod dry;
+mod materials;
 mod numerics;
 mod output;
 mod probes;
+mod rock;
+mod rock_masses;
 mod rules;
 mod solids;
+mod views;
 
 use super::{InitialPressure, Scene};
 use crate::error::Result;
@@ -18,14 +24,30 @@ impl Scene {
     /// # Errors
     /// Names the first key that does not, why, and what would be right.
     pub fn check(&self) -> Result<()> {
+        if !self.has_fluid() && !self.has_blocks() {
+            return refuse(
+                "fluid",
+                "the scene has neither a fluid nor blocks; add [fluid], [[blocks]] or \
+                 [[rock_masses]]",
+            );
+        }
         self.check_domain()?;
-        self.check_fluid()?;
-        self.check_numerics()?;
+        if self.has_fluid() {
+            self.check_fluid()?;
+            self.check_numerics()?;
+        } else {
+            self.check_dry()?;
+        }
         self.check_solids()?;
         self.check_initial()?;
         self.check_run()?;
         self.check_output()?;
         self.check_probes()?;
+        self.check_rock()?;
+        self.check_materials()?;
+        self.check_blocks()?;
+        self.check_rock_masses()?;
+        self.check_views()?;
         // Last, since the balance of flows needs the solids.
         self.check_boundaries()
     }

@@ -22,6 +22,16 @@ impl Scene {
             let key = format!("output.histories[{index}]");
             distinct(&format!("{key}.quantities"), &history.quantities)?;
             interval(format!("{key}.every"), history.every)?;
+            let of_blocks = history.quantities.iter().find(|q| q.is_of_blocks());
+            if let (Some(quantity), false) = (of_blocks, self.has_blocks()) {
+                return refuse(
+                    format!("{key}.quantities"),
+                    format!(
+                        "{} is of blocks, and there are none; leave it out",
+                        quantity.name()
+                    ),
+                );
+            }
         }
         Ok(())
     }

@@ -40,6 +40,12 @@ impl Scene {
                 point[axis.index()] = *position;
                 within("position", point)
             }
+            // Whether there is a block of that name, only the blocks themselves can tell.
+            ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
+            ProbePlace::Block { .. } => refuse(
+                format!("{key}.block"),
+                "there are no blocks in this scene; remove the probe, or add [[blocks]]",
+            ),
             ProbePlace::Box { min, max } | ProbePlace::Face { min, max, .. } => {
                 ordered(key, *min, *max)?;
                 within("min", *min)?;

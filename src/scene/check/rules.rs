@@ -30,6 +30,30 @@ pub(super) fn positive(key: impl Into<String>, value: f64, unit: &str) -> Result
     )
 }
 
+/// `value` must be a number from 0.
+pub(super) fn not_negative(key: impl Into<String>, value: f64, unit: &str) -> Result<()> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    refuse(
+        key,
+        format!("is {value} {unit}; give a number from 0").replace(" ;", ";"),
+    )
+}
+
+/// `direction` must have one.
+pub(super) fn direction(key: impl Into<String>, direction: &[f64; 3]) -> Result<()> {
+    let key = key.into();
+    finite(key.as_str(), direction)?;
+    if direction.iter().all(|c| *c == 0.0) {
+        return refuse(
+            key,
+            "has no direction; give a vector other than 0, such as [0, 0, 1]",
+        );
+    }
+    Ok(())
+}
+
 /// Each entry of `point` must be a number.
 pub(super) fn finite(key: impl Into<String>, point: &[f64]) -> Result<()> {
     match point.iter().find(|v| !v.is_finite()) {

@@ -1,6 +1,6 @@
 //! Solids have an extent, and some of it in the domain.
 
-use super::rules::{Point, finite, names, ordered, positive, refuse};
+use super::rules::{Point, direction, finite, names, ordered, positive, refuse};
 use crate::error::Result;
 use crate::scene::{Scene, Shape};
 
@@ -12,33 +12,29 @@ impl Scene {
             named.filter_map(|(i, solid)| Some((i, solid.name.as_deref()?))),
         )?;
         for (index, solid) in self.solids.iter().enumerate() {
-            self.check_shape(&format!("solids[{index}]"), &solid.shape)?;
+            let key = format!("solids[{index}]");
+            self.check_region(&key, &solid.shape)?;
+            if self.has_fluid() {
+                self.check_place(&key, &solid.shape)?;
+            }
+            if self.has_blocks() || solid.material.is_some() {
+                self.material(&format!("{key}.material"), solid.material.as_deref())?;
+            }
         }
         Ok(())
     }
 
-    fn check_shape(&self, key: &str, shape: &Shape) -> Result<()> {
+    /// The numbers of a shape.
+    pub(super) fn check_region(&self, key: &str, shape: &Shape) -> Result<()> {
         match shape {
-            Shape::Box { min, max } => {
-                ordered(key, *min, *max)?;
-                self.check_reach(key, *min, *max)
-            }
+            Shape::Box { min, max } => ordered(key, *min, *max),
             Shape::HalfSpace { point, normal } => {
                 finite(format!("{key}.point"), point)?;
-                finite(format!("{key}.normal"), normal)?;
-                if normal.iter().all(|c| *c == 0.0) {
-                    return refuse(
-                        format!("{key}.normal"),
-                        "has no direction; give the direction out of the solid, such as [0, 0, 1]",
-                    );
-                }
-                Ok(())
+                direction(format!("{key}.normal"), normal)
             }
             Shape::Sphere { center, radius } => {
                 finite(format!("{key}.center"), center)?;
-                positive(format!("{key}.radius"), *radius, "m")?;
-                let corner = |sign: f64| center.map(|c| c + sign * radius);
-                self.check_reach(key, corner(-1.0), corner(1.0))
+                positive(format!("{key}.radius"), *radius, "m")
             }
             Shape::Mesh {
                 scale, translate, ..
@@ -46,6 +42,18 @@ impl Scene {
                 positive(format!("{key}.scale"), *scale, "m")?;
                 finite(format!("{key}.translate"), translate)
             }
+        }
+    }
+
+    /// Whether a shape without a file is where the domain is.
+    fn check_place(&self, key: &str, shape: &Shape) -> Result<()> {
+        match shape {
+            Shape::Box { min, max } => self.check_reach(key, *min, *max),
+            Shape::Sphere { center, radius } => {
+                let corner = |sign: f64| center.map(|c| c + sign * radius);
+                self.check_reach(key, corner(-1.0), corner(1.0))
+            }
+            Shape::HalfSpace { .. } | Shape::Mesh { .. } => Ok(()),
         }
     }
 

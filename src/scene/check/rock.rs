@@ -1,0 +1,24 @@
+//! Gravity, damping and time step are numbers that can be used.
+
+use super::rules::{finite, not_negative, positive};
+use crate::error::Result;
+use crate::scene::Scene;
+
+impl Scene {
+    pub(super) fn check_rock(&self) -> Result<()> {
+        let rock = &self.rock;
+        finite("rock.gravity", &rock.gravity)?;
+        not_negative("rock.mass_damping", rock.mass_damping, "1/s")?;
+        if let Some(time_step) = rock.time_step {
+            positive("rock.time_step", time_step, "s")?;
+        }
+        if let Some(skin) = rock.skin {
+            positive("rock.skin", skin, "m")?;
+        }
+        if let Some(sleep) = &rock.sleep {
+            positive("rock.sleep.speed", sleep.speed, "m/s")?;
+            positive("rock.sleep.time", sleep.time, "s")?;
+        }
+        Ok(())
+    }
+}

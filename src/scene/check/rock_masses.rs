@@ -1,0 +1,83 @@
+//! Rock masses have a volume, and joints that can cut it.
+
+use super::blocks::{half_spaces, points};
+use super::rules::{direction, finite, names, ordered, positive, refuse};
+use crate::error::Result;
+use crate::scene::{JointSet, Scene, Volume};
+
+impl Scene {
+    pub(super) fn check_rock_masses(&self) -> Result<()> {
+        let named = self.rock_masses.iter().enumerate();
+        names(
+            "rock_masses",
+            named.filter_map(|(i, mass)| Some((i, mass.name.as_deref()?))),
+        )?;
+        for (index, mass) in self.rock_masses.iter().enumerate() {
+            let key = format!("rock_masses[{index}]");
+            self.material(&format!("{key}.material"), mass.material.as_deref())?;
+            match &mass.volume {
+                Volume::Box { min, max } => ordered(&key, *min, *max)?,
+                Volume::Vertices { vertices } => points(&format!("{key}.vertices"), vertices)?,
+                Volume::HalfSpaces { faces } => half_spaces(&format!("{key}.faces"), faces)?,
+                Volume::Mesh {
+                    scale, translate, ..
+                } => {
+                    positive(format!("{key}.scale"), *scale, "m")?;
+                    finite(format!("{key}.translate"), translate)?;
+                }
+            }
+            for (number, set) in mass.joints.iter().enumerate() {
+                joints(&format!("{key}.joints[{number}]"), set)?;
+            }
+            if let Some(up) = &mass.up {
+                direction(format!("{key}.up"), up)?;
+            } else if self.rock.gravity == [0.0; 3] {
+                return refuse(
+                    format!("{key}.up"),
+                    "without gravity nothing says which way is up; give up, such as [0, 0, 1]",
+                );
+            }
+            direction(format!("{key}.north"), &mass.north)?;
+            let regions = [("fixed", &mass.fixed), ("removed", &mass.removed)];
+            for (name, regions) in regions {
+                for (number, region) in regions.iter().enumerate() {
+                    self.check_region(&format!("{key}.{name}[{number}]"), region)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn joints(key: &str, set: &JointSet) -> Result<()> {
+    if !(0.0..=90.0).contains(&set.dip) {
+        return refuse(
+            format!("{key}.dip"),
+            format!(
+                "is {} degrees; joints dip from 0 (flat) to 90 (upright)",
+                set.dip
+            ),
+        );
+    }
+    finite(format!("{key}.dip_direction"), &[set.dip_direction])?;
+    positive(format!("{key}.spacing"), set.spacing, "m")?;
+    if !(0.0..1.0).contains(&set.scatter) {
+        return refuse(
+            format!("{key}.scatter"),
+            format!(
+                "is {}; it lies from 0 (all distances equal) to below 1",
+                set.scatter
+            ),
+        );
+    }
+    if !(set.persistence > 0.0 && set.persistence <= 1.0) {
+        return refuse(
+            format!("{key}.persistence"),
+            format!(
+                "is {}; it lies above 0 and up to 1 (joints cut all that they meet)",
+                set.persistence
+            ),
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Cameras look at something.
+
+use super::rules::{direction, finite, interval, names, positive, refuse};
+use crate::error::Result;
+use crate::scene::{Scene, View};
+
+/// Largest edge of a picture: what every adapter can draw on.
+const LARGEST: u32 = 8192;
+/// Smallest edge: anything less shows nothing.
+const SMALLEST: u32 = 64;
+
+impl Scene {
+    pub(super) fn check_views(&self) -> Result<()> {
+        if !self.views.is_empty() && !self.has_blocks() {
+            return refuse(
+                "views",
+                "show blocks, and there are none; remove them, or add [[blocks]]",
+            );
+        }
+        // Slices come first: views may not take their files.
+        let slices = self.output.slices.iter().map(|slice| slice.name.as_str());
+        let views = self.views.iter().map(|view| view.name.as_str());
+        let count = self.output.slices.len();
+        let numbered = slices.chain(views).enumerate();
+        names(
+            "views",
+            numbered.map(|(i, name)| (i.saturating_sub(count), name)),
+        )?;
+        for (index, view) in self.views.iter().enumerate() {
+            self.check_view(&format!("views[{index}]"), view)?;
+        }
+        Ok(())
+    }
+
+    fn check_view(&self, key: &str, view: &View) -> Result<()> {
+        finite(format!("{key}.from"), &view.from)?;
+        finite(format!("{key}.to"), &view.to)?;
+        let ahead: [f64; 3] = std::array::from_fn(|a| view.to[a] - view.from[a]);
+        if ahead == [0.0; 3] {
+            return refuse(
+                format!("{key}.to"),
+                "is where the camera stands; give another point to look at",
+            );
+        }
+        if let Some(up) = &view.up {
+            direction(format!("{key}.up"), up)?;
+        }
+        let up = self.up_of(view);
+        let cross = glam::DVec3::from(up).cross(ahead.into()).length();
+        let lengths = glam::DVec3::from(up).length() * glam::DVec3::from(ahead).length();
+        if cross <= 1e-6 * lengths {
+            return refuse(
+                format!("{key}.up"),
+                "the camera looks along it, so that nothing is up in the picture; give another \
+                 direction, such as [0, 1, 0]",
+            );
+        }
+        if !(1.0..=150.0).contains(&view.field_of_view) {
+            return refuse(
+                format!("{key}.field_of_view"),
+                format!(
+                    "is {} degrees; give an angle from 1 to 150, such as 35",
+                    view.field_of_view
+                ),
+            );
+        }
+        for (axis, edge) in view.size.iter().enumerate() {
+            if !(SMALLEST..=LARGEST).contains(edge) {
+                return refuse(
+                    format!("{key}.size[{axis}]"),
+                    format!("is {edge} pixels; give {SMALLEST} to {LARGEST}"),
+                );
+            }
+        }
+        if let Some(speed) = view.speed {
+            positive(format!("{key}.speed"), speed, "m/s")?;
+        }
+        if let Some(ground) = view.ground {
+            finite(format!("{key}.ground"), &[ground])?;
+        }
+        interval(format!("{key}.every"), view.every)
+    }
+
+    /// The direction that is up in the picture of `view`: its own, or against gravity, or z.
+    pub fn up_of(&self, view: &View) -> [f64; 3] {
+        view.up.unwrap_or_else(|| self.up())
+    }
+
+    /// The direction against gravity, of any length; z without gravity.
+    pub fn up(&self) -> [f64; 3] {
+        match self.rock.gravity {
+            [0.0, 0.0, 0.0] => [0.0, 0.0, 1.0],
+            gravity => gravity.map(|g| -g),
+        }
+    }
+}

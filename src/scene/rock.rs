@@ -1,0 +1,65 @@
+//! What holds for all blocks together.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Gravity, damping and time step of the blocks.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Rock {
+    /// Acceleration of gravity, m/s². Default (0, 0, −9.81): unless told otherwise, z points up.
+    pub gravity: [f64; 3],
+    /// Mass damping α, 1/s: every free block loses speed at this rate. Default 0.
+    pub mass_damping: f64,
+    /// Time step, s. Default: half of the largest that the stiffest contact allows. A larger one is
+    /// refused.
+    pub time_step: Option<f64>,
+    /// Distance by which blocks are grown when pairs that may touch are searched, m: a larger one
+    /// makes searches rarer and lists longer. Default: chosen from the sizes of the blocks.
+    pub skin: Option<f64>,
+    /// When blocks that rest are left out of the computation until something reaches them. Default
+    /// never.
+    pub sleep: Option<Sleep>,
+    /// Whether blocks that overlap at the start are pushed apart before the time 0. Default false:
+    /// they are refused.
+    pub relax: bool,
+    /// Where pairs that may touch are searched. Default `auto`.
+    pub search: Search,
+}
+
+impl Default for Rock {
+    fn default() -> Self {
+        Self {
+            gravity: [0.0, 0.0, -9.81],
+            mass_damping: 0.0,
+            time_step: None,
+            skin: None,
+            sleep: None,
+            relax: false,
+            search: Search::default(),
+        }
+    }
+}
+
+/// When a block falls asleep.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sleep {
+    /// Speed below which a block counts as resting, m/s; for its spin, that of its farthest point.
+    pub speed: f64,
+    /// How long it must have rested, s.
+    pub time: f64,
+}
+
+/// Where pairs of blocks that may touch are searched; the pairs are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Search {
+    /// Where it is faster for this number of blocks.
+    #[default]
+    Auto,
+    /// On the host; needs no GPU.
+    Host,
+    /// On the device.
+    Device,
+}

@@ -20,15 +20,25 @@ pub struct Run {
 impl Run {
     /// Number of time steps of the run.
     pub fn step_count(&self, units: &Units) -> u64 {
+        self.count(units.time_step)
+    }
+
+    /// Number of steps of `time_step` s in the run.
+    pub fn count(&self, time_step: f64) -> u64 {
         match (self.steps, self.duration) {
             (Some(steps), _) => steps,
-            (None, Some(duration)) => units.steps(duration),
+            (None, Some(duration)) => (duration / time_step).round().max(1.0) as u64,
             (None, None) => 0,
         }
     }
 
+    /// Simulated time of the run in steps of `time_step` s, s.
+    pub fn length(&self, time_step: f64) -> f64 {
+        self.count(time_step) as f64 * time_step
+    }
+
     /// Simulated time of the run, s.
     pub fn duration(&self, units: &Units) -> f64 {
-        self.step_count(units) as f64 * units.time_step
+        self.length(units.time_step)
     }
 }

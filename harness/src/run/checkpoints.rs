@@ -14,27 +14,26 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    pub fn new(engine: &Engine, folder: &Path, last: u64) -> Self {
-        let simulation = &engine.simulation;
-        let every = simulation.scene().run.checkpoint_every;
+    pub fn new(engine: &impl Engine, folder: &Path, last: u64) -> Self {
+        let every = engine.scene().run.checkpoint_every;
         Self {
-            schedule: Schedule::new(every, simulation.units(), last),
+            schedule: Schedule::of(every, engine.time_step(), last),
             path: folder.join("checkpoint.riprap"),
         }
     }
 }
 
-impl Recorder for Checkpoints {
+impl<E: Engine> Recorder<E> for Checkpoints {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()> {
-        let step = engine.simulation.step();
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let step = engine.step();
         if step == 0 {
             return Ok(());
         }
-        engine.checkpoint()?.write(&self.path)?;
+        engine.checkpoint(&self.path)?;
         notes.checkpoint = Some((step, self.path.clone()));
         notes.file(self.path.clone());
         Ok(())

@@ -1,73 +1,55 @@
-//! A simulation on a device of its own, every wait with an end.
+//! What a journey asks of whatever moves: a fluid, blocks, or one day both.
 
-use crate::gpu;
-use riprap::{
-    Result,
-    checkpoint::Checkpoint,
-    output::{Array, Image},
-    scene::{Field, Scene},
-    simulation::{Needs, Simulation, Totals},
-    wgpu,
+use super::{
+    recorder::{Notes, Recorder},
+    summary::Summary,
 };
-use std::time::Duration;
+use anyhow::Result;
+use riprap::scene::{Quantity, Scene};
+use std::{path::Path, time::Duration};
 
-/// A step of 10⁸ cells takes a CPU adapter most of a minute, and compiling kernels as long; ten times
-/// that is no longer slow but stuck.
-const PATIENCE: Duration = Duration::from_secs(600);
+/// The recorders of an engine.
+pub type Recorders<E> = Vec<Box<dyn Recorder<E>>>;
 
-/// A scene on a device.
-pub struct Engine {
-    pub adapter: wgpu::AdapterInfo,
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-    pub needs: Needs,
-    pub simulation: Simulation,
-}
+/// A scene that moves on in steps.
+pub trait Engine: Sized + 'static {
+    /// The scene.
+    fn scene(&self) -> &Scene;
 
-impl Engine {
-    /// The scene at its start on the adapter called `adapter`, or on the best one.
-    pub fn open(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
-        let adapter = gpu::pick(adapter)?;
-        let needs = Needs::of(scene, &adapter)?;
-        let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;
-        let made = Simulation::new(&device, &queue, scene);
-        let simulation = gpu::drive(&device, PATIENCE, "the kernels", made)??;
-        Ok(Self {
-            adapter: adapter.get_info(),
-            device,
-            queue,
-            needs,
-            simulation,
-        })
-    }
+    /// Steps done.
+    fn step(&self) -> u64;
 
-    pub fn scene(&self) -> &Scene {
-        self.simulation.scene()
-    }
+    /// Length of a step, s.
+    fn time_step(&self) -> f64;
 
-    pub fn advance(&mut self, steps: u64) -> Result<()> {
-        let what = format!("{steps} steps");
-        let done = self.simulation.advance(steps);
-        gpu::drive(&self.device, PATIENCE, &what, done)?
-    }
+    /// Simulated time, s.
+    fn time(&self) -> f64;
 
-    pub fn image(&mut self, fields: &[Field]) -> Result<Image> {
-        let image = self.simulation.image(fields);
-        gpu::drive(&self.device, PATIENCE, "reading the fields", image)?
-    }
+    /// Takes `steps` steps. One that fails by leaving the range of the method may leave the engine at
+    /// an earlier, good step.
+    fn advance(&mut self, steps: u64) -> riprap::Result<()>;
 
-    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
-        let read = self.simulation.read(fields, cells);
-        gpu::drive(&self.device, PATIENCE, "reading cells", read)?
-    }
+    /// Restores the state in the file.
+    fn restore(&mut self, path: &Path) -> riprap::Result<()>;
 
-    pub fn totals(&mut self) -> Result<Totals> {
-        let totals = self.simulation.totals();
-        gpu::drive(&self.device, PATIENCE, "summing up", totals)?
-    }
+    /// Writes the state, from which a run goes on to the same bits.
+    fn checkpoint(&mut self, path: &Path) -> riprap::Result<()>;
 
-    pub fn checkpoint(&mut self) -> Result<Checkpoint> {
-        let checkpoint = self.simulation.checkpoint();
-        gpu::drive(&self.device, PATIENCE, "reading the state", checkpoint)?
-    }
+    /// The present values of `quantities`.
+    fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> riprap::Result<Vec<f64>>;
+
+    /// What writes the files of its own kind, until the step `last`.
+    fn recorders(&mut self, folder: &Path, last: u64) -> Result<Recorders<Self>>;
+
+    /// What is known before the first step.
+    fn summary(&self) -> Result<Summary>;
+
+    /// Tells, on standard error, what will run on what.
+    fn announce(&self, summary: &Summary, folder: &Path, last: u64);
+
+    /// How fast it runs, in a few words: `steps` of this run took `time`.
+    fn pace(&self, summary: &Summary, steps: u64, time: Duration) -> String;
+
+    /// What is known after the last step: `steps` of this run took `time`.
+    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration);
 }

@@ -1,8 +1,7 @@
-//! Sums over the fluid in time: `history.csv` and `history.png`.
+//! Sums over the fluid and the blocks in time: `history.csv` and `history.png`.
 
 use super::{
     engine::Engine,
-    probes::table,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
@@ -11,7 +10,6 @@ use anyhow::Result;
 use riprap::{
     output::{Csv, Table},
     scene::{self, Quantity},
-    simulation::Totals,
 };
 use std::path::{Path, PathBuf};
 
@@ -27,16 +25,16 @@ pub struct History {
 
 impl History {
     /// Begins the table of the history of this number, or goes on with it after a restart.
-    pub fn new(engine: &Engine, folder: &Path, last: u64, number: usize) -> Result<Self> {
-        let simulation = &engine.simulation;
-        let history = &simulation.scene().output.histories[number];
+    pub fn new(engine: &impl Engine, folder: &Path, last: u64, number: usize) -> Result<Self> {
+        let scene = engine.scene();
+        let history = &scene.output.histories[number];
         let path = folder.join(format!("{}.csv", name(number)));
-        let columns: Vec<&str> = history.quantities.iter().map(|q| about(*q).0).collect();
+        let columns: Vec<&str> = history.quantities.iter().map(|q| q.name()).collect();
         // Of the scene's run, not of `--steps`: a run in parts has one table.
-        let usual = simulation.scene().run.duration(simulation.units()) / POINTS;
+        let usual = scene.run.length(engine.time_step()) / POINTS;
         let every = history.every.or(Some(usual));
         Ok(Self {
-            schedule: Schedule::new(every, simulation.units(), last),
+            schedule: Schedule::of(every, engine.time_step(), last),
             quantities: history.quantities.clone(),
             table: table(engine, &path, &columns)?,
             path,
@@ -49,6 +47,18 @@ pub fn name(number: usize) -> String {
     match number {
         0 => "history".into(),
         _ => format!("history_{}", number + 1),
+    }
+}
+
+/// The table at `path`: a new one at the start of a run, else the one that a restart continues.
+pub fn table<S: AsRef<str>>(
+    engine: &impl Engine,
+    path: &Path,
+    columns: &[S],
+) -> riprap::Result<Csv> {
+    match engine.step() {
+        0 => Csv::create(path, columns),
+        step => Csv::resume(path, columns, step),
     }
 }
 
@@ -80,51 +90,36 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
     }
 }
 
-fn value(quantity: Quantity, totals: &Totals) -> f64 {
-    match quantity {
-        Quantity::KineticEnergy => totals.kinetic_energy,
-        Quantity::Enstrophy => totals.enstrophy,
-        Quantity::Mass => totals.mass,
-        Quantity::MomentumX => totals.momentum[0],
-        Quantity::MomentumY => totals.momentum[1],
-        Quantity::MomentumZ => totals.momentum[2],
-        Quantity::MaxSpeed => totals.max_speed,
-    }
-}
-
-impl Recorder for History {
+impl<E: Engine> Recorder<E> for History {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()> {
-        let totals = engine.totals()?;
-        notes.max_speed = notes.max_speed.max(totals.max_speed);
-        let values: Vec<f64> = self
-            .quantities
-            .iter()
-            .map(|quantity| value(*quantity, &totals))
-            .collect();
-        let (step, time) = (engine.simulation.step(), engine.simulation.time());
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let values = engine.values(&self.quantities, notes)?;
+        let (step, time) = (engine.step(), engine.time());
         self.table.append(step, time, &values)?;
         notes.file(self.path.clone());
         Ok(())
     }
 
-    fn finish(&mut self, engine: &Engine, notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
         let table = Table::read(&self.path)?;
         if table.column("time").is_none_or(|times| times.len() < 2) {
             return Ok(());
         }
-        let columns: Vec<_> = self.quantities.iter().map(|q| about(*q)).collect();
-        let names: Vec<[&str; 1]> = columns.iter().map(|(column, ..)| [*column]).collect();
-        let tracks: Vec<Track<'_>> = columns
+        let names: Vec<[&str; 1]> = self.quantities.iter().map(|q| [q.name()]).collect();
+        let tracks: Vec<Track<'_>> = self
+            .quantities
             .iter()
             .zip(&names)
-            .map(|((_, quantity, unit), columns)| Track {
-                quantity,
-                unit,
-                columns,
+            .map(|(quantity, columns)| {
+                let (quantity, unit) = about(*quantity);
+                Track {
+                    quantity,
+                    unit,
+                    columns,
+                }
             })
             .collect();
         let path = self.path.with_extension("png");

@@ -4,28 +4,25 @@
 //! advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
 //! the flow diverges, what is on disk is complete and can be continued.
 
-mod announce;
 mod batch;
 mod checkpoints;
 mod engine;
-mod fields;
+mod flow;
 mod history;
 mod journey;
-mod probes;
 mod progress;
 mod recorder;
 mod schedule;
-mod slices;
 mod summary;
-mod watch;
 
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 
 use anyhow::Result;
 use engine::Engine;
+use flow::Flow;
 use journey::Journey;
-use riprap::{Error, checkpoint::Checkpoint, scene::Scene};
+use riprap::{Error, scene::Scene};
 use std::{
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
@@ -62,16 +59,23 @@ pub struct Args {
 /// context of [`Unfinished`].
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
+    match (scene.has_fluid(), scene.has_blocks()) {
+        (true, false) => travel(Flow::open(&scene, args.adapter.as_deref())?, args, stop),
+        (true, true) => todo!(),
+        (false, _) => todo!(),
+    }
+}
+
+/// Takes `engine` from its start, or from the checkpoint, to the end.
+fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let folder = folder(args);
-    let checkpoint = args.restart.as_deref().map(Checkpoint::read).transpose()?;
-    let mut engine = Engine::open(&scene, args.adapter.as_deref())?;
-    let units = *engine.simulation.units();
     let last = args
         .steps
-        .unwrap_or_else(|| scene.run.step_count(&units))
+        .unwrap_or_else(|| engine.scene().run.count(engine.time_step()))
         .max(1);
-    if let Some(checkpoint) = &checkpoint {
-        let done = checkpoint.populations.step;
+    if let Some(path) = &args.restart {
+        engine.restore(path)?;
+        let done = engine.step();
         if done >= last {
             return Err(Error::scene(
                 "restart",
@@ -82,7 +86,6 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
             )
             .into());
         }
-        engine.simulation.restore(checkpoint)?;
     }
     std::fs::create_dir_all(&folder).map_err(|error| {
         let message = format!("cannot make this folder: {error}; choose another one with `--out`");
@@ -90,7 +93,7 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     })?;
     let mut journey = Journey::new(&mut engine, &folder, last, args.restart.as_deref())?;
     journey.summary.scene = args.scene.display().to_string();
-    announce::announce(&engine, &folder, last, journey.summary.bandwidth);
+    engine.announce(&journey.summary, &folder, last);
     journey.go(&mut engine, stop)
 }
 

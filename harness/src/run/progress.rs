@@ -17,14 +17,6 @@ pub struct Progress {
     said: Instant,
 }
 
-/// Speed so far.
-pub struct Speed {
-    /// Million cell updates a second.
-    pub mlups: f64,
-    /// Part of what memory allows.
-    pub share: f64,
-}
-
 impl Progress {
     pub fn new(first: u64, last: u64) -> Self {
         let bar = stderr().is_terminal().then(|| {
@@ -47,15 +39,11 @@ impl Progress {
         }
     }
 
-    pub fn show(&mut self, step: u64, speed: &Speed) {
+    /// The run is at `step`; `pace` says how fast it runs.
+    pub fn show(&mut self, step: u64, pace: &str) {
         let done = (step - self.first).max(1) as f64;
         let left = self.start.elapsed().as_secs_f64() / done * (self.last - step) as f64;
-        let Speed { mlups, share } = speed;
-        let message = format!(
-            "{mlups:.1} MLUPS, {:.0} % of memory speed, {} left",
-            100.0 * share,
-            clock(left)
-        );
+        let message = format!("{pace}, {} left", clock(left));
         if let Some(bar) = &self.bar {
             bar.set_position(step);
             bar.set_message(message);

@@ -1,19 +1,19 @@
 //! What a run writes, one thing a type.
 
-use super::{engine::Engine, schedule::Schedule};
+use super::schedule::Schedule;
 use anyhow::Result;
 use std::path::PathBuf;
 
 /// Writes something about the present state when it is due.
-pub trait Recorder {
+pub trait Recorder<E> {
     /// When it is due.
     fn schedule(&self) -> &Schedule;
 
     /// Writes, and says which files.
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()>;
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()>;
 
     /// Writes what only the end of the run can show.
-    fn finish(&mut self, _engine: &Engine, _notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, _engine: &E, _notes: &mut Notes) -> Result<()> {
         Ok(())
     }
 }

@@ -14,7 +14,12 @@ pub struct Schedule {
 impl Schedule {
     /// Each `every` seconds, if given, and at the step `last`.
     pub fn new(every: Option<f64>, units: &Units, last: u64) -> Self {
-        let every = every.map(|every| units.time_to_lattice(every).max(1.0));
+        Self::of(every, units.time_step, last)
+    }
+
+    /// Each `every` seconds, if given, of steps of `time_step` s, and at the step `last`.
+    pub fn of(every: Option<f64>, time_step: f64, last: u64) -> Self {
+        let every = every.map(|every| (every / time_step).max(1.0));
         Self { every, last }
     }
 

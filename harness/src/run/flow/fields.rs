@@ -1,10 +1,10 @@
 //! Fields for ParaView: `fields_000123.vti` and the collection `fields.pvd`.
 
-use super::{
-    engine::Engine,
+use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
+use super::Flow;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vti},
@@ -21,7 +21,7 @@ pub struct Fields {
 
 impl Fields {
     /// Begins the collection, or goes on with it after a restart.
-    pub fn new(engine: &Engine, folder: &Path, last: u64) -> Result<Self> {
+    pub fn new(engine: &Flow, folder: &Path, last: u64) -> Result<Self> {
         let simulation = &engine.simulation;
         let output = &simulation.scene().output;
         let path = folder.join("fields.pvd");
@@ -42,12 +42,12 @@ impl Fields {
     }
 }
 
-impl Recorder for Fields {
+impl Recorder<Flow> for Fields {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()> {
+    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
         let image = engine.image(&self.fields)?;
         let step = engine.simulation.step();
         let path = self.folder.join(format!("fields_{step:06}.vti"));

@@ -1,10 +1,11 @@
 //! A table for each probe: `NAME.csv`.
 
-use super::{
-    engine::Engine,
+use super::super::{
+    history::table,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
+use super::Flow;
 use anyhow::Result;
 use riprap::{output::Csv, probe::Gauge, scene::Probe};
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ pub struct ProbeTable {
 
 impl ProbeTable {
     /// Begins the table, or goes on with it after a restart.
-    pub fn new(engine: &Engine, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
+    pub fn new(engine: &Flow, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
         let simulation = &engine.simulation;
         let gauge = Gauge::new(simulation.scene(), simulation.solid(), probe)?;
         let path = folder.join(format!("{}.csv", probe.name));
@@ -31,20 +32,12 @@ impl ProbeTable {
     }
 }
 
-/// The table at `path`: a new one at the start of a run, else the one that a restart continues.
-pub fn table<S: AsRef<str>>(engine: &Engine, path: &Path, columns: &[S]) -> riprap::Result<Csv> {
-    match engine.simulation.step() {
-        0 => Csv::create(path, columns),
-        step => Csv::resume(path, columns, step),
-    }
-}
-
-impl Recorder for ProbeTable {
+impl Recorder<Flow> for ProbeTable {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()> {
+    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
         let arrays = engine.read(self.gauge.fields(), self.gauge.cells())?;
         let (step, time) = (engine.simulation.step(), engine.simulation.time());
         for row in self.gauge.rows(&arrays)? {

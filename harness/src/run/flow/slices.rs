@@ -1,10 +1,11 @@
 //! Pictures of planes: `NAME_000123.png`.
 
-use super::{
+use super::super::{
     engine::Engine,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
+use super::Flow;
 use crate::picture::{Plane, Quantity, Slice};
 use anyhow::Result;
 use riprap::{
@@ -25,7 +26,7 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    pub fn new(engine: &Engine, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
+    pub fn new(engine: &Flow, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
         let simulation = &engine.simulation;
         let scene = simulation.scene();
         let axis = slice.axis.index();
@@ -71,12 +72,12 @@ fn shown(field: SliceField) -> Shown {
     Shown { field, label, unit }
 }
 
-impl Recorder for Pictures {
+impl Recorder<Flow> for Pictures {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Engine, notes: &mut Notes) -> Result<()> {
+    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
         let (step, time) = (engine.simulation.step(), engine.simulation.time());
         let image = Image {
             arrays: engine.read(&self.fields, self.layer.cells())?,

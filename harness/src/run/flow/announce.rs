@@ -1,12 +1,12 @@
 //! What a run says before it starts.
 
-use super::engine::Engine;
+use super::Flow;
 use crate::{gpu, print};
 use riprap::lattice::bytes_a_cell;
 use std::path::Path;
 
 /// Tells, on standard error, what will run on what.
-pub fn announce(engine: &Engine, folder: &Path, last: u64, bandwidth: f64) {
+pub fn announce(engine: &Flow, folder: &Path, last: u64, bandwidth: f64) {
     let simulation = &engine.simulation;
     let (scene, units) = (simulation.scene(), simulation.units());
     let setup = simulation.lattice().setup();

@@ -5,7 +5,7 @@
 use glam::{DMat3, DVec3};
 
 /// ∫dV, ∫x dV and ∫x xᵀ dV.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Moments {
     /// m³.
     pub volume: f64,
@@ -16,7 +16,12 @@ pub(super) struct Moments {
 impl Moments {
     /// Of triangles counter-clockwise seen from outside, m from a point near their middle.
     pub fn of(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
-        triangles.fold(Self::default(), |sum, [a, b, c]| {
+        let nothing = Self {
+            volume: 0.0,
+            first: DVec3::ZERO,
+            second: DMat3::ZERO,
+        };
+        triangles.fold(nothing, |sum, [a, b, c]| {
             let det = a.dot(b.cross(c));
             let s = a + b + c;
             let square = outer(s) + outer(a) + outer(b) + outer(c);

@@ -142,7 +142,10 @@ fn normals_of_any_length_give_the_same_block() {
         distance: f.distance * (2 << i) as f64,
     });
     let (block, _) = Polyhedron::from_half_spaces(&scaled.collect::<Vec<_>>()).unwrap();
-    assert_eq!(block.faces(), cube.faces());
+    for (scaled, unit) in block.faces().iter().zip(cube.faces()) {
+        assert_eq!(scaled.normal, unit.normal);
+        assert!((scaled.distance - unit.distance).abs() < 1e-15);
+    }
 }
 
 #[test]

@@ -81,6 +81,22 @@ pub enum Error {
         /// What to change.
         remedy: String,
     },
+    /// Two blocks overlap by more than hard blocks may.
+    #[error(
+        "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, a tenth of the way from a face to its centroid; {remedy}"
+    )]
+    DeepOverlap {
+        /// One block.
+        first: String,
+        /// The other.
+        second: String,
+        /// Overlap along the contact normal, m.
+        depth: f64,
+        /// Largest overlap that is allowed, m.
+        limit: f64,
+        /// What to change.
+        remedy: String,
+    },
     /// The device did not answer in time.
     #[error("the device did not finish {what} within {seconds} s; {remedy}")]
     Timeout {

@@ -81,6 +81,56 @@ pub enum Error {
         /// What to change.
         remedy: String,
     },
+    /// Two blocks overlap by more than hard blocks may.
+    #[error(
+        "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, a tenth of the way from a face to its centroid; {remedy}"
+    )]
+    DeepOverlap {
+        /// One block.
+        first: String,
+        /// The other.
+        second: String,
+        /// Overlap along the contact normal, m.
+        depth: f64,
+        /// Largest overlap that is allowed, m.
+        limit: f64,
+        /// What to change.
+        remedy: String,
+    },
+    /// Blocks overlap at the start.
+    #[error(
+        "blocks overlap at the start in {} places, deepest first: {}; move them apart, or relax them",
+        pairs.len(), Overlap::list(pairs)
+    )]
+    Overlaps {
+        /// The pairs, deepest first.
+        pairs: Vec<Overlap>,
+    },
+    /// The step is too long for the springs of the contacts.
+    #[error(
+        "time_step = {asked:.3e} s is too long for the contacts of {block}: at most {bound:.3e} s \
+         ({usual:.3e} s is usual), or a lower stiffness"
+    )]
+    TimeStep {
+        /// Step, s.
+        asked: f64,
+        /// Longest step allowed, s.
+        bound: f64,
+        /// Step taken without `time_step`, s.
+        usual: f64,
+        /// Block whose contacts are the stiffest for its mass.
+        block: String,
+    },
+    /// The motion of a block is no longer a number.
+    #[error("{block} has a pose or velocity that is not finite at t = {time} s; {remedy}")]
+    NotFinite {
+        /// Block, with its index.
+        block: String,
+        /// Time, s.
+        time: f64,
+        /// What to change.
+        remedy: String,
+    },
     /// The device did not answer in time.
     #[error("the device did not finish {what} within {seconds} s; {remedy}")]
     Timeout {
@@ -97,6 +147,28 @@ pub enum Error {
     /// The device refused an allocation or a command.
     #[error("device: {0}")]
     Device(String),
+}
+
+/// Two blocks that overlap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlap {
+    /// First block, with its index.
+    pub first: String,
+    /// Second block, with its index.
+    pub second: String,
+    /// Overlap, m.
+    pub depth: f64,
+}
+
+impl Overlap {
+    /// The first few, as they stand in a message.
+    fn list(pairs: &[Self]) -> String {
+        let few = pairs.iter().take(3);
+        let names: Vec<_> = few
+            .map(|pair| format!("{} and {} by {:.3e} m", pair.first, pair.second, pair.depth))
+            .collect();
+        names.join(", ")
+    }
 }
 
 impl Error {

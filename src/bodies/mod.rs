@@ -1,5 +1,33 @@
 //! Blocks that move: their poses, their loads, and the step of all of them.
+//!
+//! [`Blocks`] owns the state. A step is kick, drift, the contacts of the candidate pairs, kick; which pairs
+//! are candidates says a [`Broadphase`](crate::broadphase::Broadphase) of the caller's. Forces are summed
+//! in the order of the pairs, so that the bits do not depend on the number of threads.
 
+mod blocks;
+mod body;
+mod books;
+mod bound;
+mod bytes;
+mod check;
+mod contact_point;
+mod ledger;
+mod narrow;
+mod pairs;
+mod parts;
 mod pose;
+mod relax;
+mod setup;
+mod sleeping;
+mod snapshot;
+mod step;
+mod touch;
 
+pub use blocks::Blocks;
+pub use contact_point::ContactPoint;
+pub use ledger::Ledger;
 pub use pose::{Load, Pose, skew};
+pub use setup::{Block, Material, Motion, PairMaterial, Setup, Sleep};
+pub use snapshot::Snapshot;
+
+use body::Body;

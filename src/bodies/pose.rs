@@ -50,7 +50,7 @@ pub fn skew(w: DVec3) -> DMat3 {
 }
 
 /// What a fluid does to a block in a step, SI.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// Force, N.
     pub force: DVec3,
@@ -64,6 +64,20 @@ pub struct Load {
     pub entrained_moment: DVec3,
     /// First moment of the missing volume about the centroid, m⁴.
     pub missing_moment: DVec3,
+}
+
+impl Default for Load {
+    /// None. Not derived: the default of a matrix is the identity.
+    fn default() -> Self {
+        Self {
+            force: DVec3::ZERO,
+            moment: DMat3::ZERO,
+            entrained: 0.0,
+            missing: 0.0,
+            entrained_moment: DVec3::ZERO,
+            missing_moment: DVec3::ZERO,
+        }
+    }
 }
 
 impl Load {

@@ -6,7 +6,7 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 
-/// A convex polyhedron in the world, vectors along the world's axes.
+/// A convex polyhedron, or a sphere if it has no faces, in the world; vectors along the world's axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placed {
     /// Centroid, m.
@@ -47,5 +47,16 @@ impl Placed {
         self.radius = square.fold(0.0, f64::max).sqrt();
         let distances = self.faces.iter().map(|face| face.distance);
         self.smallest_distance = distances.fold(f64::INFINITY, f64::min);
+    }
+
+    /// Moves to `pose` the sphere of `radius` (m) whose centre is `offset` (m) from the centroid of
+    /// its block, in the block's frame. A sphere has no faces and does not deform.
+    pub fn update_sphere(&mut self, radius: f64, offset: DVec3, pose: &Pose) {
+        self.centre = pose.point(offset);
+        self.deformation = pose.deformation;
+        self.faces.clear();
+        self.vertices.clear();
+        self.radius = radius;
+        self.smallest_distance = radius;
     }
 }

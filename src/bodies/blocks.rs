@@ -1,0 +1,358 @@
+//! All blocks of a scene and their state.
+
+use super::{
+    Body, ContactPoint, Ledger, Load, Motion, Pose, Setup, Sleep,
+    body::{Flight, State},
+    books::Books,
+    bound, check,
+    narrow::{Joints, Resolvers},
+    pairs::{self, Mark},
+    parts::{Parts, place},
+    touch::{Pair, Touch},
+};
+use crate::{
+    Error, Result,
+    broadphase::{Broadphase, Item},
+    contact::{Counts, Options},
+    integrate::Principal,
+    law::{self, Stiffness},
+};
+use glam::DVec3;
+
+/// Blocks that move under gravity, loads and each other's contacts.
+///
+/// ```
+/// use glam::DVec3;
+/// use riprap::{block::{Polyhedron, Shape}, bodies::{Block, Blocks, Material, Setup}};
+/// use std::sync::Arc;
+///
+/// # fn main() -> riprap::Result<()> {
+/// // A cube of 1 m falls for 0.1 s.
+/// let shape: Arc<Shape> = Arc::new(Polyhedron::cuboid(DVec3::ONE)?.into());
+/// let mut blocks = Blocks::new(Setup {
+///     blocks: vec![Block::new("cube", shape, DVec3::Z)],
+///     materials: vec![Material::default()],
+///     time_step: Some(1e-3),
+///     ..Setup::default()
+/// })?;
+/// blocks.set_pairs(Vec::new())?;
+/// for _ in 0..100 {
+///     blocks.step()?;
+/// }
+/// assert!((blocks.poses()[0].centre.z - (1.0 - 0.5 * 9.81 * 0.01)).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Blocks {
+    pub(super) bodies: Vec<Body>,
+    pub(super) joints: Joints,
+    pub(super) gravity: DVec3,
+    pub(super) damping: f64,
+    /// Whether the step was given, and stays.
+    pub(super) given_step: bool,
+    pub(super) skin: f64,
+    pub(super) sleep: Option<Sleep>,
+    pub(super) start_overlap: f64,
+    pub(super) resolvers: Resolvers,
+
+    pub(super) time: f64,
+    pub(super) time_step: f64,
+    pub(super) started: bool,
+    pub(super) states: Vec<State>,
+    /// Poses when the pairs were found; empty: never.
+    pub(super) marks: Vec<Mark>,
+    pub(super) pairs: Vec<Pair>,
+    pub(super) touches: Vec<Touch>,
+    pub(super) books: Books,
+
+    // What a step writes before it is known to be good.
+    pub(super) parts: Parts,
+    pub(super) flights: Vec<Flight>,
+    pub(super) before: Vec<State>,
+    pub(super) next_pairs: Vec<Pair>,
+    pub(super) sums: Vec<Stiffness>,
+}
+
+impl Blocks {
+    /// Blocks at t = 0.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming a block without mass, a pose that is not finite, a material that does not
+    /// exist or cannot be.
+    pub fn new(setup: Setup) -> Result<Self> {
+        Self::with_options(setup, Options::default())
+    }
+
+    /// The same with contacts resolved by `options`.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::new`].
+    pub fn with_options(setup: Setup, options: Options) -> Result<Self> {
+        check::check(&setup)?;
+        let joints = check::joints(&setup);
+        let mut bodies: Vec<Body> = Vec::with_capacity(setup.blocks.len());
+        let mut states = Vec::with_capacity(setup.blocks.len());
+        let mut first = 0;
+        for block in &setup.blocks {
+            let density = setup.materials[block.material].density;
+            let count = block.shape.parts().len();
+            let body = Body {
+                name: block.name.clone(),
+                mass: density * block.shape.volume(),
+                inertia: Principal::of(block.shape.inertia()).scaled(density),
+                shape: block.shape.clone(),
+                material: block.material,
+                motion: block.motion.clone(),
+                parts: first..first + count,
+            };
+            first += count;
+            states.push(start(&body, block));
+            bodies.push(body);
+        }
+        let (frequency_squared, _) = bound::of_shapes(&bodies, &joints);
+        let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
+        let time_step = setup.time_step.unwrap_or(usual);
+        let mut blocks = Self {
+            skin: setup.skin.unwrap_or_else(|| usual_skin(&bodies)),
+            joints,
+            gravity: setup.gravity,
+            damping: setup.damping,
+            given_step: setup.time_step.is_some(),
+            sleep: setup.sleep,
+            start_overlap: setup.start_overlap,
+            resolvers: Resolvers::new(options),
+            time: 0.0,
+            time_step,
+            started: false,
+            marks: Vec::new(),
+            pairs: Vec::new(),
+            touches: Vec::new(),
+            books: Books::default(),
+            parts: Parts::new(&bodies),
+            flights: vec![Flight::default(); bodies.len()],
+            before: Vec::new(),
+            next_pairs: Vec::new(),
+            sums: Vec::new(),
+            bodies,
+            states,
+        };
+        blocks.place(|_| true);
+        Ok(blocks)
+    }
+
+    /// Number of blocks.
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Whether there is no block.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
+    }
+
+    /// s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Step of [`Blocks::step`], and the longest of [`Blocks::advance`], s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Distance below which pairs are candidates, m.
+    pub fn skin(&self) -> f64 {
+        self.skin
+    }
+
+    /// Where the blocks are and how they move.
+    pub fn poses(&self) -> Vec<Pose> {
+        self.states.iter().map(State::pose).collect()
+    }
+
+    /// Name of a block.
+    pub fn name(&self, block: usize) -> &str {
+        &self.bodies[block].name
+    }
+
+    /// Mass of a block, kg.
+    pub fn mass(&self, block: usize) -> f64 {
+        self.bodies[block].mass
+    }
+
+    /// Rotation of a block.
+    pub fn rotation(&self, block: usize) -> glam::DQuat {
+        self.states[block].rotation
+    }
+
+    /// Spins about the world's axes, rad/s.
+    pub fn spins(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.spin)
+    }
+
+    /// Angular momentum of a free block about its centroid, world, kg m²/s.
+    pub fn angular_momentum(&self, block: usize) -> DVec3 {
+        self.states[block].momentum
+    }
+
+    /// Net force of the contacts on each block, N.
+    pub fn contact_forces(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.force)
+    }
+
+    /// Net torque of the contacts on each block about its centroid, N m.
+    pub fn contact_torques(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.torque)
+    }
+
+    /// Which blocks sleep.
+    pub fn asleep(&self) -> impl Iterator<Item = bool> + '_ {
+        self.states.iter().map(|state| state.asleep)
+    }
+
+    /// Whether a block can move: it is free or driven.
+    pub fn moves(&self, block: usize) -> bool {
+        self.bodies[block].motion != Motion::Fixed
+    }
+
+    /// Speed of the fastest point of a free block, m/s.
+    pub fn largest_speed(&self) -> f64 {
+        let free = self.bodies.iter().zip(&self.states);
+        free.filter(|(body, _)| body.is_free())
+            .map(|(body, state)| state.fastest(body.shape.radius()))
+            .fold(0.0, f64::max)
+    }
+
+    /// The contacts at the end of the last step, in the order of the pairs.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> + '_ {
+        let real = self.touches.iter().filter(|touch| touch.area > 0.0);
+        real.map(ContactPoint::of)
+    }
+
+    /// Energies since the start.
+    pub fn ledger(&self) -> Ledger {
+        self.books
+            .ledger(&self.bodies, &self.states, &self.touches, self.gravity)
+    }
+
+    /// What the resolvers have done so far.
+    pub fn counts(&self) -> Counts {
+        self.resolvers.counts()
+    }
+
+    /// Number of candidate pairs.
+    pub fn candidates(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// Boxes of all parts for a [`Broadphase`], grown by half the skin.
+    pub fn items(&self) -> Vec<Item> {
+        self.parts.items(&self.bodies, self.skin)
+    }
+
+    /// Whether a step needs a new list of pairs first: a block has moved, or will in this step, by half
+    /// the skin.
+    pub fn wants_pairs(&self) -> bool {
+        let outlived =
+            |marks| pairs::outlived(&self.bodies, &self.states, marks, self.skin, self.time_step);
+        self.marks.is_empty() && !self.bodies.is_empty() || outlived(&self.marks)
+    }
+
+    /// The pairs of [`Blocks::items`] that may touch. What the pairs remember of each other stays.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if they are not sorted pairs of items.
+    pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
+        let pairs = pairs::checked(pairs, &self.parts.block, &self.bodies)?;
+        self.pairs = pairs::merged(&self.pairs, &pairs);
+        self.marks.clear();
+        self.marks.extend(self.states.iter().map(Mark::of));
+        Ok(())
+    }
+
+    /// External loads of all blocks, which act until they are set anew.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is not one for each block, or one is not finite.
+    pub fn load(&mut self, loads: &[Load]) -> Result<()> {
+        if loads.len() != self.len() {
+            let message = format!("{} loads for {} blocks", loads.len(), self.len());
+            return Err(Error::scene("loads", message));
+        }
+        let finite = |load: &Load| load.force.is_finite() && load.torque().is_finite();
+        if let Some(i) = loads.iter().position(|load| !finite(load)) {
+            let message = format!("the load {:?} is not finite", loads[i].force);
+            return Err(Error::scene(self.label(i), message));
+        }
+        for (state, load) in self.states.iter_mut().zip(loads) {
+            state.load = load.force;
+            state.load_torque = load.torque();
+        }
+        Ok(())
+    }
+
+    /// Steps until the time is `until` (s), in equal steps of at most the time step, with pairs from
+    /// `finder` when they are wanted.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::step`], and of the finder.
+    pub async fn advance(&mut self, finder: &mut impl Broadphase, until: f64) -> Result<()> {
+        while self.time < until {
+            if self.wants_pairs() {
+                let pairs = finder.pairs(&self.items()).await?;
+                self.set_pairs(pairs)?;
+            }
+            self.step_towards(until)?;
+        }
+        Ok(())
+    }
+
+    /// A block in a message.
+    pub(super) fn label(&self, block: usize) -> String {
+        super::narrow::label(block, &self.bodies[block].name)
+    }
+
+    /// Places the parts of the blocks that `which` names.
+    pub(super) fn place(&mut self, which: impl Fn(usize) -> bool) {
+        for (i, (body, state)) in self.bodies.iter().zip(&self.states).enumerate() {
+            if which(i) {
+                place(
+                    body,
+                    &state.pose(),
+                    &mut self.parts.placed[body.parts.clone()],
+                );
+            }
+        }
+    }
+}
+
+fn start(body: &Body, block: &super::Block) -> State {
+    let mut state = State {
+        centre: block.centre,
+        rotation: block.rotation.normalize(),
+        velocity: block.velocity,
+        spin: block.spin,
+        ..State::default()
+    };
+    match &body.motion {
+        Motion::Free => {
+            let frame = state.rotation * body.inertia.axes;
+            state.momentum = frame * ((frame.conjugate() * block.spin) * body.inertia.moments);
+        }
+        Motion::Fixed => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
+        Motion::Driven { .. } => [state.velocity, state.spin] = body.driven_at(0.0),
+    }
+    state
+}
+
+/// A tenth of the mean radius of the parts that move: boxes grow little, and the list lives for many steps.
+fn usual_skin(bodies: &[Body]) -> f64 {
+    let moving = bodies.iter().filter(|body| !body.is_fixed());
+    let (mut sum, mut count) = (0.0, 0.0f64);
+    for part in moving.flat_map(|body| body.shape.parts()) {
+        sum += part.form.radius();
+        count += 1.0;
+    }
+    0.1 * sum / count.max(1.0)
+}

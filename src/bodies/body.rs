@@ -1,0 +1,167 @@
+//! One block: what stays and what changes.
+
+use super::{Motion, Pose};
+use crate::{
+    block::Shape,
+    formula::Formula,
+    integrate::{self, Principal},
+};
+use glam::{DQuat, DVec3};
+use std::{ops::Range, sync::Arc};
+
+/// What stays.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    pub name: String,
+    pub shape: Arc<Shape>,
+    pub material: usize,
+    pub motion: Motion,
+    /// kg.
+    pub mass: f64,
+    /// kg m².
+    pub inertia: Principal,
+    /// Its parts among all parts.
+    pub parts: Range<usize>,
+}
+
+impl Body {
+    pub fn is_free(&self) -> bool {
+        self.motion == Motion::Free
+    }
+
+    pub fn is_fixed(&self) -> bool {
+        self.motion == Motion::Fixed
+    }
+
+    /// Velocity and spin of a driven block at the time `t`; zero for others.
+    pub fn driven_at(&self, t: f64) -> [DVec3; 2] {
+        let Motion::Driven { velocity, spin } = &self.motion else {
+            return [DVec3::ZERO; 2];
+        };
+        let value =
+            |v: &[Formula; 3]| DVec3::from_array([0, 1, 2].map(|k| v[k].eval_at([0.0; 3], t)));
+        [value(velocity), value(spin)]
+    }
+
+    /// 1/kg; 0 if forces do not move it.
+    pub fn inverse_mass(&self) -> f64 {
+        if self.is_free() { 1.0 / self.mass } else { 0.0 }
+    }
+}
+
+/// What changes, between two steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct State {
+    /// m.
+    pub centre: DVec3,
+    pub rotation: DQuat,
+    /// m/s.
+    pub velocity: DVec3,
+    /// Angular momentum, world, kg m²/s.
+    pub momentum: DVec3,
+    /// Spin, world, rad/s.
+    pub spin: DVec3,
+    /// Net force of the contacts, N.
+    pub force: DVec3,
+    /// Net torque of the contacts, N m.
+    pub torque: DVec3,
+    /// External force, N.
+    pub load: DVec3,
+    /// External torque, N m.
+    pub load_torque: DVec3,
+    /// Time for which it has been slow, s.
+    pub slow: f64,
+    pub asleep: bool,
+    /// Force and torque when it fell asleep, loads included.
+    pub slept: [DVec3; 2],
+}
+
+impl State {
+    pub fn pose(&self) -> Pose {
+        Pose::rigid(self.centre, self.rotation, self.velocity, self.spin)
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.centre.is_finite()
+            && self.rotation.is_finite()
+            && self.velocity.is_finite()
+            && self.momentum.is_finite()
+            && self.spin.is_finite()
+    }
+
+    /// ½mv² + ½ω·L, J.
+    pub fn kinetic(&self, mass: f64) -> f64 {
+        0.5 * (mass * self.velocity.length_squared() + self.spin.dot(self.momentum))
+    }
+}
+
+/// How a block moves within a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Flight {
+    /// Mean velocity over the step, m/s.
+    pub velocity: DVec3,
+    /// Mean spin over the step, rad/s.
+    pub spin: DVec3,
+    /// Velocity expected at the end, m/s.
+    pub end_velocity: DVec3,
+    /// Spin expected at the end, rad/s.
+    pub end_spin: DVec3,
+}
+
+/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays.
+pub(super) fn fly(
+    body: &Body,
+    state: &mut State,
+    gravity: DVec3,
+    damping: f64,
+    time: f64,
+    dt: f64,
+) -> Flight {
+    match &body.motion {
+        Motion::Fixed => Flight::default(),
+        Motion::Free if state.asleep => Flight::default(),
+        Motion::Free => {
+            let rate = (state.force + state.load) / body.mass + gravity;
+            let torque = state.torque + state.load_torque;
+            let velocity = integrate::first_kick(state.velocity, rate, damping, dt);
+            let momentum = integrate::first_kick(state.momentum, torque, damping, dt);
+            // The dashpots want the velocity at the end of the step, which the force there is part of:
+            // the last acceleration gives it to second order.
+            let end_velocity = 2.0 * velocity - state.velocity;
+            let end_momentum = 2.0 * momentum - state.momentum;
+            state.centre += velocity * dt;
+            state.rotation = integrate::turn(&body.inertia, state.rotation, momentum, dt);
+            (state.velocity, state.momentum) = (velocity, momentum);
+            Flight {
+                velocity,
+                spin: integrate::spin(&body.inertia, state.rotation, momentum),
+                end_velocity,
+                end_spin: integrate::spin(&body.inertia, state.rotation, end_momentum),
+            }
+        }
+        Motion::Driven { .. } => {
+            let [mid_velocity, mid_spin] = body.driven_at(time + 0.5 * dt);
+            state.centre += mid_velocity * dt;
+            state.rotation = (DQuat::from_scaled_axis(mid_spin * dt) * state.rotation).normalize();
+            [state.velocity, state.spin] = body.driven_at(time + dt);
+            Flight {
+                velocity: mid_velocity,
+                spin: mid_spin,
+                end_velocity: state.velocity,
+                end_spin: state.spin,
+            }
+        }
+    }
+}
+
+/// The second kick of a step, with the forces at its end.
+pub(super) fn land(body: &Body, state: &mut State, gravity: DVec3, damping: f64, dt: f64) {
+    if !body.is_free() || state.asleep {
+        return;
+    }
+    let rate = (state.force + state.load) / body.mass + gravity;
+    let torque = state.torque + state.load_torque;
+    state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
+    state.momentum = integrate::second_kick(state.momentum, torque, damping, dt);
+    state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
+}

@@ -1,0 +1,109 @@
+//! A setup that can be computed.
+
+use super::{Motion, Setup, Sleep, narrow::Joints, narrow::label};
+use crate::{Error, Result, law::Joint};
+
+/// # Errors
+/// [`Error::Scene`] naming the first number that cannot be used.
+pub(super) fn check(setup: &Setup) -> Result<()> {
+    let positive = |place: &str, value: f64, unit: &str| {
+        if value > 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        let message = format!("{value} must be greater than 0 {unit}");
+        Err(Error::scene(place, message))
+    };
+    if !setup.gravity.is_finite() {
+        let message = format!("{} must be finite", setup.gravity);
+        return Err(Error::scene("gravity", message));
+    }
+    if !(setup.damping >= 0.0 && setup.damping.is_finite()) {
+        let message = format!("{} must be 0 1/s or more", setup.damping);
+        return Err(Error::scene("damping", message));
+    }
+    if let Some(step) = setup.time_step {
+        positive("time_step", step, "s")?;
+    }
+    if let Some(skin) = setup.skin {
+        positive("skin", skin, "m")?;
+    }
+    positive("start_overlap", setup.start_overlap, "")?;
+    if let Some(Sleep {
+        speed,
+        after,
+        change,
+    }) = setup.sleep
+    {
+        positive("sleep.speed", speed, "m/s")?;
+        positive("sleep.after", after, "s")?;
+        positive("sleep.change", change, "")?;
+    }
+    for (i, material) in setup.materials.iter().enumerate() {
+        let place = format!("materials[{i}]");
+        positive(&format!("{place}.density"), material.density, "kg/m³")?;
+        material.joint.check(&place)?;
+    }
+    for (i, pair) in setup.pairs.iter().enumerate() {
+        let place = format!("pairs[{i}]");
+        if let Some(bad) = pair.materials.iter().find(|&&m| m >= setup.materials.len()) {
+            let message = format!("there is no material {bad}, only {}", setup.materials.len());
+            return Err(Error::scene(place, message));
+        }
+        pair.joint.check(&place)?;
+    }
+    (0..setup.blocks.len()).try_for_each(|i| check_block(setup, i))
+}
+
+fn check_block(setup: &Setup, index: usize) -> Result<()> {
+    let block = &setup.blocks[index];
+    let refuse = |message: String| Err(Error::scene(label(index, &block.name), message));
+    let Some(material) = setup.materials.get(block.material) else {
+        let (asked, known) = (block.material, setup.materials.len());
+        return refuse(format!("there is no material {asked}, only {known}"));
+    };
+    let mass = material.density * block.shape.volume();
+    if !(mass > 0.0 && mass.is_finite()) {
+        return refuse(format!("its mass is {mass} kg; it must be greater than 0"));
+    }
+    let numbers = [
+        ("centre", block.centre.is_finite()),
+        ("rotation", block.rotation.is_finite()),
+        ("velocity", block.velocity.is_finite()),
+        ("spin", block.spin.is_finite()),
+    ];
+    if let Some((name, _)) = numbers.iter().find(|(_, finite)| !finite) {
+        return refuse(format!("its {name} is not finite"));
+    }
+    if (block.rotation.length() - 1.0).abs() > 1e-6 {
+        let length = block.rotation.length();
+        return refuse(format!(
+            "its rotation is a quaternion of length {length}, not 1"
+        ));
+    }
+    if let Motion::Driven { velocity, spin } = &block.motion {
+        for (name, formulas) in [("velocity", velocity), ("spin", spin)] {
+            let value = |k: usize| formulas[k].eval_at([0.0; 3], 0.0);
+            if let Some(k) = (0..3).find(|&k| !value(k).is_finite()) {
+                let text = formulas[k].text();
+                return refuse(format!("its {name} `{text}` is not finite at t = 0"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The joint of every two materials.
+pub(super) fn joints(setup: &Setup) -> Joints {
+    let materials = setup.materials.len();
+    let mut table = Vec::with_capacity(materials * materials);
+    for a in &setup.materials {
+        let row = setup.materials.iter();
+        table.extend(row.map(|b| Joint::between(&a.joint, &b.joint)));
+    }
+    for pair in &setup.pairs {
+        let [a, b] = pair.materials;
+        table[a * materials + b] = pair.joint;
+        table[b * materials + a] = pair.joint;
+    }
+    Joints { materials, table }
+}

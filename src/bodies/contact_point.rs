@@ -1,0 +1,40 @@
+//! A contact as it is shown.
+
+use super::touch::Touch;
+use glam::DVec3;
+
+/// One contact at the end of the last step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// First and second block.
+    pub blocks: [usize; 2],
+    /// First and second part, among the parts of all blocks.
+    pub parts: [usize; 2],
+    /// Where the force acts, m.
+    pub point: DVec3,
+    /// Unit normal from the first block to the second.
+    pub normal: DVec3,
+    /// Force on the second block, N; the first gets the opposite.
+    pub force: DVec3,
+    /// Overlap, m.
+    pub overlap: f64,
+    /// Area, m².
+    pub area: f64,
+    /// Whether its tensile strength still holds.
+    pub bonded: bool,
+}
+
+impl ContactPoint {
+    pub(super) fn of(touch: &Touch) -> Self {
+        Self {
+            blocks: touch.blocks.map(|block| block as usize),
+            parts: touch.parts.map(|part| part as usize),
+            point: touch.pressure_centre,
+            normal: touch.normal,
+            force: touch.force.total(),
+            overlap: touch.overlap,
+            area: touch.area,
+            bonded: touch.force.history.bonded,
+        }
+    }
+}

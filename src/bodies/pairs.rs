@@ -1,0 +1,94 @@
+//! The list of candidate pairs, and how long it lives.
+
+use super::{
+    Body,
+    body::State,
+    touch::{NONE, Pair},
+};
+use crate::{Error, Result};
+use glam::{DQuat, DVec3};
+
+/// Where a block was when the list was made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mark {
+    pub centre: DVec3,
+    pub rotation: DQuat,
+}
+
+impl Mark {
+    pub fn of(state: &State) -> Self {
+        Self {
+            centre: state.centre,
+            rotation: state.rotation,
+        }
+    }
+
+    /// No point of the block has moved farther than this, m.
+    pub fn moved(&self, state: &State, radius: f64) -> f64 {
+        let turn = state.rotation * self.rotation.conjugate();
+        // A point at the distance r from the axis moves by 2 r sin(θ/2).
+        let turned = 2.0 * turn.xyz().length() * radius;
+        (state.centre - self.centre).length() + turned
+    }
+}
+
+/// Whether some block may leave half the skin within `dt` s, so that pairs may be missing.
+pub(super) fn outlived(
+    bodies: &[Body],
+    states: &[State],
+    marks: &[Mark],
+    skin: f64,
+    dt: f64,
+) -> bool {
+    let all = bodies.iter().zip(states).zip(marks);
+    all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
+        .any(|((body, state), mark)| {
+            let radius = body.shape.radius();
+            let ahead = (state.velocity.length() + state.spin.length() * radius) * dt;
+            mark.moved(state, radius) + ahead > 0.5 * skin
+        })
+}
+
+/// A new list that keeps what the pairs of the old one remember. A contact whose pair is not in `new` is
+/// kept all the same: its history ends only where the resolver says so.
+pub(super) fn merged(old: &[Pair], new: &[[u32; 2]]) -> Vec<Pair> {
+    let mut list = Vec::with_capacity(new.len());
+    let mut rest = old.iter().copied().peekable();
+    for &parts in new {
+        while let Some(pair) = rest.next_if(|pair| pair.parts < parts) {
+            list.extend((pair.touch != NONE).then_some(pair));
+        }
+        let kept = rest.next_if(|pair| pair.parts == parts);
+        list.push(kept.unwrap_or_else(|| Pair::new(parts)));
+    }
+    list.extend(rest.filter(|pair| pair.touch != NONE));
+    list
+}
+
+/// Drops what is never computed: pairs of one block, and of two that forces do not move.
+///
+/// # Errors
+/// If the list is not sorted, names a part that does not exist, or names a pair twice.
+pub(super) fn checked(
+    mut pairs: Vec<[u32; 2]>,
+    block: &[u32],
+    bodies: &[Body],
+) -> Result<Vec<[u32; 2]>> {
+    let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < block.len();
+    if let Some(pair) = pairs.iter().find(|pair| !known(pair)) {
+        let parts = block.len();
+        return Err(Error::scene(
+            "pairs",
+            format!("{pair:?} must be two of the {parts} items in ascending order"),
+        ));
+    }
+    if !pairs.is_sorted_by(|a, b| a < b) {
+        let message = "the finder must return the pairs sorted, each once";
+        return Err(Error::scene("pairs", message));
+    }
+    pairs.retain(|pair| {
+        let [a, b] = pair.map(|part| block[part as usize]);
+        a != b && (bodies[a as usize].is_free() || bodies[b as usize].is_free())
+    });
+    Ok(pairs)
+}

@@ -1,0 +1,66 @@
+//! The convex parts of all blocks where they are now.
+
+use super::{Body, Pose};
+use crate::{block::Form, broadphase::Item, contact::Placed};
+use glam::DVec3;
+
+/// All parts of all blocks, in order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    /// Block of each part.
+    pub block: Vec<u32>,
+    pub placed: Vec<Placed>,
+}
+
+impl Parts {
+    pub fn new(bodies: &[Body]) -> Self {
+        let mut parts = Self::default();
+        for (i, body) in bodies.iter().enumerate() {
+            for _ in body.parts.clone() {
+                parts.block.push(i as u32);
+                parts.placed.push(Placed::default());
+            }
+        }
+        parts
+    }
+
+    /// The boxes of all parts, each grown by half the skin. What forces do not move is one group.
+    pub fn items(&self, bodies: &[Body], skin: f64) -> Vec<Item> {
+        let held = bodies.len() as u32;
+        let item = |(placed, &block): (&Placed, &u32)| {
+            let (min, max) = bounds(placed);
+            let grow = DVec3::splat(0.5 * skin);
+            let free = bodies[block as usize].is_free();
+            Item {
+                min: (min - grow).to_array(),
+                max: (max + grow).to_array(),
+                group: if free { block } else { held },
+            }
+        };
+        self.placed.iter().zip(&self.block).map(item).collect()
+    }
+}
+
+/// Moves the parts of one block.
+pub(super) fn place(body: &Body, pose: &Pose, placed: &mut [Placed]) {
+    for (part, placed) in body.shape.parts().iter().zip(placed) {
+        match &part.form {
+            Form::Convex(shape) => placed.update(shape, part.offset, pose),
+            Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, pose),
+        }
+    }
+}
+
+/// Corners of the box along the axes around a part, m.
+fn bounds(placed: &Placed) -> (DVec3, DVec3) {
+    if placed.faces.is_empty() {
+        let r = DVec3::splat(placed.radius);
+        return (placed.centre - r, placed.centre + r);
+    }
+    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &v in &placed.vertices {
+        min = min.min(v);
+        max = max.max(v);
+    }
+    (placed.centre + min, placed.centre + max)
+}

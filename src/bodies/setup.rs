@@ -1,0 +1,170 @@
+//! What blocks there are, and how they are computed.
+
+use crate::{block::Shape, formula::Formula, law::Joint};
+use glam::{DQuat, DVec3};
+use std::sync::Arc;
+
+/// Blocks at the start, SI.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The blocks.
+    pub blocks: Vec<Block>,
+    /// What they are made of; [`Block::material`] counts in here.
+    pub materials: Vec<Material>,
+    /// Joints between two materials, where [`Joint::between`] is not what they have.
+    pub pairs: Vec<PairMaterial>,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+    /// Mass damping α, 1/s.
+    pub damping: f64,
+    /// Step, s. Without it the step is [`USUAL_SHARE`](crate::law::USUAL_SHARE) of the stability bound,
+    /// and gets shorter when contacts stiffen.
+    pub time_step: Option<f64>,
+    /// Distance below which pairs are candidates, m. Without it a tenth of the mean radius of the parts
+    /// that can move.
+    pub skin: Option<f64>,
+    /// When blocks at rest are left out.
+    pub sleep: Option<Sleep>,
+    /// Largest overlap at the start, as a share of the smaller block's distance from centroid to face.
+    pub start_overlap: f64,
+}
+
+impl Default for Setup {
+    /// No blocks; gravity of 9.81 m/s² along −z, no mass damping, no sleep, overlaps of 1 % at the start.
+    fn default() -> Self {
+        Self {
+            blocks: Vec::new(),
+            materials: Vec::new(),
+            pairs: Vec::new(),
+            gravity: DVec3::new(0.0, 0.0, -9.81),
+            damping: 0.0,
+            time_step: None,
+            skin: None,
+            sleep: None,
+            start_overlap: 0.01,
+        }
+    }
+}
+
+/// One block at the start.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Name, for messages and output.
+    pub name: String,
+    /// Shape, about its centroid.
+    pub shape: Arc<Shape>,
+    /// Which of [`Setup::materials`].
+    pub material: usize,
+    /// Centroid, m.
+    pub centre: DVec3,
+    /// Turns vectors of the block's frame into the world's.
+    pub rotation: DQuat,
+    /// Velocity of the centroid, m/s; a driven block has that of its formulas.
+    pub velocity: DVec3,
+    /// Spin about the world's axes, rad/s; a driven block has that of its formulas.
+    pub spin: DVec3,
+    /// What moves it.
+    pub motion: Motion,
+}
+
+impl Block {
+    /// A free block of the first material, at rest, not turned.
+    pub fn new(name: impl Into<String>, shape: impl Into<Arc<Shape>>, centre: DVec3) -> Self {
+        Self {
+            name: name.into(),
+            shape: shape.into(),
+            material: 0,
+            centre,
+            rotation: DQuat::IDENTITY,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            motion: Motion::Free,
+        }
+    }
+
+    /// The same block, held in its place.
+    pub fn fixed(self) -> Self {
+        Self {
+            motion: Motion::Fixed,
+            ..self
+        }
+    }
+
+    /// The same block, turned by `rotation`.
+    pub fn turned(self, rotation: DQuat) -> Self {
+        Self { rotation, ..self }
+    }
+}
+
+/// What moves a block.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Motion {
+    /// Forces.
+    #[default]
+    Free,
+    /// Nothing.
+    Fixed,
+    /// Formulas of t, whatever the forces.
+    Driven {
+        /// Velocity of the centroid, m/s.
+        velocity: [Formula; 3],
+        /// Spin about the world's axes, rad/s.
+        spin: [Formula; 3],
+    },
+}
+
+/// What a block is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Density, kg/m³.
+    pub density: f64,
+    /// The joint between two faces of this material.
+    pub joint: Joint,
+}
+
+impl Default for Material {
+    /// Rock of 2650 kg/m³ with dry joints.
+    fn default() -> Self {
+        Self {
+            density: 2650.0,
+            joint: Joint::default(),
+        }
+    }
+}
+
+/// The joint between two materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairMaterial {
+    /// Which of [`Setup::materials`], in either order.
+    pub materials: [usize; 2],
+    /// Their joint.
+    pub joint: Joint,
+}
+
+/// When a block counts as resting: it then stays in its place, and the contacts among resting blocks keep
+/// their forces without being computed.
+///
+/// A block that sleeps moves by less than `speed` × the time that it would still have moved; it wakes as
+/// soon as the force of a moving neighbour on it, or its load, changes by more than `change` of its
+/// weight. So positions differ from those without sleep by about `speed` × (time asleep).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sleep {
+    /// Speed of its fastest point below which a block rests, m/s.
+    pub speed: f64,
+    /// How long it must have been that slow, s.
+    pub after: f64,
+    /// Change of force that wakes it, as a share of its weight (without gravity: of its largest
+    /// contact force).
+    pub change: f64,
+}
+
+impl Default for Sleep {
+    /// Slower than 1 µm/s for 0.1 s; wakes at a millionth of the weight.
+    fn default() -> Self {
+        Self {
+            speed: 1e-6,
+            after: 0.1,
+            change: 1e-6,
+        }
+    }
+}

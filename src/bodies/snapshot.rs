@@ -1,0 +1,190 @@
+//! The state between two steps, whole.
+
+use super::{
+    Blocks,
+    body::State,
+    books::Books,
+    bytes::{Plain, fields},
+    pairs::Mark,
+    touch::{Pair, Touch},
+};
+use crate::{
+    Error, Result,
+    contact::Cache,
+    law::{Force, History},
+};
+
+/// First bytes of a snapshot; the digit is the version of the form.
+const MAGIC: &[u8; 16] = b"riprap blocks 1\n";
+
+/// Everything that the next steps depend on: poses, momenta, forces, contact histories, what the
+/// resolver remembers, the ledger. What does not change, such as shapes, is in the
+/// [`Setup`](super::Setup).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    time: f64,
+    time_step: f64,
+    started: bool,
+    states: Vec<State>,
+    marks: Vec<Mark>,
+    pairs: Vec<Pair>,
+    touches: Vec<Touch>,
+    books: Books,
+}
+
+impl Snapshot {
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// As bytes, the same on every machine.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        self.write(&mut bytes);
+        bytes
+    }
+
+    /// From what [`Snapshot::to_bytes`] gave.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the bytes are no snapshot, or are cut short.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
+        let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
+            let message = "this is no snapshot of this version of riprap";
+            return Err(Error::scene("snapshot", message));
+        };
+        let snapshot = Self::read(&mut rest)?;
+        if rest.is_empty() {
+            Ok(snapshot)
+        } else {
+            let message = format!("{} bytes too many", rest.len());
+            Err(Error::scene("snapshot", message))
+        }
+    }
+}
+
+impl Blocks {
+    /// The present state.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            time: self.time,
+            time_step: self.time_step,
+            started: self.started,
+            states: self.states.clone(),
+            marks: self.marks.clone(),
+            pairs: self.pairs.clone(),
+            touches: self.touches.clone(),
+            books: self.books,
+        }
+    }
+
+    /// Goes back, or on, to a state of the same setup: the next steps give the same bits as they did
+    /// from there.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the state is not one of these blocks.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
+        let parts = self.parts.block.len() as u32;
+        let blocks = self.len() as u32;
+        let known = |pair: &Pair| {
+            pair.parts.iter().all(|&part| part < parts)
+                && (pair.touch == super::touch::NONE
+                    || (pair.touch as usize) < snapshot.touches.len())
+        };
+        let fits = snapshot.states.len() == self.len()
+            && (snapshot.marks.is_empty() || snapshot.marks.len() == self.len())
+            && snapshot.pairs.iter().all(known)
+            && snapshot
+                .touches
+                .iter()
+                .all(|touch| touch.blocks.iter().all(|&block| block < blocks));
+        if !fits {
+            let message = format!(
+                "it holds {} blocks, these are {} of another scene",
+                snapshot.states.len(),
+                self.len()
+            );
+            return Err(Error::scene("snapshot", message));
+        }
+        self.time = snapshot.time;
+        self.time_step = snapshot.time_step;
+        self.started = snapshot.started;
+        self.states.clone_from(&snapshot.states);
+        self.marks.clone_from(&snapshot.marks);
+        self.pairs.clone_from(&snapshot.pairs);
+        self.touches.clone_from(&snapshot.touches);
+        self.books = snapshot.books;
+        self.place(|_| true);
+        Ok(())
+    }
+}
+
+fields!(Snapshot {
+    time,
+    time_step,
+    started,
+    states,
+    marks,
+    pairs,
+    touches,
+    books
+});
+fields!(State {
+    centre,
+    rotation,
+    velocity,
+    momentum,
+    spin,
+    force,
+    torque,
+    load,
+    load_torque,
+    slow,
+    asleep,
+    slept,
+});
+fields!(Mark { centre, rotation });
+fields!(Pair {
+    parts,
+    cache,
+    touch
+});
+fields!(Cache {
+    plane,
+    point,
+    contact,
+    second
+});
+fields!(Touch {
+    parts,
+    blocks,
+    point,
+    pressure_centre,
+    normal,
+    overlap,
+    area,
+    width,
+    limit,
+    force,
+    stored,
+    power,
+});
+fields!(Force {
+    spring,
+    dashpot,
+    moment,
+    friction,
+    history
+});
+fields!(History {
+    shear,
+    normal,
+    bonded
+});
+fields!(Books {
+    friction,
+    lost,
+    work,
+    power
+});

@@ -1,0 +1,55 @@
+//! A pair of parts that may touch, and its contact while it does.
+
+use crate::{contact::Cache, law::Force};
+use glam::DVec3;
+
+/// No contact.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A candidate pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pair {
+    /// First and second part, in ascending order.
+    pub parts: [u32; 2],
+    /// What the resolver remembers.
+    pub cache: Cache,
+    /// Its contact among all contacts, or [`NONE`].
+    pub touch: u32,
+}
+
+impl Pair {
+    pub fn new(parts: [u32; 2]) -> Self {
+        Self {
+            parts,
+            cache: Cache::default(),
+            touch: NONE,
+        }
+    }
+}
+
+/// A contact, vectors along the world's axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Touch {
+    pub parts: [u32; 2],
+    pub blocks: [u32; 2],
+    /// Point of contact, m.
+    pub point: DVec3,
+    /// Where the force acts, m.
+    pub pressure_centre: DVec3,
+    /// From the first to the second.
+    pub normal: DVec3,
+    /// m.
+    pub overlap: f64,
+    /// m²; 0 while the pair touches within rounding.
+    pub area: f64,
+    /// m.
+    pub width: f64,
+    /// Overlap from which the blocks are no longer hard, m.
+    pub limit: f64,
+    /// On the second block.
+    pub force: Force,
+    /// Work done on the springs less that taken by friction, J.
+    pub stored: f64,
+    /// Rate of work on the springs at the end of the last step, W.
+    pub power: f64,
+}

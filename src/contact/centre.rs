@@ -1,0 +1,151 @@
+//! Analytic centre of the overlap: min −Σ log(b_k − a_k · x), by damped Newton (Boyd &
+//! Vandenberghe 2004, §9.6).
+
+use super::pair::Row;
+use glam::{DMat3, DVec3};
+
+/// Newton's method with slacks carried along, so that thin overlaps lose no digits to b − a · x.
+#[derive(Default)]
+pub(super) struct Centring {
+    /// Normals in a frame whose z is the tightest row's.
+    normals: Vec<DVec3>,
+    /// Slacks, in L.
+    pub slacks: Vec<f64>,
+    /// a_k · dx / t_k.
+    rates: Vec<f64>,
+}
+
+/// λ² below which a step was the last one: the next would change slacks by less than 1e-10.
+const TOLERANCE: f64 = 1e-10;
+
+/// Where full steps converge quadratically (Boyd & Vandenberghe 2004, §9.6.4).
+const FULL_STEP: f64 = 0.25;
+
+/// Far more than any pair needs; a bound for numbers that are not finite.
+const MAX_STEPS: u64 = 60;
+
+impl Centring {
+    /// Moves `point`, inside all rows, to the analytic centre; the slacks there stay in `slacks`.
+    /// Returns the number of steps.
+    pub fn run(&mut self, rows: &[Row], point: &mut DVec3) -> u64 {
+        self.slacks.clear();
+        let slacks = rows.iter().map(|row| row.offset - row.normal.dot(*point));
+        self.slacks.extend(slacks);
+        let tightest = (0..rows.len()).fold(0, |best, k| {
+            if self.slacks[k] < self.slacks[best] {
+                k
+            } else {
+                best
+            }
+        });
+        let z = rows[tightest].normal;
+        let (x, y) = z.any_orthonormal_pair();
+        let frame = DMat3::from_cols(x, y, z);
+        let turn = frame.transpose();
+        self.normals.clear();
+        self.normals
+            .extend(rows.iter().map(|row| turn * row.normal));
+        self.rates.resize(rows.len(), 0.0);
+        let mut moved = DVec3::ZERO;
+        for step in 1..=MAX_STEPS {
+            let Some((direction, decrement)) = self.direction() else {
+                return step;
+            };
+            for ((rate, normal), slack) in
+                self.rates.iter_mut().zip(&self.normals).zip(&self.slacks)
+            {
+                *rate = normal.dot(direction) / slack;
+            }
+            let length = if decrement < FULL_STEP * FULL_STEP {
+                1.0
+            } else {
+                self.line_search()
+            };
+            for (slack, rate) in self.slacks.iter_mut().zip(&self.rates) {
+                *slack *= 1.0 - length * rate;
+            }
+            moved += length * direction;
+            if decrement < TOLERANCE || step == MAX_STEPS {
+                *point += frame * moved;
+                return step;
+            }
+        }
+        MAX_STEPS
+    }
+
+    /// Newton's direction −H⁻¹g and its decrement λ² = gᵀH⁻¹g; none if H has no factors.
+    fn direction(&self) -> Option<(DVec3, f64)> {
+        let mut g = DVec3::ZERO;
+        let (mut xx, mut xy, mut xz, mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        for (normal, slack) in self.normals.iter().zip(&self.slacks) {
+            let a = *normal * slack.recip();
+            g += a;
+            xx += a.x * a.x;
+            xy += a.x * a.y;
+            xz += a.x * a.z;
+            yy += a.y * a.y;
+            yz += a.y * a.z;
+            zz += a.z * a.z;
+        }
+        // Jacobi scaling brings H of a thin slab from 1/t² : 1 : 1 to ones on the diagonal.
+        let d = DVec3::new(xx, yy, zz).map(|h| h.sqrt().recip());
+        let (xy, xz, yz) = (xy * d.x * d.y, xz * d.x * d.z, yz * d.y * d.z);
+        let g = g * d;
+        // H = C Cᵀ from the stiff z up, so that its rounding does not reach x and y.
+        let czy = yz;
+        let czx = xz;
+        let cyy = (1.0 - czy * czy).sqrt();
+        let cyx = (xy - czy * czx) / cyy;
+        let cxx = (1.0 - czx * czx - cyx * cyx).sqrt();
+        let wz = g.z;
+        let wy = (g.y - czy * wz) / cyy;
+        let wx = (g.x - czx * wz - cyx * wy) / cxx;
+        let decrement = wx * wx + wy * wy + wz * wz;
+        let sx = wx / cxx;
+        let sy = (wy - cyx * sx) / cyy;
+        let sz = wz - czy * sy - czx * sx;
+        let direction = -DVec3::new(sx, sy, sz) * d;
+        decrement.is_finite().then_some((direction, decrement))
+    }
+
+    /// The minimum of −Σ log(1 − s r_k) on 0 < s ≤ 0.99 of the way to the boundary, to a tenth.
+    fn line_search(&self) -> f64 {
+        let fastest = self.rates.iter().copied().fold(0.0, f64::max);
+        let end = if fastest > 0.0 {
+            0.99 / fastest
+        } else {
+            return 1.0;
+        };
+        // The slope Σ r/(1 − s r) grows with s: Newton from below, kept inside the bracket.
+        let (mut low, mut high) = (0.0, end);
+        let mut s = end.min(1.0);
+        for _ in 0..8 {
+            let (mut slope, mut curvature) = (0.0, 0.0);
+            for rate in &self.rates {
+                let q = rate / (1.0 - s * rate);
+                slope += q;
+                curvature += q * q;
+            }
+            if slope > 0.0 {
+                high = s;
+            } else {
+                low = s;
+                if s == end {
+                    break;
+                }
+            }
+            let newton = s - slope / curvature;
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            let change = (next - s).abs();
+            s = next;
+            if change < 0.1 * s {
+                break;
+            }
+        }
+        s
+    }
+}

@@ -1,0 +1,57 @@
+//! Cheap proofs for a pair without history, tried before the linear program.
+
+use super::pair::{Pair, Row};
+use crate::block::HalfSpace;
+use glam::DVec3;
+
+impl Pair<'_> {
+    /// A face of one block that has all of the other outside, by more than `margin` (in L): its normal
+    /// from the smaller to the larger block.
+    pub fn separating_face(&self, margin: f64) -> Option<DVec3> {
+        let margin = margin * self.length;
+        // A face that looks away from the other block's centroid cannot keep it off.
+        let clear = |face: &HalfSpace, shift: DVec3, vertices: &[DVec3]| {
+            let height = face.normal.dot(shift) - face.distance - margin;
+            height > 0.0 && vertices.iter().all(|v| face.normal.dot(*v) > -height)
+        };
+        let (small, large) = (self.small, self.large);
+        let own = small.faces.iter();
+        let found = own.clone().find(|f| clear(f, self.shift, &large.vertices));
+        found.map(|f| f.normal).or_else(|| {
+            let mut faces = large.faces.iter();
+            faces
+                .find(|f| clear(f, -self.shift, &small.vertices))
+                .map(|f| -f.normal)
+        })
+    }
+
+    /// A point of the line of centres that is inside all `rows`, in L, if there is one.
+    pub fn point_between(&self, rows: &[Row], split: usize) -> DVec3 {
+        let line = self.shift / self.length;
+        let (own, other) = rows.split_at(split);
+        // The line leaves the smaller block at `out`, and enters the larger one at `enter`.
+        let out = own.iter().fold(1.0, |s: f64, row| {
+            let rate = row.normal.dot(line);
+            if rate > 0.0 {
+                s.min(row.offset / rate)
+            } else {
+                s
+            }
+        });
+        let enter = other.iter().fold(0.0, |s: f64, row| {
+            let rate = row.normal.dot(line);
+            if rate < 0.0 {
+                s.max(row.offset / rate)
+            } else {
+                s
+            }
+        });
+        0.5 * (out + enter) * line
+    }
+}
+
+/// Smallest slack b − a · x over all rows.
+pub(super) fn smallest_slack(rows: &[Row], x: DVec3) -> f64 {
+    let slacks = rows.iter().map(|row| row.offset - row.normal.dot(x));
+    slacks.fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,38 @@
+//! Contact normal, from the smaller to the larger block, at a point inside both.
+
+use super::pair::Row;
+use glam::DVec3;
+
+/// n = unit(Σ a_k/t_k) over the first `split` rows. At the analytic centre the sum over all rows is
+/// zero, so that the other block's is its opposite.
+pub(super) fn barrier(rows: &[Row], slacks: &[f64], split: usize) -> DVec3 {
+    let own = rows[..split].iter().zip(slacks);
+    own.map(|(row, t)| row.normal / *t)
+        .sum::<DVec3>()
+        .normalize_or_zero()
+}
+
+/// Gradient of the potential particle (Boon, Houlsby & Utili 2012, eq. 4), Σ ⟨a·x − d + r⟩² − r²:
+/// unit(∇f_A/|∇f_A| − ∇f_B/|∇f_B|), `rounding` r in L.
+pub(super) fn potential(rows: &[Row], slacks: &[f64], split: usize, rounding: f64) -> DVec3 {
+    let gradient = |from: usize, to: usize| {
+        let part = rows[from..to].iter().zip(&slacks[from..to]);
+        part.map(|(row, t)| row.normal * (rounding - t).max(0.0))
+            .sum::<DVec3>()
+            .normalize_or_zero()
+    };
+    (gradient(0, split) - gradient(split, rows.len())).normalize_or_zero()
+}
+
+/// u_n: way along ±n from the point to where it leaves both blocks.
+pub(super) fn overlap(rows: &[Row], slacks: &[f64], split: usize, normal: DVec3) -> f64 {
+    let mut ways = [f64::INFINITY; 2];
+    for (k, (row, slack)) in rows.iter().zip(slacks).enumerate() {
+        let (way, sign) = if k < split { (0, 1.0) } else { (1, -1.0) };
+        let rate = sign * row.normal.dot(normal);
+        if rate > 0.0 {
+            ways[way] = ways[way].min(slack / rate);
+        }
+    }
+    ways[0] + ways[1]
+}

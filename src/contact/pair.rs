@@ -1,0 +1,91 @@
+//! A pair in the frame in which it is resolved: origin at the smaller block's centroid, lengths
+//! divided by the smaller block's size L. Without that shift and scale the linear program loses up
+//! to three more digits.
+
+use super::Placed;
+use crate::block::HalfSpace;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// a · x ≤ b.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Distance from the smaller block's centroid, in L.
+    pub offset: f64,
+}
+
+/// Two blocks, ordered by size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
+    pub small: &'a Placed,
+    pub large: &'a Placed,
+    /// Whether the smaller one is the second argument.
+    pub flipped: bool,
+    /// From the smaller block's centroid to the larger one's, m.
+    pub shift: DVec3,
+    /// L, the diameter of the smaller block's bounding sphere, m.
+    pub length: f64,
+}
+
+impl<'a> Pair<'a> {
+    pub fn new(first: &'a Placed, second: &'a Placed) -> Self {
+        let flipped = order(first, second) == Ordering::Greater;
+        let (small, large) = if flipped {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        Self {
+            small,
+            large,
+            flipped,
+            shift: large.centre - small.centre,
+            length: 2.0 * small.radius,
+        }
+    }
+
+    /// Fills `rows`, the smaller block's first; returns how many are the smaller block's.
+    ///
+    /// Of a much larger block only the faces that come within twice the smaller block's bounding
+    /// sphere are kept. A plane outside the sphere cuts nothing off the smaller block, so the overlap
+    /// is exactly the same; the factor of two keeps a face that comes or goes at least a radius from
+    /// the overlap, where it weighs next to nothing in the analytic centre.
+    pub fn fill(&self, rows: &mut Vec<Row>) -> usize {
+        let scale = self.length.recip();
+        rows.clear();
+        rows.extend(self.small.faces.iter().map(|face| Row {
+            normal: face.normal,
+            offset: face.distance * scale,
+        }));
+        let far = |face: &HalfSpace| Row {
+            normal: face.normal,
+            offset: (face.distance + face.normal.dot(self.shift)) * scale,
+        };
+        // Below this ratio few faces would go; a pair of equal sizes must not depend on the order.
+        if self.large.radius < 3.0 * self.small.radius {
+            rows.extend(self.large.faces.iter().map(far));
+        } else {
+            rows.extend(self.large.faces.iter().map(far).filter(|r| r.offset < 1.0));
+        }
+        self.small.faces.len()
+    }
+
+    /// What rounding may do to a slack, in L: a few units in the last place of the longest vector.
+    pub fn rounding(&self) -> f64 {
+        8.0 * f64::EPSILON * (1.0 + (self.large.radius + self.shift.length()) / self.length)
+    }
+}
+
+/// By size, then by place: a rule that sees the blocks and not the order in which they are named.
+/// Only two blocks with the same sizes at the same place are left to the order of the arguments.
+fn order(a: &Placed, b: &Placed) -> Ordering {
+    let place = |p: &Placed| p.centre.to_array();
+    let key = |p: &Placed| (p.radius, p.smallest_distance);
+    key(a)
+        .partial_cmp(&key(b))
+        .unwrap_or(Ordering::Equal)
+        .then(a.faces.len().cmp(&b.faces.len()))
+        .then(place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
+}

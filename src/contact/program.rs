@@ -1,0 +1,91 @@
+//! The linear program of Boon, Houlsby & Utili 2012, eq. 12: min s, a_k · x − s ≤ b_k, by clarabel.
+//!
+//! Its answer decides nothing; it gives a point and a plane to be tested.
+
+use super::pair::Row;
+use crate::{Error, Result};
+use clarabel::{
+    algebra::CscMatrix,
+    solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT},
+};
+use glam::DVec3;
+
+/// Solvers by number of rows, each built once and given new numbers from then on.
+#[derive(Default)]
+pub(super) struct Program {
+    solvers: Vec<Option<Box<DefaultSolver<f64>>>>,
+    matrix: Vec<f64>,
+    bounds: Vec<f64>,
+}
+
+/// Answer to the program.
+pub(super) struct Optimum<'a> {
+    /// The point with the largest smallest slack, in L.
+    pub point: DVec3,
+    /// Multipliers of the rows.
+    pub dual: &'a [f64],
+}
+
+impl Program {
+    /// # Errors
+    /// If clarabel refuses the problem, which numbers that are not finite make it do.
+    pub fn solve(&mut self, rows: &[Row]) -> Result<Optimum<'_>> {
+        let count = rows.len();
+        self.matrix.clear();
+        self.matrix.extend(rows.iter().map(|row| row.normal.x));
+        self.matrix.extend(rows.iter().map(|row| row.normal.y));
+        self.matrix.extend(rows.iter().map(|row| row.normal.z));
+        self.matrix.resize(4 * count, -1.0);
+        self.bounds.clear();
+        self.bounds.extend(rows.iter().map(|row| row.offset));
+        if self.solvers.len() <= count {
+            self.solvers.resize_with(count + 1, || None);
+        }
+        let solver = match &mut self.solvers[count] {
+            Some(solver) => solver,
+            empty => empty.insert(Box::new(solver(count).map_err(refused)?)),
+        };
+        solver.update_A(&self.matrix).map_err(refused)?;
+        solver.update_b(&self.bounds).map_err(refused)?;
+        solver.solve();
+        let x = &solver.solution.x;
+        Ok(Optimum {
+            point: DVec3::new(x[0], x[1], x[2]),
+            dual: &solver.solution.z,
+        })
+    }
+}
+
+/// A solver for `count` rows, with numbers that stand in until the first update: every problem then
+/// takes the same way into it, and its answer depends on nothing solved before.
+fn solver(count: usize) -> Result<DefaultSolver<f64>, clarabel::solver::SolverError> {
+    let settings = DefaultSettings {
+        verbose: false,
+        tol_gap_abs: 1e-12,
+        tol_gap_rel: 1e-12,
+        tol_feas: 1e-12,
+        // Both would forbid new numbers.
+        presolve_enable: false,
+        input_sparse_dropzeros: false,
+        // The rows have unit normals already. Scales found for the first problem would stay for all
+        // later ones and make them depend on it.
+        equilibrate_enable: false,
+        direct_solve_method: "qdldl".into(),
+        ..DefaultSettings::default()
+    };
+    let starts = (0..=4).map(|column| column * count).collect();
+    let indices = (0..4 * count).map(|entry| entry % count).collect();
+    let matrix = CscMatrix::new(count, 4, starts, indices, vec![1.0; 4 * count]);
+    DefaultSolver::new(
+        &CscMatrix::zeros((4, 4)),
+        &[0.0, 0.0, 0.0, 1.0],
+        &matrix,
+        &vec![1.0; count],
+        &[NonnegativeConeT(count)],
+        settings,
+    )
+}
+
+fn refused(error: impl std::fmt::Display) -> Error {
+    Error::scene("contact", format!("the linear program is refused: {error}"))
+}

@@ -1,0 +1,253 @@
+//! Decides of a pair whether it is in contact, and describes the contact.
+
+use super::{
+    Cache, Contact, Counts, Normal, Options, Placed, Verdict,
+    centre::Centring,
+    guess::smallest_slack,
+    normal::{barrier, overlap, potential},
+    pair::{Pair, Row},
+    polygon::Polygon,
+    program::Program,
+    section::Overlap,
+    sphere,
+};
+use crate::{Error, Result};
+use glam::DVec3;
+
+/// Share of the smallest distance of a face from its centroid beyond which an overlap is deep.
+const DEEP: f64 = 0.1;
+
+/// Resolves pairs one after the other: one a thread. It holds solvers and scratch space, so that
+/// nothing is allocated once all kinds of pairs have been seen; its answers depend on nothing that
+/// it resolved before.
+#[derive(Default)]
+pub struct Resolver {
+    options: Options,
+    counts: Counts,
+    rows: Vec<Row>,
+    program: Program,
+    centring: Centring,
+    polygon: Polygon,
+}
+
+/// What was found of a pair.
+enum Proof {
+    /// A plane, its normal from the smaller to the larger block.
+    Plane(DVec3),
+    /// A point inside both, in L.
+    Point(DVec3),
+    Neither,
+}
+
+impl Resolver {
+    /// A resolver without history.
+    pub fn new(options: Options) -> Self {
+        Self {
+            options,
+            ..Self::default()
+        }
+    }
+
+    /// How the pairs so far were decided.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Whether `first` and `second` are in contact, and how. `cache` is the pair's own; what it
+    /// holds changes the time and, within rounding, nothing else. The same pair in the other order
+    /// gives the opposite normal and otherwise the same bits: inside, the pair is ordered by size,
+    /// then by place.
+    ///
+    /// # Errors
+    /// If a pose is not finite.
+    pub fn resolve(
+        &mut self,
+        first: &Placed,
+        second: &Placed,
+        cache: &mut Cache,
+    ) -> Result<Verdict> {
+        self.counts.pairs += 1;
+        let square = first.centre.distance_squared(second.centre);
+        check(first, square)?;
+        check(second, square)?;
+        let reach = first.radius + second.radius;
+        // Rounding of the square is far below this margin; closer pairs are looked at properly.
+        if square > reach * reach * (1.0 + 1e-12) {
+            self.counts.bounds += 1;
+            cache.contact = false;
+            return Ok(Verdict::Apart);
+        }
+        let pair = Pair::new(first, second);
+        let verdict = if first.faces.is_empty() || second.faces.is_empty() {
+            round(&pair, cache)
+        } else {
+            self.polyhedra(&pair, cache)?
+        };
+        Ok(match verdict {
+            Verdict::Contact(contact) => {
+                self.counts.contacts += 1;
+                let contact = Contact {
+                    limit: DEEP * first.smallest_distance.min(second.smallest_distance),
+                    ..contact
+                };
+                Verdict::Contact(if pair.flipped {
+                    contact.swapped()
+                } else {
+                    contact
+                })
+            }
+            Verdict::Touching => {
+                self.counts.touching += 1;
+                verdict
+            }
+            Verdict::Apart => {
+                cache.contact = false;
+                verdict
+            }
+        })
+    }
+
+    fn polyhedra(&mut self, pair: &Pair<'_>, cache: &mut Cache) -> Result<Verdict> {
+        let margin = pair.rounding();
+        let plane = cache.normal(pair.small, pair.large, pair.flipped);
+        // The likelier proof first.
+        if !cache.contact && pair.separates(plane, margin) {
+            self.counts.planes += 1;
+            return Ok(Verdict::Apart);
+        }
+        let split = pair.fill(&mut self.rows);
+        let point = cache.place(pair.small, pair.large, pair.flipped) / pair.length;
+        let proof = if cache.point != [0.0; 3] && smallest_slack(&self.rows, point) > margin {
+            self.counts.points += 1;
+            Proof::Point(point)
+        } else if cache.contact && pair.separates(plane, margin) {
+            self.counts.planes += 1;
+            return Ok(Verdict::Apart);
+        } else {
+            self.prove(pair, split, margin)?
+        };
+        Ok(match proof {
+            Proof::Neither => Verdict::Touching,
+            Proof::Plane(normal) => {
+                cache.hold(pair, normal, point * pair.length);
+                Verdict::Apart
+            }
+            Proof::Point(point) => {
+                let contact = self.describe(pair, split, point);
+                let place = contact.point - pair.small.centre;
+                cache.hold(pair, contact.normal, place);
+                cache.contact = true;
+                Verdict::Contact(contact)
+            }
+        })
+    }
+
+    /// Proof without history.
+    fn prove(&mut self, pair: &Pair<'_>, split: usize, margin: f64) -> Result<Proof> {
+        if let Some(normal) = pair.separating_face(margin) {
+            self.counts.guesses += 1;
+            return Ok(Proof::Plane(normal));
+        }
+        let point = pair.point_between(&self.rows, split);
+        if smallest_slack(&self.rows, point) > margin {
+            self.counts.guesses += 1;
+            return Ok(Proof::Point(point));
+        }
+        self.counts.programs += 1;
+        let optimum = self.program.solve(&self.rows)?;
+        if smallest_slack(&self.rows, optimum.point) > margin {
+            return Ok(Proof::Point(optimum.point));
+        }
+        let own = self.rows[..split].iter().zip(optimum.dual);
+        let normal: DVec3 = own.map(|(row, z)| row.normal * *z).sum();
+        Ok(if pair.separates(normal, margin) {
+            Proof::Plane(normal.normalize_or_zero())
+        } else {
+            Proof::Neither
+        })
+    }
+
+    /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
+    /// the larger block.
+    fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> Contact {
+        let mut point = start;
+        self.counts.newton_steps += self.centring.run(&self.rows, &mut point);
+        let (rows, slacks) = (&self.rows[..], &self.centring.slacks[..]);
+        let mut normal = barrier(rows, slacks, split);
+        if self.options.normal == Normal::Potential {
+            let depth = overlap(rows, slacks, split, normal);
+            let least = pair
+                .small
+                .smallest_distance
+                .min(pair.large.smallest_distance);
+            let rounding = (2.0 * depth).max(0.01 * least / pair.length);
+            normal = potential(rows, slacks, split, rounding);
+        }
+        let level = self.options.normal == Normal::Barrier;
+        let around = Overlap {
+            rows,
+            slacks,
+            split,
+            normal,
+        };
+        let section = around.section(&mut self.polygon, level);
+        let length = pair.length;
+        let place = |x: DVec3| pair.small.centre + x * length;
+        Contact {
+            point: place(point),
+            normal: section.normal,
+            overlap: section.overlap * length,
+            area: section.area * length * length,
+            pressure_centre: place(point + section.pressure_centre),
+            width: section.width * length,
+            limit: 0.0,
+        }
+    }
+}
+
+/// A pair with a sphere, in closed form.
+fn round(pair: &Pair<'_>, cache: &mut Cache) -> Verdict {
+    let margin = pair.rounding();
+    let plane = cache.normal(pair.small, pair.large, pair.flipped);
+    if pair.separates(plane, margin) {
+        return Verdict::Apart;
+    }
+    let (small, large) = (pair.small, pair.large);
+    let found = match (small.faces.is_empty(), large.faces.is_empty()) {
+        (true, true) => sphere::spheres(small, large),
+        (false, _) => sphere::polyhedron(small, large),
+        (true, false) => {
+            let other = sphere::polyhedron(large, small);
+            sphere::Proximity {
+                contact: other.contact.swapped(),
+                ..other
+            }
+        }
+    };
+    let margin = margin * pair.length;
+    if found.gap.abs() <= margin {
+        return Verdict::Touching;
+    }
+    let place = found.contact.point - small.centre;
+    cache.hold(pair, found.contact.normal, place);
+    if found.gap > 0.0 {
+        return Verdict::Apart;
+    }
+    cache.contact = true;
+    Verdict::Contact(found.contact)
+}
+
+/// That a block has a size and a place.
+fn check(block: &Placed, square: f64) -> Result<()> {
+    let sizes = block.radius * block.smallest_distance;
+    if square.is_finite() && sizes.is_finite() && sizes > 0.0 {
+        return Ok(());
+    }
+    Err(Error::scene(
+        "contact",
+        format!(
+            "a block of radius {} m at {} m is not finite; shorten the time step, or look for the force that threw it",
+            block.radius, block.centre
+        ),
+    ))
+}

@@ -1,0 +1,163 @@
+//! Hart, Cundall & Lemos 1988 (Int. J. Rock Mech. Min. Sci. 25:117–125): springs over the contact
+//! area, Coulomb friction, dashpots.
+//!
+//! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
+//!
+//! The springs act in the pressure centre, where the resultant of the pressure over the face is. The
+//! dashpots act over the face as the springs do: 3DEC has them in every sub-contact. In one point they
+//! would not damp rocking at all, since the pressure centre of a rocking block moves with the angle:
+//! the damping would be of second order in it, and a stack would never come to rest. Their moment is
+//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist.
+
+use super::Joint;
+use glam::{DQuat, DVec3};
+
+/// What a contact remembers from step to step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct History {
+    /// Shear force of the spring on the second block, N, in the first block's frame.
+    pub shear: DVec3,
+    /// Normal when `shear` was stored, in the first block's frame.
+    pub normal: DVec3,
+    /// Whether the tensile strength still holds.
+    pub bonded: bool,
+}
+
+/// Where two blocks overlap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// Unit normal from the first to the second block.
+    pub normal: DVec3,
+    /// u_n, m.
+    pub overlap: f64,
+    /// A, m².
+    pub area: f64,
+}
+
+/// How two blocks move about their contact, of the second relative to the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Way of the pressure centre since the last step, m.
+    pub way: DVec3,
+    /// Velocity of the pressure centre, m/s.
+    pub velocity: DVec3,
+    /// Spin, rad/s.
+    pub spin: DVec3,
+    /// Rotation of the first block.
+    pub frame: DQuat,
+    /// Step, s.
+    pub time_step: f64,
+    /// m*: m₁m₂/(m₁ + m₂), or the mass of the one that is free, kg.
+    pub mass: f64,
+}
+
+/// What a contact does to the second block; the first gets the opposite.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Force {
+    /// Force of the springs, N.
+    pub spring: DVec3,
+    /// Force of the dashpots, N.
+    pub dashpot: DVec3,
+    /// Moment of the dashpots about the pressure centre, N m.
+    pub moment: DVec3,
+    /// Work that friction has taken in this step, J.
+    pub friction: f64,
+    /// What the next step needs to know.
+    pub history: History,
+}
+
+impl Force {
+    /// Force of springs and dashpots, N.
+    pub fn total(&self) -> DVec3 {
+        self.spring + self.dashpot
+    }
+}
+
+/// The force of a contact after a step.
+pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &History) -> Force {
+    let Section {
+        normal,
+        overlap,
+        area,
+    } = *section;
+    let normal_stiffness = joint.normal_stiffness * area;
+    let shear_stiffness = joint.shear_stiffness * area;
+    let tan_phi = joint.friction_angle.tan();
+
+    let pressing = normal_stiffness * overlap;
+    let opening = motion.velocity.dot(normal);
+    let mut bonded = history.bonded;
+    let pulled = pressing - dashpot(joint.damping, motion.mass, normal_stiffness) * opening;
+    let least = if bonded {
+        -joint.tensile_strength * area
+    } else {
+        0.0
+    };
+    bonded &= pulled >= least;
+    let pressed = pulled.max(least);
+
+    // The cap follows the whole normal force, as it presses the faces together.
+    let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
+    let sideways = motion.way - normal * motion.way.dot(normal);
+    let tried = turned(history, normal, motion) - shear_stiffness * sideways;
+    let shear = capped(tried, strength);
+    bonded &= shear == tried;
+    // Slip is the way that the spring did not take; the force is the mean over it.
+    let friction = (tried - shear).dot(shear) / shear_stiffness;
+
+    let sliding = motion.velocity - normal * opening;
+    let viscous = dashpot(joint.damping, motion.mass, shear_stiffness) * sliding;
+    let damped = capped(shear - viscous, strength);
+
+    let twist = motion.spin.dot(normal);
+    let rocking = motion.spin - normal * twist;
+    let side = area.sqrt();
+    let mass = motion.mass;
+    let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;
+    let turn = dashpot(joint.damping, mass, shear_stiffness) * (area / 6.0) * twist;
+    // No pressure pulls: the resultant stays in the face, half a side from its middle. Friction over a
+    // square has the mean arm 0.3826 a.
+    let most = 0.3826 * side * strength;
+    let moment = -capped(rock, 0.5 * side * pressed.max(0.0)) - normal * turn.clamp(-most, most);
+
+    let inward = motion.frame.conjugate();
+    Force {
+        spring: normal * pressing + shear,
+        dashpot: normal * (pressed - pressing) + (damped - shear),
+        moment,
+        friction,
+        history: History {
+            shear: inward * shear,
+            normal: inward * normal,
+            bonded,
+        },
+    }
+}
+
+/// 2ζ√(m* k), N s/m.
+fn dashpot(damping: f64, mass: f64, stiffness: f64) -> f64 {
+    2.0 * damping * (mass * stiffness).sqrt()
+}
+
+fn capped(force: DVec3, most: f64) -> DVec3 {
+    let length = force.length();
+    if length > most {
+        force * (most / length)
+    } else {
+        force
+    }
+}
+
+/// The stored shear force, turned with the normal by the shortest arc and about it by the mean spin of
+/// the two blocks. It is stored in the first block's frame, so half the relative spin is left to do.
+fn turned(history: &History, normal: DVec3, motion: &Motion) -> DVec3 {
+    if history.shear == DVec3::ZERO {
+        return DVec3::ZERO;
+    }
+    let before = motion.frame * history.normal;
+    let arc = DQuat::from_rotation_arc(before.normalize(), normal);
+    let angle = 0.5 * motion.spin.dot(normal) * motion.time_step;
+    let shear = DQuat::from_axis_angle(normal, angle) * (arc * (motion.frame * history.shear));
+    // Rounding leaves no part along the normal.
+    shear - normal * shear.dot(normal)
+}

@@ -1,5 +1,9 @@
 //! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
 
+mod blocks;
+
+pub use blocks::BlockCheckpoint;
+
 use crate::{Error, Result, lattice::Populations, output::replace};
 use std::path::Path;
 

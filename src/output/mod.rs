@@ -1,4 +1,4 @@
-//! Files that others read: VTI and PVD for ParaView, CSV for probes.
+//! Files that others read: VTI, VTU, VTP and PVD for ParaView, CSV for probes.
 //!
 //! A run fills an [`Image`] with cell data and hands it to [`write_vti`]; a [`Pvd`] collects the
 //! images over time, a [`Csv`] the numbers of a probe. An image or a collection replaces its
@@ -21,6 +21,7 @@
 //! # Ok::<(), riprap::Error>(())
 //! ```
 
+mod appended;
 mod csv;
 mod image;
 mod pvd;
@@ -29,6 +30,8 @@ mod replace;
 mod sample;
 mod table;
 mod vti;
+mod vtp;
+mod vtu;
 mod xml;
 
 pub use csv::Csv;
@@ -38,3 +41,5 @@ pub use quantities::VelocityQuantities;
 pub use replace::replace;
 pub use table::Table;
 pub use vti::write_vti;
+pub use vtp::{Cloud, write_vtp};
+pub use vtu::{Polyhedra, write_vtu};

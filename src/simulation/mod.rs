@@ -1,13 +1,17 @@
 //! A scene on a device: the loop that a user sees.
 
+mod block_setup;
 mod diverged;
+mod dry;
 mod fields;
 mod needs;
-mod setup;
+mod lattice_setup;
 
+pub use block_setup::block_setup;
+pub use dry::Dry;
 pub use fields::Totals;
 pub use needs::Needs;
-pub use setup::{face_velocity, lattice_setup};
+pub use lattice_setup::{face_velocity, lattice_setup};
 
 use crate::{
     Error, Result,
@@ -40,6 +44,7 @@ impl Simulation {
     /// # Errors
     /// What the scene lacks, or what the device cannot hold.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
+        uncoupled(scene)?;
         let units = Units::of(scene)?;
         let advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
@@ -230,6 +235,21 @@ impl Simulation {
         let changed = self.changed_faces()?;
         self.set_faces(changed)
     }
+}
+
+/// Refuses a scene of a fluid and blocks, which have a loop each and none together.
+///
+/// # Errors
+/// If there are both.
+fn uncoupled(scene: &Scene) -> Result<()> {
+    if scene.has_fluid() && scene.has_blocks() {
+        return Err(Error::scene(
+            "blocks",
+            "blocks and a fluid do not feel each other in this version; remove [fluid] to run the \
+             blocks dry, or the blocks to run the flow",
+        ));
+    }
+    Ok(())
 }
 
 /// The initial state in lattice units; cells of static solids are at rest.

@@ -1,0 +1,62 @@
+//! Blocks on disk.
+
+use crate::{Error, Result, bodies::Snapshot, output::replace};
+use std::path::Path;
+
+/// The state of blocks between two steps of a scene without fluid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockCheckpoint {
+    /// Steps done.
+    pub step: u64,
+    /// Length of a step, s.
+    pub time_step: f64,
+    /// The blocks.
+    pub snapshot: Snapshot,
+}
+
+/// First bytes of a file; the digit is the version of the format.
+const MAGIC: &[u8; 16] = b"riprap rocks  1\n";
+/// Magic, step, time step.
+const HEADER: usize = 16 + 8 + 8;
+
+impl BlockCheckpoint {
+    /// Writes the file; one that is there stays whole until the new one is complete.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        replace(path, |file| {
+            file.write_all(MAGIC)?;
+            file.write_all(&self.step.to_le_bytes())?;
+            file.write_all(&self.time_step.to_le_bytes())?;
+            file.write_all(&self.snapshot.to_bytes())
+        })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, is no checkpoint of blocks, or is cut short.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
+        let header = bytes.get(..HEADER).filter(|header| header[..16] == *MAGIC);
+        let Some(header) = header else {
+            return Err(Error::file(
+                path,
+                "this is not a checkpoint of blocks of this version of riprap",
+            ));
+        };
+        let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|k| header[at + k]));
+        let snapshot = Snapshot::from_bytes(&bytes[HEADER..]).map_err(|error| match error {
+            Error::Scene { message, .. } => {
+                Error::file(path, format!("{message}; use an older checkpoint"))
+            }
+            other => other,
+        })?;
+        Ok(Self {
+            step: word(16),
+            time_step: f64::from_bits(word(24)),
+            snapshot,
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! From a scene to the blocks in it.
+
+mod materials;
+mod meshes;
+mod rows;
+mod shapes;
+mod solids;
+
+use crate::{
+    Error, Result,
+    bodies::{Setup, Sleep},
+    scene::{ProbePlace, Scene},
+};
+use glam::DVec3;
+use std::collections::HashSet;
+
+/// The blocks of a scene: those of `blocks` in their order, then those of `rock_masses`, then the
+/// `solids`, which are fixed.
+///
+/// # Errors
+/// [`Error::Scene`] naming the table and key from which no block can be made; [`Error::File`] for a
+/// mesh.
+pub fn block_setup(scene: &Scene) -> Result<Setup> {
+    let rock = &scene.rock;
+    let mut setup = Setup {
+        materials: materials::materials(scene),
+        pairs: materials::pairs(scene)?,
+        gravity: DVec3::from(rock.gravity),
+        damping: rock.mass_damping,
+        time_step: rock.time_step,
+        skin: rock.skin,
+        sleep: rock.sleep.map(|sleep| Sleep {
+            speed: sleep.speed,
+            after: sleep.time,
+            ..Sleep::default()
+        }),
+        ..Setup::default()
+    };
+    for (index, block) in scene.blocks.iter().enumerate() {
+        setup.blocks.extend(rows::blocks(scene, index, block)?);
+    }
+    for (index, solid) in scene.solids.iter().enumerate() {
+        setup.blocks.push(solids::block(scene, index, solid)?);
+    }
+    check_names(scene, &setup)?;
+    check_domain(scene, &setup)?;
+    Ok(setup)
+}
+
+/// Names differ, and those that probes name exist.
+fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
+    let mut names = HashSet::with_capacity(setup.blocks.len());
+    for block in &setup.blocks {
+        if !names.insert(block.name.as_str()) {
+            return Err(Error::scene(
+                "blocks",
+                format!(
+                    "two blocks are called `{}`; give their tables other names",
+                    block.name
+                ),
+            ));
+        }
+    }
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block { block } = &probe.place
+            && !names.contains(block.as_str())
+        {
+            let alike = |name: &&str| strsim::jaro_winkler(name, block);
+            let all = setup.blocks.iter().map(|block| block.name.as_str());
+            let best = all.max_by(|a, b| alike(a).total_cmp(&alike(b)));
+            return Err(Error::scene(
+                format!("probes[{index}].block"),
+                format!(
+                    "there is no block `{block}`; did you mean `{}`?",
+                    best.unwrap_or_default()
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Where there is a domain, blocks start in it; fixed ones need only reach into it.
+fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
+    let domain = &scene.domain;
+    if !domain.is_given() {
+        return Ok(());
+    }
+    let (low, high) = (DVec3::from(domain.origin), DVec3::from(domain.end()));
+    for block in &setup.blocks {
+        let fixed = block.motion == crate::bodies::Motion::Fixed;
+        let margin = DVec3::splat(if fixed { block.shape.radius() } else { 0.0 });
+        let out = block.centre.cmplt(low - margin) | block.centre.cmpgt(high + margin);
+        if out.any() {
+            return Err(Error::scene(
+                format!("block {}", block.name),
+                format!(
+                    "its centroid {} lies outside the domain, which reaches from {low} to {high} m; \
+                     move it, or enlarge the domain",
+                    block.centre
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// `error` with `key` before its place: what a shape calls `faces[2]` is `blocks[4].faces[2]` in the
+/// scene.
+fn under(key: &str) -> impl Fn(Error) -> Error + '_ {
+    move |error| match error {
+        Error::Scene { place, message } => Error::scene(format!("{key}.{place}"), message),
+        other => other,
+    }
+}

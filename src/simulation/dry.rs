@@ -1,0 +1,152 @@
+//! Blocks alone: the loop of a scene without fluid.
+
+use super::block_setup;
+use crate::{
+    Error, Result,
+    bodies::{self, Blocks},
+    broadphase::Broadphase,
+    checkpoint::BlockCheckpoint,
+    scene::Scene,
+};
+
+/// Sub-steps of a step where the scene gives no time step: a step keeps its length when contacts
+/// stiffen and sub-steps get shorter, and a whole number of them then wastes at most a tenth.
+const SUB_STEPS: f64 = 10.0;
+/// Sweeps over all pairs in which blocks that overlap are pushed apart; each sweep settles a layer of
+/// a pile, so this is enough for any that a scene lays by hand.
+const SWEEPS: usize = 1000;
+
+/// Blocks of a scene that run.
+///
+/// Nothing here blocks or needs a device, unless the finder of pairs does.
+#[derive(Debug)]
+pub struct Dry<F> {
+    scene: Scene,
+    setup: bodies::Setup,
+    blocks: Blocks,
+    finder: F,
+    time_step: f64,
+    step: u64,
+}
+
+impl<F: Broadphase> Dry<F> {
+    /// The blocks of `scene` at the time 0, pushed apart if it says so; `finder` says which of them
+    /// may touch.
+    ///
+    /// # Errors
+    /// What the scene lacks; [`Error::Overlaps`] if blocks cannot be pushed apart.
+    pub async fn new(scene: &Scene, finder: F) -> Result<Self> {
+        super::uncoupled(scene)?;
+        let setup = block_setup(scene)?;
+        let blocks = Blocks::new(setup.clone())?;
+        let sub_steps = match scene.rock.time_step {
+            Some(_) => 1.0,
+            None => SUB_STEPS,
+        };
+        let time_step = sub_steps * blocks.time_step();
+        if !time_step.is_finite() {
+            return Err(Error::scene(
+                "rock.time_step",
+                "no block is free, so that no contact says how long a step may be; give time_step \
+                 in s",
+            ));
+        }
+        let mut dry = Self {
+            scene: scene.clone(),
+            time_step,
+            setup,
+            blocks,
+            finder,
+            step: 0,
+        };
+        if scene.rock.relax {
+            dry.blocks.relax(&mut dry.finder, SWEEPS).await?;
+        }
+        Ok(dry)
+    }
+
+    /// Takes `steps` steps, each of as many sub-steps as the contacts want.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::step`] and of the finder. The blocks then are where they were after the last
+    /// whole step.
+    pub async fn advance(&mut self, steps: u64) -> Result<()> {
+        for _ in 0..steps {
+            let good = self.blocks.snapshot();
+            let until = (self.step + 1) as f64 * self.time_step;
+            let moved = self.blocks.advance(&mut self.finder, until).await;
+            if let Err(error) = moved {
+                self.blocks.restore(&good)?;
+                return Err(error);
+            }
+            self.step += 1;
+        }
+        Ok(())
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Length of a step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.time_step
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The blocks as they were made: names, shapes, materials.
+    pub fn setup(&self) -> &bodies::Setup {
+        &self.setup
+    }
+
+    /// The blocks as they are.
+    pub fn blocks(&self) -> &Blocks {
+        &self.blocks
+    }
+
+    /// What finds the pairs that may touch.
+    pub fn finder(&self) -> &F {
+        &self.finder
+    }
+
+    /// The present state, for a later [`Dry::restore`].
+    pub fn checkpoint(&self) -> BlockCheckpoint {
+        BlockCheckpoint {
+            step: self.step,
+            time_step: self.time_step,
+            snapshot: self.blocks.snapshot(),
+        }
+    }
+
+    /// Goes on from a checkpoint of the same scene, to the same bits.
+    ///
+    /// # Errors
+    /// If it is of other blocks or another time step.
+    pub fn restore(&mut self, checkpoint: &BlockCheckpoint) -> Result<()> {
+        if checkpoint.time_step != self.time_step {
+            return Err(Error::scene(
+                "restart",
+                format!(
+                    "the checkpoint has a time step of {:e} s, the scene {:e} s; restart with the \
+                     scene that wrote it",
+                    checkpoint.time_step, self.time_step
+                ),
+            ));
+        }
+        self.blocks
+            .restore(&checkpoint.snapshot)
+            .map_err(|error| Error::scene("restart", error.to_string()))?;
+        self.step = checkpoint.step;
+        Ok(())
+    }
+}

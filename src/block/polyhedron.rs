@@ -1,27 +1,26 @@
 //! A convex polyhedron about its centroid.
 
+use super::HalfSpace;
+use super::cell::Cell;
+use super::moments::Moments;
+use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 
-/// A plane face: the points x of the block have `normal` · x ≤ `distance`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Outward unit normal.
-    pub normal: DVec3,
-    /// Distance of the plane from the origin, m.
-    pub distance: f64,
-}
+/// Smallest distance of a face from the centroid, as part of the diameter. Contact scales by the
+/// diameter and decides to 1e-9 of it, and thinner blocks would have no digits left for their overlap.
+const SLIVER: f64 = 1e-4;
 
 /// A convex polyhedron, ready for contact: unit normals, no redundant face, coplanar faces merged, the
 /// centroid at the origin. Only its constructors make one, so that all of this always holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyhedron {
-    pub(super) faces: Vec<HalfSpace>,
-    pub(super) vertices: Vec<DVec3>,
-    pub(super) edges: Vec<[u32; 2]>,
-    pub(super) loops: Vec<Vec<u32>>,
-    pub(super) volume: f64,
-    pub(super) inertia: DMat3,
-    pub(super) radius: f64,
+    faces: Vec<HalfSpace>,
+    vertices: Vec<DVec3>,
+    edges: Vec<[u32; 2]>,
+    loops: Vec<Vec<u32>>,
+    volume: f64,
+    inertia: DMat3,
+    radius: f64,
 }
 
 impl Polyhedron {
@@ -64,5 +63,69 @@ impl Polyhedron {
     pub fn smallest_distance(&self) -> f64 {
         let distances = self.faces.iter().map(|f| f.distance);
         distances.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The polyhedron that a finished cell is, and the cell's centroid.
+    pub(super) fn from_cell(mut cell: Cell) -> Result<(Self, DVec3)> {
+        cell.compact();
+        let middle = cell.vertices.iter().sum::<DVec3>() / cell.vertices.len() as f64;
+        let moments = cell.moments(middle);
+        let centroid = middle + moments.centroid();
+        if !(moments.volume > 0.0 && centroid.is_finite()) {
+            return Err(Error::scene(
+                "faces",
+                "they enclose no volume; check the signs and the unit of the distances",
+            ));
+        }
+        Ok((Self::about(cell, centroid)?, centroid))
+    }
+
+    /// The polyhedron that a finished cell is, its centroid known.
+    pub(super) fn about(cell: Cell, centroid: DVec3) -> Result<Self> {
+        let moments = cell.moments(centroid);
+        let vertices: Vec<DVec3> = cell.vertices.iter().map(|v| *v - centroid).collect();
+        let square = vertices.iter().map(|v| v.length_squared());
+        let radius = square.fold(0.0, f64::max).sqrt();
+        let mut faces = Vec::with_capacity(cell.facets.len());
+        let mut loops = Vec::with_capacity(cell.facets.len());
+        let mut edges = Vec::with_capacity(cell.vertices.len() + cell.facets.len());
+        for facet in cell.facets {
+            let face = facet.plane.seen_from(centroid);
+            // Also if it is not a number.
+            if !(face.distance >= SLIVER * 2.0 * radius) {
+                let message = format!(
+                    "its face is {:.3e} m from the centroid of a block {:.3e} m across: thinner \
+                     than 1/10000, contact cannot resolve it; make the block thicker or leave it out",
+                    face.distance,
+                    2.0 * radius
+                );
+                return Err(Error::scene(format!("faces[{}]", facet.source), message));
+            }
+            let ring = &facet.ring;
+            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+            edges.extend(pairs.filter(|(a, b)| a < b).map(|(a, b)| [*a, *b]));
+            faces.push(face);
+            loops.push(facet.ring);
+        }
+        Ok(Self {
+            faces,
+            vertices,
+            edges,
+            loops,
+            volume: moments.volume,
+            inertia: moments.inertia(),
+            radius,
+        })
+    }
+}
+
+impl Cell {
+    /// Its moments about `origin`.
+    pub(super) fn moments(&self, origin: DVec3) -> Moments {
+        let at = |v: u32| self.vertices[v as usize] - origin;
+        Moments::of(self.facets.iter().flat_map(|facet| {
+            let pairs = facet.ring[1..].windows(2);
+            pairs.map(move |pair| [at(facet.ring[0]), at(pair[0]), at(pair[1])])
+        }))
     }
 }

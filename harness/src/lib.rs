@@ -6,6 +6,7 @@ pub mod check;
 pub mod gpu;
 pub mod picture;
 pub mod print;
+pub mod render;
 pub mod run;
 pub mod schema;
 pub mod validate;

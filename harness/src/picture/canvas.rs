@@ -153,6 +153,20 @@ impl Canvas {
 
     /// Writes the picture as PNG, replacing an older file only when done.
     pub fn save(&self, path: &Path) -> Result<()> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder
+            .write_header()
+            .and_then(|mut writer| writer.write_image_data(&self.rgb()))
+            .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
+        Ok(riprap::output::replace(path, |writer| {
+            writer.write_all(&bytes)
+        })?)
+    }
+
+    /// Red, green and blue of the saved pixels.
+    pub fn rgb(&self) -> Vec<u8> {
         let factor = OVERSAMPLING as usize;
         let row_bytes = 3 * self.width as usize * factor;
         let mut saved = Vec::with_capacity(self.pixels.len() / (factor * factor));
@@ -171,16 +185,7 @@ impl Canvas {
                 }
             }
         }
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder
-            .write_header()
-            .and_then(|mut writer| writer.write_image_data(&saved))
-            .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
-        Ok(riprap::output::replace(path, |writer| {
-            writer.write_all(&bytes)
-        })?)
+        saved
     }
 
     fn draw<'a, E>(&mut self, element: &'a E) -> Result<()>

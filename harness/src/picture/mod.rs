@@ -2,17 +2,18 @@
 //! the [history](Chart::history) of a probe or the [profile](Chart::profile) of a quantity.
 
 mod axis;
-mod canvas;
+pub(crate) mod canvas;
 mod chart;
 mod colour;
-mod colour_bar;
+pub(crate) mod colour_bar;
 mod curve;
-mod frame;
+pub(crate) mod frame;
 mod history;
 mod section;
 mod slice;
 mod streamlines;
 
+pub(crate) use axis::extremes;
 pub use axis::{Axis, Scale};
 pub use chart::{Chart, Measure, Panel};
 pub use colour::Palette;
@@ -20,4 +21,5 @@ pub use curve::{Curve, Mark};
 pub use history::Track;
 pub use section::{Plane, Quantity, Section};
 pub use slice::Slice;
+pub(crate) use slice::short;
 pub use streamlines::streamlines;

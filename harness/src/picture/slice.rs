@@ -205,7 +205,7 @@ fn arrows(places: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 /// A number in a title: four digits, without zeros at the end.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.3e}");
     }

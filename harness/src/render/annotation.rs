@@ -1,0 +1,185 @@
+//! Title, time, colour bar and scale bar around a view.
+
+use super::camera::Camera;
+use super::drawing::Drawing;
+use super::picture::Picture;
+use super::uniforms::round_down;
+use crate::picture::canvas::{Anchor, Canvas};
+use crate::picture::colour_bar::ColourBar;
+use crate::picture::frame::{Frame, INK, TEXT, TITLE, fitting};
+use crate::picture::{Axis, Scale};
+use anyhow::{Result, bail};
+use plotters::style::RGBColor;
+
+/// Around text, pixels.
+const MARGIN: f64 = 18.0;
+/// Part of the view's height that the colour bar takes.
+const BAR: f64 = 0.7;
+/// Width that the scale bar has at most, in parts of the view's.
+const SCALE_BAR: f64 = 0.2;
+/// Half of the height of the scale bar's ends, pixels.
+const SCALE_BAR_END: f64 = 5.0;
+/// Smallest view, pixels.
+const LEAST: f64 = 16.0;
+
+/// Where things are in a picture.
+pub struct Layout {
+    size: [u32; 2],
+    /// Height above the view for the title.
+    head: f64,
+    /// Width beside the view for the colour bar.
+    side: f64,
+    bar: Option<ColourBar>,
+}
+
+impl Layout {
+    pub fn new(drawing: &Drawing<'_>, size: [u32; 2]) -> Result<Self> {
+        let titled = !drawing.title.is_empty() || drawing.time.is_some();
+        let head = if titled { 2.0 * MARGIN + TITLE } else { 0.0 };
+        let [width, height] = size.map(f64::from);
+        let bar = colour_bar(drawing)?;
+        let side = match &bar {
+            Some(bar) => (bar.width(BAR * (height - head))? + MARGIN).ceil(),
+            None => 0.0,
+        };
+        if width - side < LEAST || height - head < LEAST {
+            bail!(
+                "a picture of {width} × {height} pixels has no room for title and colour bar; \
+                 give a larger one"
+            );
+        }
+        Ok(Self {
+            size,
+            head,
+            side,
+            bar,
+        })
+    }
+
+    /// Width and height of the view, pixels.
+    pub fn view_size(&self) -> [u32; 2] {
+        let [width, height] = self.size;
+        [width - self.side as u32, height - self.head as u32]
+    }
+
+    /// The picture with all that is beside and over its view.
+    pub fn finish(
+        &self,
+        drawing: &Drawing<'_>,
+        camera: &Camera,
+        view: &Picture,
+    ) -> Result<Picture> {
+        let [width, height] = self.size;
+        let mut canvas = Canvas::new(width, height);
+        paste(&mut canvas, view, [0.0, self.head]);
+        self.title(&mut canvas, drawing)?;
+        if let Some(bar) = &self.bar {
+            let map = beside([0.0, self.head], self.view_size());
+            bar.draw_beside(&mut canvas, &map)?;
+        }
+        if drawing.scale_bar {
+            scale_bar(&mut canvas, camera, [0.0, self.head], self.view_size())?;
+        }
+        Ok(picture(&canvas, self.size))
+    }
+
+    /// Title on the left, time on the right.
+    fn title(&self, canvas: &mut Canvas, drawing: &Drawing<'_>) -> Result<()> {
+        let width = f64::from(self.size[0]);
+        let middle = MARGIN + 0.5 * TITLE;
+        let mut room = width - 2.0 * MARGIN;
+        if let Some(time) = drawing.time {
+            let text = time_stamp(time);
+            let at = [width - MARGIN, middle];
+            canvas.text(&text, at, TEXT, Anchor::Right, INK)?;
+            room -= Canvas::text_width(&text, TEXT)? + MARGIN;
+        }
+        if !drawing.title.is_empty() && room > 0.0 {
+            let size = fitting(&drawing.title, TITLE, room)?;
+            canvas.text(&drawing.title, [MARGIN, middle], size, Anchor::Left, INK)?;
+        }
+        Ok(())
+    }
+}
+
+/// The colour bar of a drawing, if its values mean something.
+pub fn colour_bar(drawing: &Drawing<'_>) -> Result<Option<ColourBar>> {
+    let Some(colours) = &drawing.colours else {
+        return Ok(None);
+    };
+    let (palette, range) = drawing.palette()?;
+    let axis = Axis::new(&colours.label, &colours.unit, range, Scale::Linear);
+    Ok(Some(ColourBar { axis, palette }))
+}
+
+/// The frame beside which the colour bar of a view stands.
+pub fn beside(corner: [f64; 2], size: [u32; 2]) -> Frame {
+    let [width, height] = size.map(f64::from);
+    let axis = Axis::new("", "", [0.0, 1.0], Scale::Linear);
+    let bar = (BAR * height).round();
+    Frame {
+        corner: [corner[0], corner[1] + (0.5 * (height - bar)).round()],
+        size: [width, bar],
+        side: 0.0,
+        x: axis.clone(),
+        y: axis,
+    }
+}
+
+/// Copies a picture onto the canvas.
+pub fn paste(canvas: &mut Canvas, picture: &Picture, [left, top]: [f64; 2]) {
+    let [width, height] = [picture.width, picture.height].map(f64::from);
+    canvas.shade([left, top], [left + width, top + height], |[x, y]| {
+        let [r, g, b] = picture.pixel((x - left) as u32, (y - top) as u32);
+        RGBColor(r, g, b)
+    });
+}
+
+/// What was drawn on the canvas.
+pub fn picture(canvas: &Canvas, [width, height]: [u32; 2]) -> Picture {
+    let pixels = canvas.rgb();
+    let pixels = pixels.chunks_exact(3);
+    Picture {
+        width,
+        height,
+        rgba: pixels.flat_map(|p| [p[0], p[1], p[2], u8::MAX]).collect(),
+    }
+}
+
+/// A bar in the lower left corner of a view, with its length in metres at the camera's target.
+pub fn scale_bar(
+    canvas: &mut Canvas,
+    camera: &Camera,
+    [left, top]: [f64; 2],
+    [width, height]: [u32; 2],
+) -> Result<()> {
+    let (length, pixels) = scale(camera, [width, height]);
+    let y = (top + f64::from(height) - MARGIN - SCALE_BAR_END).round();
+    let [from, to] = [left + MARGIN, left + MARGIN + pixels];
+    canvas.line(&[[from, y], [to, y]], 2.0, INK)?;
+    for x in [from, to] {
+        let ends = [[x, y - SCALE_BAR_END], [x, y + SCALE_BAR_END]];
+        canvas.line(&ends, 2.0, INK)?;
+    }
+    let text = format!("{} m", decimal(length));
+    let at = [0.5 * (from + to), y - SCALE_BAR_END - 0.6 * TEXT];
+    canvas.text(&text, at, TEXT, Anchor::Centre, INK)
+}
+
+/// Length of the scale bar of a view, m and pixels.
+pub fn scale(camera: &Camera, [width, height]: [u32; 2]) -> (f64, f64) {
+    let pixels_per_metre = camera.pixels_per_metre(f64::from(height));
+    let length = round_down(SCALE_BAR * f64::from(width) / pixels_per_metre);
+    (length, length * pixels_per_metre)
+}
+
+/// A time as it is drawn.
+pub fn time_stamp(time: f64) -> String {
+    format!("t = {} s", crate::picture::short(time))
+}
+
+/// 1, 2 or 5 times a power of ten without rounding's digits.
+fn decimal(value: f64) -> String {
+    let decimals = (-value.log10().floor()).max(0.0) as usize;
+    format!("{value:.decimals$}")
+}

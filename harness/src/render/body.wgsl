@@ -1,0 +1,43 @@
+// Surfaces of bodies and others: shaded triangles.
+
+struct Corner {
+    @location(0) position: vec3f,
+    @location(1) normal: vec4f,
+    // sRGB; a: 1 if lit, 0 if its colour is shown as it is.
+    @location(2) colour: vec4f,
+    // Rows of the 3 × 4 matrix that places the mesh, and its colour.
+    @location(3) x: vec4f,
+    @location(4) y: vec4f,
+    @location(5) z: vec4f,
+    @location(6) tint: vec4f,
+}
+
+struct Shaded {
+    @builtin(position) clip: vec4f,
+    @location(0) p: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) colour: vec4f,
+}
+
+@vertex
+fn body_vertex(in: Corner) -> Shaded {
+    let position = vec4f(in.position, 1.0);
+    let p = vec3f(dot(in.x, position), dot(in.y, position), dot(in.z, position));
+    // Normals turn with the cofactors of the matrix, which are right for stretched bodies as well.
+    let normal = vec3f(
+        dot(cross(in.y.xyz, in.z.xyz), in.normal.xyz),
+        dot(cross(in.z.xyz, in.x.xyz), in.normal.xyz),
+        dot(cross(in.x.xyz, in.y.xyz), in.normal.xyz),
+    );
+    return Shaded(projected(p), p, normal, in.colour * in.tint);
+}
+
+@fragment
+fn body_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    let colour = linear_of_srgb(in.colour.rgb);
+    if (in.colour.a < 0.5) {
+        return vec4f(colour, 1.0);
+    }
+    let normal = normalize(select(-in.normal, in.normal, front));
+    return vec4f(colour * illuminance(in.p, normal), 1.0);
+}

@@ -1,0 +1,215 @@
+//! What a picture shows.
+
+use super::camera::{Camera, Look};
+use super::mesh::{Mesh, Vertex};
+use crate::picture::Palette;
+use glam::{DMat3, DVec3};
+use riprap::{Error, Result};
+
+/// Everything in a picture. Lengths are metres; far-away coordinates keep their digits, since all
+/// are taken relative to the camera's target before they are rounded to f32.
+#[derive(Clone, Debug, Default)]
+pub struct Drawing<'a> {
+    /// The shapes of bodies.
+    pub meshes: &'a [Mesh],
+    /// The bodies.
+    pub instances: Vec<Instance>,
+    /// Other surfaces, such as slices through a fluid.
+    pub surfaces: Vec<Surface>,
+    /// Lines in space, such as traces of a flow.
+    pub lines: Vec<Line>,
+    /// Where it is seen from.
+    pub view: View,
+    /// A plane with a grid below the bodies.
+    pub ground: Option<Ground>,
+    /// What is behind everything.
+    pub background: Background,
+    /// Direction towards the sun; above the spectator's left shoulder if `None`.
+    pub sun: Option<DVec3>,
+    /// Whether a bar says how long a metre is, at the distance of the camera's target.
+    pub scale_bar: bool,
+    /// What is drawn above the picture.
+    pub title: String,
+    /// Time, s, drawn beside the title.
+    pub time: Option<f64>,
+    /// What the bodies' values are; without it no colour bar is drawn.
+    pub colours: Option<Colours>,
+}
+
+/// A body: a mesh somewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Index of the mesh.
+    pub mesh: usize,
+    /// Place of the mesh's origin, m.
+    pub centre: DVec3,
+    /// Rotation, and stretch if any: a point X of the mesh is at `centre` + `deformation` X.
+    pub deformation: DMat3,
+    /// What its colour means, in the unit of [`Colours`]; the colour of stone if `None`.
+    pub value: Option<f64>,
+    /// A body that does not move is drawn in neutral grey, whatever its value.
+    pub fixed: bool,
+}
+
+/// Triangles with colours.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Corners, m.
+    pub vertices: Vec<Vertex>,
+    /// A colour for each corner, sRGB.
+    pub colours: Vec<[u8; 3]>,
+    /// Indices of corners; both sides are drawn.
+    pub triangles: Vec<[u32; 3]>,
+    /// Whether light and shadow fall on it and it throws one; without, its colours are exactly those given.
+    pub lit: bool,
+}
+
+/// A straight line in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Ends, m.
+    pub ends: [DVec3; 2],
+    /// Colour, sRGB.
+    pub colour: [u8; 3],
+    /// Width, pixels.
+    pub width: f64,
+}
+
+/// How the camera is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum View {
+    /// A camera.
+    From(Camera),
+    /// The nearest camera in a direction that sees all bodies.
+    Framing(Look),
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self::Framing(Look::default())
+    }
+}
+
+/// A plane with a grid: the points x with x · up = `height`, up being the camera's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// Distance from the origin along the camera's up direction, m.
+    pub height: f64,
+}
+
+/// What is behind everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// White, for print.
+    #[default]
+    White,
+    /// Pale blue, darker upwards.
+    Sky,
+}
+
+/// What the bodies' values are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Colours {
+    /// Name of the quantity.
+    pub label: String,
+    /// Its unit.
+    pub unit: String,
+    /// Values at the ends of the colour map; those that occur if `None`. With opposite ends the map
+    /// is one around zero.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Drawing<'_> {
+    /// The palette and the values at its ends.
+    ///
+    /// # Errors
+    /// If the range given is not two numbers, the lower first.
+    pub fn palette(&self) -> Result<(Palette, [f64; 2])> {
+        match self.colours.as_ref().and_then(|colours| colours.range) {
+            Some([low, high]) if !(low.is_finite() && high.is_finite() && low < high) => {
+                Err(Error::scene(
+                    "colours.range",
+                    format!("from {low} to {high}: give two numbers, the lower first"),
+                ))
+            }
+            Some([low, high]) if low == -high => Ok((Palette::Diverging, [low, high])),
+            Some(range) => Ok((Palette::Sequential, range)),
+            None => {
+                let free = self.instances.iter().filter(|body| !body.fixed);
+                let range = crate::picture::extremes(free.filter_map(|body| body.value));
+                Ok(Palette::fitting(range))
+            }
+        }
+    }
+
+    /// That everything can be drawn.
+    pub(super) fn check(&self) -> Result<()> {
+        for (index, body) in self.instances.iter().enumerate() {
+            let place = || format!("instances[{index}]");
+            if body.mesh >= self.meshes.len() {
+                let message = format!("mesh {} of {}", body.mesh, self.meshes.len());
+                return Err(Error::scene(place(), message + "; count from 0"));
+            }
+            if !body.centre.is_finite() || !body.deformation.is_finite() {
+                let message = format!(
+                    "its pose is not finite (centre {}, deformation {}); did the motion diverge?",
+                    body.centre, body.deformation
+                );
+                return Err(Error::scene(place(), message));
+            }
+            if let Some(value) = body.value.filter(|value| !value.is_finite()) {
+                let message = format!("its value is {value}; give a finite one or none");
+                return Err(Error::scene(place(), message));
+            }
+        }
+        for (index, mesh) in self.meshes.iter().enumerate() {
+            let ends = mesh.edges.iter().flatten();
+            check_surface(&mesh.vertices, &mesh.triangles)
+                .and_then(|()| check_finite(ends))
+                .map_err(|message| Error::scene(format!("meshes[{index}]"), message))?;
+        }
+        for (index, surface) in self.surfaces.iter().enumerate() {
+            check_surface(&surface.vertices, &surface.triangles)
+                .and_then(|()| match surface.colours.len() == surface.vertices.len() {
+                    true => Ok(()),
+                    false => Err("give each vertex one colour".into()),
+                })
+                .map_err(|message| Error::scene(format!("surfaces[{index}]"), message))?;
+        }
+        for (index, line) in self.lines.iter().enumerate() {
+            let place = || format!("lines[{index}]");
+            check_finite(&line.ends).map_err(|message| Error::scene(place(), message))?;
+            if !(line.width.is_finite() && line.width > 0.0) {
+                let message = format!("a width of {} pixels; give a positive one", line.width);
+                return Err(Error::scene(place(), message));
+            }
+        }
+        if let Some(ground) = self.ground.filter(|ground| !ground.height.is_finite()) {
+            let message = format!("is {}; give a finite one", ground.height);
+            return Err(Error::scene("ground.height", message));
+        }
+        if let Some(sun) = self.sun.filter(|sun| sun.try_normalize().is_none()) {
+            let message = format!("{sun} is no direction; give a vector towards the sun");
+            return Err(Error::scene("sun", message));
+        }
+        Ok(())
+    }
+}
+
+fn check_surface(vertices: &[Vertex], triangles: &[[u32; 3]]) -> std::result::Result<(), String> {
+    check_finite(vertices.iter().flat_map(|v| [&v.position, &v.normal]))?;
+    let count = vertices.len();
+    match triangles.iter().flatten().find(|&&v| v as usize >= count) {
+        Some(index) => Err(format!("a triangle has vertex {index} of {count}")),
+        None => Ok(()),
+    }
+}
+
+fn check_finite<'a>(
+    points: impl IntoIterator<Item = &'a DVec3>,
+) -> std::result::Result<(), String> {
+    match points.into_iter().find(|point| !point.is_finite()) {
+        Some(point) => Err(format!("{point} is not finite")),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,284 @@
+//! A drawing as the device wants it: corners, placements and few draw calls.
+//!
+//! A mesh with many instances is stored once and drawn once for all of them. Meshes with few instances — the
+//! blocks of a rock mass all differ — are placed on the host and drawn together.
+
+use super::drawing::{Drawing, Instance};
+use super::mesh::Vertex;
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat3, DVec3};
+use std::ops::Range;
+
+/// Instances from which on a mesh has a draw call of its own.
+const MANY: usize = 8;
+/// Colour of free bodies without a value: dry sandstone.
+const STONE: [u8; 3] = [205, 190, 165];
+/// Colour of fixed bodies.
+const FIXED: [u8; 3] = [150, 150, 150];
+/// Colour of edges, over that of their body.
+const EDGE: f64 = 0.25;
+/// Half of an edge's width, pixels, and in parts of the body's radius, so that edges of small bodies do not
+/// cover them.
+const EDGE_HALF_WIDTH: (f32, f64) = (0.6, 0.014);
+const WHITE: [u8; 4] = [u8::MAX; 4];
+
+/// A corner of a triangle, as in body.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Corner {
+    position: [f32; 3],
+    normal: [i16; 4],
+    colour: [u8; 4],
+}
+
+/// A corner of a stroke, as in stroke.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct End {
+    position: [f32; 3],
+    other: [f32; 3],
+    colour: [u8; 4],
+    half_width: [f32; 2],
+}
+
+/// Where a mesh is drawn, and its colour.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Placement {
+    rows: [[f32; 4]; 3],
+    tint: [u8; 4],
+}
+
+/// A draw call.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// Indices.
+    pub indices: Range<u32>,
+    /// Placements.
+    pub placements: Range<u32>,
+}
+
+/// Vertices of one kind with the draw calls that use them.
+#[derive(Debug)]
+pub struct List<V> {
+    /// Vertices.
+    pub vertices: Vec<V>,
+    /// Three for a triangle.
+    pub indices: Vec<u32>,
+    /// Draw calls.
+    pub batches: Vec<Batch>,
+}
+
+/// Everything to be drawn, relative to the camera's target.
+#[derive(Debug)]
+pub struct Geometry {
+    /// Surfaces that throw shadows.
+    pub solid: List<Corner>,
+    /// Surfaces that throw none.
+    pub plain: List<Corner>,
+    /// Edges and lines.
+    pub strokes: List<End>,
+    /// Placements; the first leaves everything where it is.
+    pub placements: Vec<Placement>,
+    /// Least and largest coordinates of what throws shadows, m; `None` if nothing does.
+    pub bounds: Option<[DVec3; 2]>,
+}
+
+impl Geometry {
+    /// The geometry of a drawing relative to `target` (m), each body in the colour that `colour` says.
+    pub fn new(
+        drawing: &Drawing<'_>,
+        target: DVec3,
+        value_colour: impl Fn(f64) -> [u8; 3],
+    ) -> Self {
+        let colour = |body: &Instance| match body.value {
+            _ if body.fixed => FIXED,
+            Some(value) => value_colour(value),
+            None => STONE,
+        };
+        let mut geometry = Self {
+            solid: List::default(),
+            plain: List::default(),
+            strokes: List::default(),
+            placements: vec![Placement::new(DVec3::ZERO, DMat3::IDENTITY, [u8::MAX; 3])],
+            bounds: None,
+        };
+        let mut bodies: Vec<Vec<&Instance>> = vec![Vec::new(); drawing.meshes.len()];
+        for body in &drawing.instances {
+            bodies[body.mesh].push(body);
+        }
+        for (mesh, bodies) in drawing.meshes.iter().zip(&bodies) {
+            let limit = (EDGE_HALF_WIDTH.1 * mesh.radius()) as f32;
+            let half_width = [EDGE_HALF_WIDTH.0, limit];
+            for body in bodies {
+                geometry.widen(body.centre - target, body.deformation, &mesh.vertices);
+            }
+            if bodies.len() < MANY {
+                for body in bodies {
+                    let (centre, turn) = (body.centre - target, body.deformation);
+                    let cofactors = cofactors(turn);
+                    let [r, g, b] = colour(body);
+                    let corners = mesh.vertices.iter().map(|vertex| {
+                        let normal = (cofactors * vertex.normal).normalize_or_zero();
+                        Corner::new(centre + turn * vertex.position, normal, [r, g, b, u8::MAX])
+                    });
+                    geometry.solid.push(corners, &mesh.triangles);
+                    for ends in &mesh.edges {
+                        let ends = ends.map(|end| centre + turn * end);
+                        geometry.strokes.stroke(ends, dark([r, g, b]), half_width);
+                    }
+                }
+                continue;
+            }
+            let first = geometry.placements.len() as u32;
+            geometry.placements.extend(
+                bodies.iter().map(|body| {
+                    Placement::new(body.centre - target, body.deformation, colour(body))
+                }),
+            );
+            let placements = first..geometry.placements.len() as u32;
+            // What is placed on the host is drawn apart, once the meshes are through.
+            geometry.solid.close();
+            let corners = mesh.vertices.iter();
+            let corners = corners.map(|v| Corner::new(v.position, v.normal, WHITE));
+            geometry.solid.push(corners, &mesh.triangles);
+            geometry.solid.close_with(placements.clone());
+            geometry.strokes.close();
+            for &ends in &mesh.edges {
+                let colour = dark([u8::MAX; 3]);
+                geometry.strokes.stroke(ends, colour, half_width);
+            }
+            geometry.strokes.close_with(placements);
+        }
+        for surface in &drawing.surfaces {
+            let vertices = surface.vertices.iter().zip(&surface.colours);
+            let corners = vertices.map(|(vertex, &[r, g, b])| {
+                let lit = if surface.lit { u8::MAX } else { 0 };
+                Corner::new(vertex.position - target, vertex.normal, [r, g, b, lit])
+            });
+            if surface.lit {
+                geometry.widen(-target, DMat3::IDENTITY, &surface.vertices);
+                geometry.solid.push(corners, &surface.triangles);
+            } else {
+                geometry.plain.push(corners, &surface.triangles);
+            }
+        }
+        for line in &drawing.lines {
+            let [r, g, b] = line.colour;
+            let half_width = [0.5 * line.width as f32, f32::MAX];
+            let ends = line.ends.map(|end| end - target);
+            geometry
+                .strokes
+                .stroke(ends, [r, g, b, u8::MAX], half_width);
+        }
+        geometry.solid.close();
+        geometry.plain.close();
+        geometry.strokes.close();
+        geometry
+    }
+
+    fn widen(&mut self, centre: DVec3, turn: DMat3, vertices: &[Vertex]) {
+        for vertex in vertices {
+            let place = centre + turn * vertex.position;
+            let [low, high] = self.bounds.unwrap_or([place; 2]);
+            self.bounds = Some([low.min(place), high.max(place)]);
+        }
+    }
+}
+
+impl<V> Default for List<V> {
+    fn default() -> Self {
+        Self {
+            vertices: Vec::new(),
+            indices: Vec::new(),
+            batches: Vec::new(),
+        }
+    }
+}
+
+impl<V> List<V> {
+    /// Triangles drawn, instances included.
+    pub fn triangles(&self) -> usize {
+        let batches = self.batches.iter();
+        batches
+            .map(|batch| batch.indices.len() / 3 * batch.placements.len())
+            .sum()
+    }
+
+    fn push(&mut self, vertices: impl Iterator<Item = V>, triangles: &[[u32; 3]]) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(vertices);
+        let indices = triangles.iter().flatten();
+        self.indices.extend(indices.map(|index| first + index));
+    }
+
+    /// Ends the batch of what stays where it is.
+    fn close(&mut self) {
+        self.close_with(0..1);
+    }
+
+    fn close_with(&mut self, placements: Range<u32>) {
+        let begin = self.batches.last().map_or(0, |batch| batch.indices.end);
+        let indices = begin..self.indices.len() as u32;
+        if !indices.is_empty() {
+            self.batches.push(Batch {
+                indices,
+                placements,
+            });
+        }
+    }
+}
+
+impl List<End> {
+    /// A stroke between two ends: half of its width in pixels, and the most that it may be in metres.
+    fn stroke(&mut self, ends: [DVec3; 2], colour: [u8; 4], [half, limit]: [f32; 2]) {
+        let [a, b] = ends.map(|end| end.as_vec3().to_array());
+        // Around the quadrilateral; seen from the other end, the sides are exchanged.
+        let corners = [(a, b, half), (a, b, -half), (b, a, half), (b, a, -half)];
+        let corners = corners.map(|(position, other, half)| End {
+            position,
+            other,
+            colour,
+            half_width: [half, limit],
+        });
+        self.push(corners.into_iter(), &[[0, 1, 2], [0, 2, 3]]);
+    }
+}
+
+impl Corner {
+    fn new(position: DVec3, normal: DVec3, colour: [u8; 4]) -> Self {
+        let whole = |value: f64| (value * f64::from(i16::MAX)).round() as i16;
+        Self {
+            position: position.as_vec3().to_array(),
+            normal: [whole(normal.x), whole(normal.y), whole(normal.z), 0],
+            colour,
+        }
+    }
+}
+
+impl Placement {
+    fn new(centre: DVec3, turn: DMat3, [r, g, b]: [u8; 3]) -> Self {
+        let rows = [0, 1, 2].map(|row| {
+            let r = turn.row(row);
+            [r.x, r.y, r.z, centre[row]].map(|value| value as f32)
+        });
+        Self {
+            rows,
+            tint: [r, g, b, u8::MAX],
+        }
+    }
+}
+
+fn dark(colour: [u8; 3]) -> [u8; 4] {
+    let [r, g, b] = colour.map(|channel| (EDGE * f64::from(channel)).round() as u8);
+    [r, g, b, u8::MAX]
+}
+
+/// The matrix that turns normals as `m` turns surfaces.
+fn cofactors(m: DMat3) -> DMat3 {
+    DMat3::from_cols(
+        m.y_axis.cross(m.z_axis),
+        m.z_axis.cross(m.x_axis),
+        m.x_axis.cross(m.y_axis),
+    )
+}

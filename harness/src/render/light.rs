@@ -1,0 +1,126 @@
+//! The sun and the sky, and what each of their directions sees of the bodies.
+//!
+//! An even sky is many directions, each with a shadow map of its own: where bodies hide a part of the sky it is
+//! darker, and a heap shows its depth. All maps are tiles of one texture, the sun's the largest.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+/// Lights in the shader's table.
+pub const MOST: usize = 64;
+/// Tiles along each edge of the atlas; the sun takes the quarter in the corner, the sky the rest.
+const FINE: usize = 8;
+/// The same for a scene of many triangles, each of which is drawn once for every light.
+const COARSE: usize = 4;
+/// Triangles from which on the sky has fewer directions.
+const MANY: usize = 400_000;
+
+/// Illuminance of the sun on a surface that faces it.
+pub const SUN: f64 = 0.66;
+/// Illuminance of the whole sky on the ground.
+pub const SKY: f64 = 0.46;
+/// Illuminance from the ground on a surface that faces it.
+pub const BOUNCE: f64 = 0.10;
+
+/// A direction that light comes from, as in view.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Light {
+    across: [f32; 4],
+    upwards: [f32; 4],
+    depth: [f32; 4],
+    towards: [f32; 4],
+    tile: [f32; 4],
+}
+
+/// The lights, and where in the atlas each draws what it sees: left, top, size, texels.
+pub struct Lights {
+    /// The sun first.
+    pub lights: Vec<Light>,
+    /// In the order of the lights.
+    pub tiles: Vec<[u32; 3]>,
+}
+
+impl Lights {
+    /// The lights over bodies in the box from `low` to `high` (m, relative to the camera's target), with
+    /// shadow maps in an atlas of `texels` × `texels`.
+    pub fn new(
+        sun: DVec3,
+        zenith: DVec3,
+        [low, high]: [DVec3; 2],
+        triangles: usize,
+        texels: u32,
+    ) -> Self {
+        let along = if triangles < MANY { FINE } else { COARSE };
+        let unit = texels / along as u32;
+        let inside = |at: usize| at % along < along / 2 && at / along < along / 2;
+        let cells = (0..along * along).filter(|&at| !inside(at));
+        let mut tiles = vec![[0, 0, texels / 2]];
+        tiles
+            .extend(cells.map(|at| [(at % along) as u32 * unit, (at / along) as u32 * unit, unit]));
+        let directions = tiles.len() - 1;
+        let mut towards = vec![sun];
+        towards.extend((0..directions).map(|index| sky(index, directions, zenith)));
+        let lights = towards.iter().zip(&tiles);
+        Self {
+            lights: lights
+                .map(|(&towards, &tile)| Light::new(towards, [low, high], tile, texels))
+                .collect(),
+            tiles,
+        }
+    }
+
+    /// Illuminance of each direction of the sky on a surface that faces it.
+    pub fn sky_weight(&self) -> f64 {
+        // The cosines of directions that are even over a hemisphere have the mean ½.
+        2.0 * SKY / (self.lights.len() - 1) as f64
+    }
+}
+
+impl Light {
+    fn new(towards: DVec3, [low, high]: [DVec3; 2], [x, y, size]: [u32; 3], texels: u32) -> Self {
+        let across = towards.any_orthonormal_vector();
+        let axes = [across, towards.cross(across), -towards];
+        // Along each axis: the box, wider by two texels, from 0 to 1.
+        let margin = 2.0 / f64::from(size);
+        let mut widest = 0.0_f64;
+        let rows = axes.map(|axis| {
+            let middle = axis.dot(0.5 * (low + high));
+            let half = axis
+                .abs()
+                .dot(0.5 * (high - low))
+                .max(f64::from(f32::MIN_POSITIVE));
+            let scale = 0.5 * (1.0 - 2.0 * margin) / half;
+            widest = widest.max(1.0 / scale);
+            let row = scale * axis;
+            [row.x, row.y, row.z, 0.5 - scale * middle].map(|value| value as f32)
+        });
+        let texel = widest / f64::from(size);
+        let t = towards;
+        let whole = 1.0 / f64::from(texels);
+        Self {
+            across: rows[0],
+            upwards: rows[1],
+            depth: rows[2],
+            towards: [t.x, t.y, t.z, texel].map(|value| value as f32),
+            tile: [
+                f64::from(x) * whole,
+                f64::from(y) * whole,
+                f64::from(size) * whole,
+                whole,
+            ]
+            .map(|value| value as f32),
+        }
+    }
+}
+
+/// Directions that are even over the hemisphere around `zenith`: equal steps of height, each turned on by
+/// the golden angle (Vogel 1979, for a disc).
+fn sky(index: usize, count: usize, zenith: DVec3) -> DVec3 {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let height = (index as f64 + 0.5) / count as f64;
+    let (sin, cos) = (golden * index as f64).sin_cos();
+    let across = zenith.any_orthonormal_vector();
+    let level = (1.0 - height * height).sqrt() * (cos * across + sin * zenith.cross(across));
+    level + height * zenith
+}

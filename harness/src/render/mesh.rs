@@ -1,0 +1,135 @@
+//! The surface of a body, ready to be drawn.
+
+use glam::DVec3;
+use riprap::block::Polyhedron;
+use std::collections::HashMap;
+
+/// A corner of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Place from the body's centroid, m.
+    pub position: DVec3,
+    /// Outward unit normal.
+    pub normal: DVec3,
+}
+
+/// A surface with sharp or smooth shading, as its normals say, and the edges that are drawn on it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Corners; where faces meet at an edge, each has its own.
+    pub vertices: Vec<Vertex>,
+    /// Indices of corners, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Ends of the drawn edges from the centroid, m.
+    pub edges: Vec<[DVec3; 2]>,
+}
+
+impl Mesh {
+    /// A polyhedron with flat faces and all its edges.
+    pub fn of(block: &Polyhedron) -> Self {
+        let faces = block.loops().iter().zip(block.faces());
+        let edges = block.edges().iter();
+        Self::faceted(
+            block.vertices(),
+            faces.map(|(corners, face)| (corners.as_slice(), face.normal)),
+            edges.copied(),
+        )
+    }
+
+    /// Flat convex faces, each with its corners (indices of `points`, counter-clockwise seen from
+    /// outside) and its unit normal, and edges between two points.
+    pub fn faceted<'a>(
+        points: &[DVec3],
+        faces: impl IntoIterator<Item = (&'a [u32], DVec3)>,
+        edges: impl IntoIterator<Item = [u32; 2]>,
+    ) -> Self {
+        let mut mesh = Self::default();
+        for (corners, normal) in faces {
+            let first = mesh.vertices.len() as u32;
+            mesh.vertices.extend(corners.iter().map(|&corner| Vertex {
+                position: points[corner as usize],
+                normal,
+            }));
+            mesh.triangles.extend(
+                (2..corners.len() as u32).map(|last| [first, first + last - 1, first + last]),
+            );
+        }
+        let edges = edges.into_iter();
+        mesh.edges = edges
+            .map(|ends| ends.map(|end| points[end as usize]))
+            .collect();
+        mesh
+    }
+
+    /// A smooth sphere of `radius` (m): an icosahedron, each of its 20 triangles cut into
+    /// 4^`cuts` (3 cuts look round up to about 300 pixels of diameter).
+    pub fn sphere(radius: f64, cuts: u32) -> Self {
+        let (mut points, mut triangles) = icosahedron();
+        for _ in 0..cuts {
+            let mut middles = HashMap::new();
+            let mut middle = |a: u32, b: u32, points: &mut Vec<DVec3>| {
+                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                    let between = (points[a as usize] + points[b as usize]).normalize();
+                    points.push(between);
+                    points.len() as u32 - 1
+                })
+            };
+            let mut finer = Vec::with_capacity(4 * triangles.len());
+            for [a, b, c] in triangles {
+                let ab = middle(a, b, &mut points);
+                let bc = middle(b, c, &mut points);
+                let ca = middle(c, a, &mut points);
+                finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+            }
+            triangles = finer;
+        }
+        let vertices = points.into_iter().map(|normal| Vertex {
+            position: radius * normal,
+            normal,
+        });
+        Self {
+            vertices: vertices.collect(),
+            triangles,
+            edges: Vec::new(),
+        }
+    }
+
+    /// Largest distance of a vertex from the centroid, m.
+    pub fn radius(&self) -> f64 {
+        let distances = self.vertices.iter().map(|v| v.position.length());
+        distances.fold(0.0, f64::max)
+    }
+}
+
+/// Vertices on the unit sphere, and triangles.
+fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
+    let mut points = Vec::with_capacity(12);
+    // Three golden rectangles at right angles.
+    for [a, b] in [
+        [1.0, golden],
+        [-1.0, golden],
+        [1.0, -golden],
+        [-1.0, -golden],
+    ] {
+        points.push(DVec3::new(0.0, a, b).normalize());
+        points.push(DVec3::new(a, b, 0.0).normalize());
+        points.push(DVec3::new(b, 0.0, a).normalize());
+    }
+    // A face is three vertices that are neighbours of each other: an edge of the solid subtends an
+    // angle whose cosine is 1/√5, the next longer distance has −1/√5.
+    let neighbours = |a: usize, b: usize| points[a].dot(points[b]) > 0.0;
+    let mut triangles = Vec::with_capacity(20);
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if neighbours(a, b) && neighbours(b, c) && neighbours(c, a) {
+                    let outwards = points[a].dot(points[b].cross(points[c])) > 0.0;
+                    let [b, c] = if outwards { [b, c] } else { [c, b] };
+                    triangles.push([a as u32, b as u32, c as u32]);
+                }
+            }
+        }
+    }
+    (points, triangles)
+}

@@ -1,0 +1,45 @@
+//! Pictures of blocks in space, drawn by a device without a window: [`Drawing`] → [`Renderer`] →
+//! [`Picture`], single, as a strip of frames or as an [animation](animate).
+//!
+//! ```no_run
+//! use riprap::{block::Polyhedron, wgpu};
+//! use riprap_harness::{gpu, render::{Drawing, Instance, Mesh, Renderer}};
+//! use glam::{DMat3, DVec3};
+//!
+//! fn draw(block: &Polyhedron) -> anyhow::Result<()> {
+//!     let adapter = gpu::pick(None)?;
+//!     let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), Default::default())?;
+//!     let meshes = [Mesh::of(block)];
+//!     let body = Instance {
+//!         mesh: 0,
+//!         centre: DVec3::ZERO,
+//!         deformation: DMat3::IDENTITY,
+//!         value: None,
+//!         fixed: false,
+//!     };
+//!     let drawing = Drawing { meshes: &meshes, instances: vec![body], ..Drawing::default() };
+//!     let renderer = Renderer::new(&device, &queue, [1280, 960])?;
+//!     renderer.render(&drawing)?.save("block.png".as_ref())
+//! }
+//! ```
+
+mod animation;
+mod annotation;
+mod camera;
+mod drawing;
+mod geometry;
+mod light;
+mod mesh;
+mod picture;
+mod pipelines;
+mod renderer;
+mod strip;
+mod uniforms;
+
+pub use animation::animate;
+pub use camera::{Camera, Look};
+pub use drawing::{Background, Colours, Drawing, Ground, Instance, Line, Surface, View};
+pub use mesh::{Mesh, Vertex};
+pub use picture::Picture;
+pub use pipelines::SHADERS;
+pub use renderer::Renderer;

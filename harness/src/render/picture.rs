@@ -1,0 +1,49 @@
+//! A finished picture.
+
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// Pixels, row by row from the upper left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Red, green, blue (sRGB) and opacity of each pixel.
+    pub rgba: Vec<u8>,
+}
+
+impl Picture {
+    /// Colour of the pixel at column `x` and row `y`; white outside.
+    pub fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
+        let at = 4 * (y as usize * self.width as usize + x as usize);
+        match self.rgba.get(at..at + 3) {
+            Some(rgb) if x < self.width => [rgb[0], rgb[1], rgb[2]],
+            _ => [u8::MAX; 3],
+        }
+    }
+
+    /// Writes it as PNG without opacity, replacing an older file only when done.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder
+            .write_header()
+            .and_then(|mut writer| writer.write_image_data(&self.rgb()))
+            .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
+        Ok(riprap::output::replace(path, |writer| {
+            writer.write_all(&bytes)
+        })?)
+    }
+
+    /// Pixels without opacity.
+    pub(super) fn rgb(&self) -> Vec<u8> {
+        let pixels = self.rgba.chunks_exact(4);
+        pixels.flat_map(|rgba| &rgba[..3]).copied().collect()
+    }
+}

@@ -1,0 +1,216 @@
+//! The render pipelines of a picture.
+
+use riprap::wgpu;
+use std::mem::size_of;
+
+use super::geometry::{Corner, End, Placement};
+
+/// Colours are blended and averaged as light, and stored as sRGB.
+pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Depth of the view and of shadow maps.
+pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Samples a pixel; the number that every device has.
+pub const SAMPLES: u32 = 4;
+
+/// What every shader of the view begins with.
+macro_rules! with_view {
+    ($file:literal) => {
+        concat!(include_str!("view.wgsl"), include_str!($file))
+    };
+}
+
+/// Name and text of each shader.
+pub const SHADERS: [(&str, &str); 5] = [
+    ("background", with_view!("background.wgsl")),
+    ("ground", with_view!("ground.wgsl")),
+    ("body", with_view!("body.wgsl")),
+    ("stroke", with_view!("stroke.wgsl")),
+    ("shadow", include_str!("shadow.wgsl")),
+];
+
+/// Pipelines, and the layouts of what is bound to them.
+pub struct Pipelines {
+    pub view_layout: wgpu::BindGroupLayout,
+    pub light_layout: wgpu::BindGroupLayout,
+    pub background: wgpu::RenderPipeline,
+    pub ground: wgpu::RenderPipeline,
+    pub body: wgpu::RenderPipeline,
+    pub stroke: wgpu::RenderPipeline,
+    pub shadow: wgpu::RenderPipeline,
+}
+
+const CORNER: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Snorm16x4, 2 => Unorm8x4];
+const CORNER_PLACEMENT: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![3 => Float32x4, 4 => Float32x4, 5 => Float32x4, 6 => Unorm8x4];
+const END: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32x2];
+const END_PLACEMENT: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Unorm8x4];
+
+impl Pipelines {
+    pub fn new(device: &wgpu::Device) -> Self {
+        let view_layout = view_layout(device);
+        let light_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("light"),
+            entries: &[uniform(0, wgpu::ShaderStages::VERTEX, true)],
+        });
+        let corners = [
+            layout::<Corner>(wgpu::VertexStepMode::Vertex, &CORNER),
+            layout::<Placement>(wgpu::VertexStepMode::Instance, &CORNER_PLACEMENT),
+        ];
+        let ends = [
+            layout::<End>(wgpu::VertexStepMode::Vertex, &END),
+            layout::<Placement>(wgpu::VertexStepMode::Instance, &END_PLACEMENT),
+        ];
+        let make = |name, buffers: &[_], kind| {
+            let bound = match kind {
+                Kind::Shadow => &light_layout,
+                _ => &view_layout,
+            };
+            pipeline(device, name, bound, buffers, kind)
+        };
+        Self {
+            background: make("background", &[], Kind::Background),
+            ground: make("ground", &[], Kind::Ground),
+            body: make("body", &corners, Kind::Solid),
+            stroke: make("stroke", &ends, Kind::Solid),
+            shadow: make("shadow", &corners, Kind::Shadow),
+            view_layout,
+            light_layout,
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Background,
+    Ground,
+    Solid,
+    Shadow,
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    name: &str,
+    bound: &wgpu::BindGroupLayout,
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+    kind: Kind,
+) -> wgpu::RenderPipeline {
+    let text = SHADERS.iter().find(|(shader, _)| *shader == name);
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(name),
+        source: wgpu::ShaderSource::Wgsl(text.map_or("", |(_, text)| text).into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(name),
+        bind_group_layouts: &[Some(bound)],
+        immediate_size: 0,
+    });
+    let target = wgpu::ColorTargetState {
+        format: COLOUR,
+        blend: (kind == Kind::Ground).then_some(wgpu::BlendState::ALPHA_BLENDING),
+        write_mask: wgpu::ColorWrites::ALL,
+    };
+    let (depth_compare, depth_write) = match kind {
+        Kind::Background => (wgpu::CompareFunction::Always, false),
+        // Drawn last, over what is farther away.
+        Kind::Ground => (wgpu::CompareFunction::Greater, false),
+        Kind::Solid => (wgpu::CompareFunction::Greater, true),
+        Kind::Shadow => (wgpu::CompareFunction::Less, true),
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(name),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(&format!("{name}_vertex")),
+            compilation_options: Default::default(),
+            buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: match kind {
+                Kind::Ground => wgpu::PrimitiveTopology::TriangleStrip,
+                _ => wgpu::PrimitiveTopology::TriangleList,
+            },
+            ..Default::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(depth_write),
+            depth_compare: Some(depth_compare),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: if kind == Kind::Shadow { 1 } else { SAMPLES },
+            ..Default::default()
+        },
+        fragment: (kind != Kind::Shadow).then_some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(&format!("{name}_fragment")),
+            compilation_options: Default::default(),
+            targets: &[Some(target)],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+    let fragment = wgpu::ShaderStages::FRAGMENT;
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: fragment,
+        ty,
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("view"),
+        entries: &[
+            uniform(0, both, false),
+            uniform(1, fragment, false),
+            entry(
+                2,
+                wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Depth,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+            ),
+            entry(
+                3,
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+            ),
+        ],
+    })
+}
+
+fn uniform(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    has_dynamic_offset: bool,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
+fn layout<T>(
+    step_mode: wgpu::VertexStepMode,
+    attributes: &[wgpu::VertexAttribute],
+) -> Option<wgpu::VertexBufferLayout<'_>> {
+    Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<T>() as u64,
+        step_mode,
+        attributes,
+    })
+}

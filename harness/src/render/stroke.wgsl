@@ -1,0 +1,57 @@
+// Lines as wide as pixels say: every end of a line is two corners of a quadrilateral that faces the eye.
+
+struct End {
+    @location(0) position: vec3f,
+    // The other end.
+    @location(1) other: vec3f,
+    @location(2) colour: vec4f,
+    // Half of the width, pixels, positive for one corner and negative for the other; and the most that
+    // it may be, m.
+    @location(3) half_width: vec2f,
+    @location(4) x: vec4f,
+    @location(5) y: vec4f,
+    @location(6) z: vec4f,
+    @location(7) tint: vec4f,
+}
+
+struct Stroke {
+    @builtin(position) clip: vec4f,
+    @location(0) colour: vec4f,
+}
+
+// How far a line stands before the surface it lies on, in halves of its width: a surface that falls
+// away from the eye by up to atan(3) does not hide half of it.
+const LIFT = 3.0;
+
+@vertex
+fn stroke_vertex(in: End) -> Stroke {
+    let near = view.forward.w;
+    let position = vec4f(in.position, 1.0);
+    let other = vec4f(in.other, 1.0);
+    var a = seen(vec3f(dot(in.x, position), dot(in.y, position), dot(in.z, position)));
+    var b = seen(vec3f(dot(in.x, other), dot(in.y, other), dot(in.z, other)));
+    if (max(a.z, b.z) <= near) {
+        // Behind the eye: outside the picture.
+        return Stroke(vec4f(0.0, 0.0, 2.0, 1.0), vec4f(0.0));
+    }
+    if (a.z < near) {
+        a = mix(a, b, (near - a.z) / (b.z - a.z));
+    }
+    if (b.z < near) {
+        b = mix(b, a, (near - b.z) / (a.z - b.z));
+    }
+    let at = view.eye.w * a.xy / a.z;
+    let along = view.eye.w * b.xy / b.z - at;
+    let direction = along / max(length(along), 1e-6);
+    let half_width = min(abs(in.half_width.x), in.half_width.y * view.eye.w / a.z);
+    let side = sign(in.half_width.x) * half_width * vec2f(-direction.y, direction.x);
+    // Half a width longer, so that lines that meet leave no notch.
+    let place = (at + side - 0.5 * half_width * direction) / (0.5 * view.size.xy);
+    let lifted = max(a.z * (1.0 - LIFT * half_width / view.eye.w), near);
+    return Stroke(vec4f(place * a.z, near * a.z / lifted, a.z), in.colour * in.tint);
+}
+
+@fragment
+fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
+    return vec4f(linear_of_srgb(in.colour.rgb), 1.0);
+}

@@ -1,0 +1,140 @@
+//! The uniforms that view.wgsl declares.
+
+use super::camera::{Axes, Camera};
+use super::drawing::{Background, Drawing};
+use super::light::{BOUNCE, Lights, SUN};
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+/// As in view.wgsl, where the fields are explained.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Uniforms {
+    right: [f32; 4],
+    up: [f32; 4],
+    forward: [f32; 4],
+    eye: [f32; 4],
+    size: [f32; 4],
+    zenith: [f32; 4],
+    weights: [f32; 4],
+    ground: [f32; 4],
+    ground_x: [f32; 4],
+    ground_y: [f32; 4],
+    grid: [f32; 4],
+    above: [f32; 4],
+    below: [f32; 4],
+}
+
+/// Cells of the ground's grid across the bodies, about.
+const CELLS: f64 = 8.0;
+
+impl Uniforms {
+    pub fn new(
+        drawing: &Drawing<'_>,
+        camera: &Camera,
+        axes: &Axes,
+        size: [u32; 2],
+        [low, high]: [DVec3; 2],
+        lights: &Lights,
+    ) -> Self {
+        let [width, height] = size.map(f64::from);
+        let tangent = (0.5 * camera.field_of_view).tan();
+        let eye = camera.from - camera.to;
+        let zenith = camera.up.normalize();
+        let height_of_target = camera.to.dot(zenith);
+        let ground = drawing
+            .ground
+            .map_or(0.0, |ground| ground.height - height_of_target);
+        let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+        // Without bodies, what the camera's target is surrounded by.
+        let radius = if radius > 0.0 {
+            radius
+        } else {
+            camera.distance() * tangent
+        };
+        let ground_middle = middle + (ground - middle.dot(zenith)) * zenith;
+        let grid = Grid::new(zenith, grid_spacing(radius));
+        let faded = 3.0 * radius;
+        let depth = axes.forward.dot(middle - eye) - radius;
+        let ground_depth = axes.forward.dot(ground_middle - eye) - faded * 2.0_f64.sqrt();
+        let near = match drawing.ground {
+            Some(_) => depth.min(ground_depth),
+            None => depth,
+        };
+        let near = (0.5 * near).max(1e-3 * camera.distance());
+        let (above, below) = match drawing.background {
+            Background::White => ([1.0; 3], [1.0; 3]),
+            Background::Sky => ([0.36, 0.55, 0.82], [0.93, 0.95, 0.98]),
+        };
+        let [x, y] = grid.axes;
+        let places = grid.axes.map(|axis| {
+            let place = axis.dot(camera.to) + axis.dot(ground_middle);
+            place.rem_euclid(grid.spacing)
+        });
+        Self {
+            right: four(axes.right, height / (width * tangent)),
+            up: four(axes.up, 1.0 / tangent),
+            forward: four(axes.forward, near),
+            eye: four(eye, 0.5 * height / tangent),
+            size: four(DVec3::new(width, height, lights.lights.len() as f64), 0.0),
+            zenith: four(zenith, BOUNCE),
+            weights: four(DVec3::new(SUN, lights.sky_weight(), 0.0), 0.0),
+            ground: four(ground_middle, radius),
+            ground_x: four(x, grid.spacing),
+            ground_y: four(y, faded),
+            grid: four(DVec3::new(places[0], places[1], 0.0), 0.0),
+            above: four(above.into(), 1.0),
+            below: four(below.into(), 1.0),
+        }
+    }
+
+    /// Whether the eye is on the side of the ground that has a grid.
+    pub fn above_ground(&self) -> bool {
+        let [eye, ground, zenith] = [self.eye, self.ground, self.zenith];
+        (0..3)
+            .map(|axis| (eye[axis] - ground[axis]) * zenith[axis])
+            .sum::<f32>()
+            > 0.0
+    }
+}
+
+/// Lines on the ground.
+struct Grid {
+    axes: [DVec3; 2],
+    spacing: f64,
+}
+
+impl Grid {
+    fn new(zenith: DVec3, spacing: f64) -> Self {
+        // The axis of the world that is nearest to level, the first of equals: x, y for z up.
+        let level = |axis: &DVec3| axis.dot(zenith).abs();
+        let mut x = DVec3::X;
+        for axis in [DVec3::Y, DVec3::Z] {
+            if level(&axis) < level(&x) - 1e-9 {
+                x = axis;
+            }
+        }
+        let x = (x - x.dot(zenith) * zenith).normalize();
+        Self {
+            axes: [x, zenith.cross(x)],
+            spacing,
+        }
+    }
+}
+
+/// Spacing of the ground's grid under bodies within `radius`, m: 1, 2 or 5 times a power of ten.
+pub fn grid_spacing(radius: f64) -> f64 {
+    round_down(2.0 * radius / CELLS)
+}
+
+/// The largest of 1, 2 or 5 times a power of ten that is not above `length`.
+pub fn round_down(length: f64) -> f64 {
+    let decade = 10_f64.powi(length.log10().floor() as i32);
+    let leads = [5.0, 2.0];
+    let lead = leads.into_iter().find(|lead| lead * decade <= length);
+    lead.unwrap_or(1.0) * decade
+}
+
+fn four(v: DVec3, w: f64) -> [f32; 4] {
+    [v.x, v.y, v.z, w].map(|value| value as f32)
+}

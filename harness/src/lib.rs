@@ -9,4 +9,5 @@ pub mod print;
 pub mod render;
 pub mod run;
 pub mod schema;
+mod search;
 pub mod validate;

@@ -47,7 +47,13 @@ fn main() -> ExitCode {
         eprintln!("error: {error:#}");
         let ended = matches!(
             error.downcast_ref(),
-            Some(Error::Diverged { .. } | Error::DeviceLost(_) | Error::Timeout { .. })
+            Some(
+                Error::Diverged { .. }
+                    | Error::DeepOverlap { .. }
+                    | Error::NotFinite { .. }
+                    | Error::DeviceLost(_)
+                    | Error::Timeout { .. }
+            )
         );
         let running = ended || error.is::<Unfinished>();
         ExitCode::from(if running { 1 } else { 2 })
@@ -68,7 +74,7 @@ fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
     })?;
     let summary = run::run(args, &STOP)?;
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&summary)?);
+        println!("{}", serde_json::to_string_pretty(&summary.json()?)?);
     } else {
         println!("{summary}");
     }

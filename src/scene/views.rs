@@ -9,13 +9,16 @@ use serde::Deserialize;
 pub struct View {
     /// Name of the files.
     pub name: String,
-    /// Where the camera stands, m.
-    pub from: [f64; 3],
-    /// The point in the middle of the picture, m.
-    pub to: [f64; 3],
+    /// Where the camera stands, m. Default, without `to` too: as near as all blocks that move are in
+    /// the first picture, seen along `direction`.
+    pub from: Option<[f64; 3]>,
+    /// The point in the middle of the picture, m; with `from` only.
+    pub to: Option<[f64; 3]>,
+    /// The direction in which a camera without `from` looks. Default (−0.45, 0.8, −0.4).
+    pub direction: Option<[f64; 3]>,
     /// The direction that is up in the picture. Default against gravity.
     pub up: Option<[f64; 3]>,
-    /// Angle between the lower and the upper edge of the picture, degrees. Default 35.
+    /// Angle between the lower and the upper edge of the picture, degrees. Default 25.
     #[serde(default = "View::usual_field")]
     pub field_of_view: f64,
     /// Width and height, pixels. Default 1280 × 720.
@@ -38,8 +41,11 @@ pub struct View {
 }
 
 impl View {
+    /// The direction in which a camera looks that is not told where it stands.
+    pub const USUAL_DIRECTION: [f64; 3] = [-0.45, 0.8, -0.4];
+
     fn usual_field() -> f64 {
-        35.0
+        25.0
     }
 
     fn usual_size() -> [u32; 2] {

@@ -1,17 +1,19 @@
 //! A scene on a device: the loop that a user sees.
 
+mod block_fields;
 mod block_setup;
 mod diverged;
 mod dry;
 mod fields;
-mod needs;
 mod lattice_setup;
+mod needs;
 
+pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::block_setup;
 pub use dry::Dry;
 pub use fields::Totals;
-pub use needs::Needs;
 pub use lattice_setup::{face_velocity, lattice_setup};
+pub use needs::Needs;
 
 use crate::{
     Error, Result,

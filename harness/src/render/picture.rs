@@ -1,6 +1,6 @@
 //! A finished picture.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 /// Pixels, row by row from the upper left.
@@ -39,6 +39,29 @@ impl Picture {
         Ok(riprap::output::replace(path, |writer| {
             writer.write_all(&bytes)
         })?)
+    }
+
+    /// Reads what [`Self::save`] has written.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is of another kind.
+    pub fn load(path: &Path) -> Result<Self> {
+        let place = || format!("{}: cannot read the picture", path.display());
+        let file = std::fs::File::open(path).with_context(place)?;
+        let decoder = png::Decoder::new(std::io::BufReader::new(file));
+        let mut reader = decoder.read_info().with_context(place)?;
+        let size = reader.output_buffer_size().with_context(place)?;
+        let mut rgb = vec![0; size];
+        let info = reader.next_frame(&mut rgb).with_context(place)?;
+        if info.color_type != png::ColorType::Rgb || info.bit_depth != png::BitDepth::Eight {
+            bail!("{}: not a picture of this program", path.display());
+        }
+        let opaque = |rgb: &[u8]| [rgb[0], rgb[1], rgb[2], u8::MAX];
+        Ok(Self {
+            width: info.width,
+            height: info.height,
+            rgba: rgb.chunks_exact(3).flat_map(opaque).collect(),
+        })
     }
 
     /// Pixels without opacity.

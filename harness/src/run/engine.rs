@@ -25,8 +25,10 @@ pub trait Engine: Sized + 'static {
     /// Simulated time, s.
     fn time(&self) -> f64;
 
-    /// Takes `steps` steps. One that fails by leaving the range of the method may leave the engine at
-    /// an earlier, good step.
+    /// Whether its state is worth writing after steps that have left the range of the method.
+    fn is_good(&self) -> bool;
+
+    /// Takes `steps` steps.
     fn advance(&mut self, steps: u64) -> riprap::Result<()>;
 
     /// Restores the state in the file.

@@ -31,12 +31,7 @@ pub struct Journey<E> {
 impl<E: Engine> Journey<E> {
     /// Makes ready what will be written to `folder` until the step `last`; `restart` is the file of
     /// the checkpoint that the simulation has been restored from.
-    pub fn new(
-        engine: &mut E,
-        folder: &Path,
-        last: u64,
-        restart: Option<&Path>,
-    ) -> Result<Self> {
+    pub fn new(engine: &mut E, folder: &Path, last: u64, restart: Option<&Path>) -> Result<Self> {
         let mut recorders: Recorders<E> = Vec::new();
         let scene = engine.scene();
         for probe in &scene.probes {
@@ -80,6 +75,10 @@ impl<E: Engine> Journey<E> {
                 Some(diverged) if leaves_range(diverged) => {
                     self.summary.diverged = true;
                     self.summary.divergence = Some(diverged.to_string());
+                    if engine.is_good() {
+                        self.record(engine, true)
+                            .with_context(|| Unfinished::new(step, &self.notes))?;
+                    }
                 }
                 _ => return Err(error).context(Unfinished::new(step, &self.notes)),
             },
@@ -102,12 +101,7 @@ impl<E: Engine> Journey<E> {
         Ok(self.summary)
     }
 
-    fn travel(
-        &mut self,
-        engine: &mut E,
-        stop: &AtomicBool,
-        progress: &mut Progress,
-    ) -> Result<()> {
+    fn travel(&mut self, engine: &mut E, stop: &AtomicBool, progress: &mut Progress) -> Result<()> {
         let mut batch = Batch::new();
         self.record(engine, false)?;
         loop {
@@ -148,5 +142,8 @@ impl<E: Engine> Journey<E> {
 
 /// Whether a run ends by this because it left the range of the method.
 pub fn leaves_range(error: &Error) -> bool {
-    matches!(error, Error::Diverged { .. })
+    matches!(
+        error,
+        Error::Diverged { .. } | Error::DeepOverlap { .. } | Error::NotFinite { .. }
+    )
 }

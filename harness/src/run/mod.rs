@@ -6,19 +6,23 @@
 
 mod batch;
 mod checkpoints;
+mod dry;
 mod engine;
 mod flow;
 mod history;
 mod journey;
 mod progress;
 mod recorder;
+mod rocks;
 mod schedule;
 mod summary;
 
+pub use rocks::Rocks;
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 
 use anyhow::Result;
+use dry::Dry;
 use engine::Engine;
 use flow::Flow;
 use journey::Journey;
@@ -61,8 +65,8 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
     match (scene.has_fluid(), scene.has_blocks()) {
         (true, false) => travel(Flow::open(&scene, args.adapter.as_deref())?, args, stop),
-        (true, true) => todo!(),
-        (false, _) => todo!(),
+        // One that has both is refused there.
+        _ => travel(Dry::open(&scene, args.adapter.as_deref())?, args, stop),
     }
 }
 

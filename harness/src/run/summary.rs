@@ -1,5 +1,6 @@
 //! What a run was, for people and for programs: `summary.json`.
 
+pub use super::rocks::Rocks;
 use super::{progress::clock, recorder::Notes};
 use riprap::output::replace;
 use serde::Serialize;
@@ -63,7 +64,25 @@ pub struct Summary {
     pub checkpoint: Option<PathBuf>,
     /// Its step.
     pub checkpoint_step: Option<u64>,
+    /// What blocks did; only in runs of blocks, whose JSON has none of the fluid's numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rocks: Option<Rocks>,
 }
+
+/// Keys that only a fluid has.
+const OF_FLUID: [&str; 11] = [
+    "cells",
+    "fluid_cells",
+    "cell",
+    "tau",
+    "kernel",
+    "mlups",
+    "bandwidth",
+    "bytes_a_cell",
+    "bytes_a_step",
+    "bandwidth_share",
+    "max_mach",
+];
 
 impl Summary {
     /// Takes over what recorders noted.
@@ -83,9 +102,21 @@ impl Summary {
     pub fn write(&mut self, folder: &Path) -> anyhow::Result<()> {
         let path = folder.join("summary.json");
         self.files.push(path.clone());
-        let text = serde_json::to_string_pretty(self)? + "\n";
+        let text = serde_json::to_string_pretty(&self.json()?)? + "\n";
         replace(&path, |file| file.write_all(text.as_bytes()))?;
         Ok(())
+    }
+
+    /// The summary as JSON: of what there was.
+    ///
+    /// # Errors
+    /// None that is known of.
+    pub fn json(&self) -> anyhow::Result<serde_json::Value> {
+        let mut json = serde_json::to_value(self)?;
+        if let (Some(_), Some(keys)) = (&self.rocks, json.as_object_mut()) {
+            keys.retain(|key, _| !OF_FLUID.contains(&key.as_str()));
+        }
+        Ok(json)
     }
 
     /// What is on disk, in a sentence.
@@ -122,14 +153,18 @@ impl fmt::Display for Summary {
             self.time,
             clock(self.seconds)
         )?;
-        writeln!(
-            f,
-            "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
-            self.mlups,
-            100.0 * self.bandwidth_share,
-            self.bandwidth / 1e9,
-            self.max_mach
-        )?;
+        if let Some(rocks) = &self.rocks {
+            writeln!(f, "{rocks}")?;
+        } else {
+            writeln!(
+                f,
+                "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
+                self.mlups,
+                100.0 * self.bandwidth_share,
+                self.bandwidth / 1e9,
+                self.max_mach
+            )?;
+        }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;
         }

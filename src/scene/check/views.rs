@@ -33,13 +33,37 @@ impl Scene {
     }
 
     fn check_view(&self, key: &str, view: &View) -> Result<()> {
-        finite(format!("{key}.from"), &view.from)?;
-        finite(format!("{key}.to"), &view.to)?;
-        let ahead: [f64; 3] = std::array::from_fn(|a| view.to[a] - view.from[a]);
+        let ahead = match (view.from, view.to) {
+            (Some(from), Some(to)) => {
+                finite(format!("{key}.from"), &from)?;
+                finite(format!("{key}.to"), &to)?;
+                if view.direction.is_some() {
+                    return refuse(
+                        format!("{key}.direction"),
+                        "follows from `from` and `to`; remove it or them",
+                    );
+                }
+                std::array::from_fn(|a| to[a] - from[a])
+            }
+            (None, None) => view.direction.unwrap_or(View::USUAL_DIRECTION),
+            (Some(_), None) => {
+                return refuse(
+                    format!("{key}.from"),
+                    "says where the camera stands and not where it looks; add `to`",
+                );
+            }
+            (None, Some(_)) => {
+                return refuse(
+                    format!("{key}.to"),
+                    "says where the camera looks and not where it stands; add `from`",
+                );
+            }
+        };
+        finite(format!("{key}.direction"), &ahead)?;
         if ahead == [0.0; 3] {
             return refuse(
-                format!("{key}.to"),
-                "is where the camera stands; give another point to look at",
+                key,
+                "the camera looks nowhere; give `from` and `to`, or a direction, that is not 0",
             );
         }
         if let Some(up) = &view.up {

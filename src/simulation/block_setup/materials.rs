@@ -37,19 +37,12 @@ pub(super) fn pairs(scene: &Scene) -> Result<Vec<PairMaterial>> {
         let joint = Joint {
             normal_stiffness: pair.normal_stiffness.unwrap_or(usual.normal_stiffness),
             shear_stiffness: pair.shear_stiffness.unwrap_or(usual.shear_stiffness),
-            friction_angle: pair
-                .friction
-                .map_or(usual.friction_angle, f64::to_radians),
+            friction_angle: pair.friction.map_or(usual.friction_angle, f64::to_radians),
             cohesion: pair.cohesion.unwrap_or(usual.cohesion),
             tensile_strength: pair.tensile_strength.unwrap_or(usual.tensile_strength),
             damping: pair.damping.unwrap_or(usual.damping),
         };
         Ok(PairMaterial { materials, joint })
     };
-    scene
-        .material_pairs
-        .iter()
-        .enumerate()
-        .map(pair)
-        .collect()
+    scene.material_pairs.iter().enumerate().map(pair).collect()
 }

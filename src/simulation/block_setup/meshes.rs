@@ -33,7 +33,8 @@ pub(super) fn inside(
 
 fn closed(path: &Path, scale: f64, translate: DVec3) -> Result<TriangleMesh> {
     let mesh = TriangleMesh::read(path, scale, translate.to_array())?;
-    mesh.closed().map_err(|message| Error::file(path, message))?;
+    mesh.closed()
+        .map_err(|message| Error::file(path, message))?;
     Ok(mesh)
 }
 

@@ -47,11 +47,7 @@ pub(super) fn half_spaces(faces: &[PlaneFace]) -> Vec<HalfSpace> {
     faces.iter().map(half_space).collect()
 }
 
-fn compound(
-    scene: &Scene,
-    key: &str,
-    parts: &[crate::scene::Part],
-) -> Result<(Shape, DVec3)> {
+fn compound(scene: &Scene, key: &str, parts: &[crate::scene::Part]) -> Result<(Shape, DVec3)> {
     let mut placed = Vec::new();
     for (number, part) in parts.iter().enumerate() {
         let key = format!("{key}.parts[{number}]");

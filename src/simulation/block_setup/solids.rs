@@ -67,7 +67,11 @@ fn beyond(domain: &Domain) -> [HalfSpace; 6] {
         let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
         let mut normal = DVec3::ZERO;
         normal[axis] = sign;
-        let at = if face % 2 == 0 { domain.origin[axis] } else { end[axis] };
+        let at = if face % 2 == 0 {
+            domain.origin[axis]
+        } else {
+            end[axis]
+        };
         HalfSpace {
             normal,
             distance: sign * at + margin,

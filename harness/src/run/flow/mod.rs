@@ -98,6 +98,10 @@ impl Engine for Flow {
         self.simulation.time()
     }
 
+    fn is_good(&self) -> bool {
+        false
+    }
+
     fn advance(&mut self, steps: u64) -> Result<()> {
         let what = format!("{steps} steps");
         let done = self.simulation.advance(steps);

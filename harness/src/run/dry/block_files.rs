@@ -1,0 +1,69 @@
+//! Blocks for ParaView: `blocks_000123.vtu` and the collection `blocks.pvd`; the same for contacts.
+
+use super::super::{
+    engine::Engine,
+    recorder::{Notes, Recorder},
+    schedule::Schedule,
+};
+use super::Dry;
+use anyhow::Result;
+use riprap::{
+    output::{Pvd, write_vtp, write_vtu},
+    simulation::{block_polyhedra, contact_cloud},
+};
+use std::path::{Path, PathBuf};
+
+pub struct BlockFiles {
+    schedule: Schedule,
+    folder: PathBuf,
+    blocks: Pvd,
+    contacts: Option<Pvd>,
+}
+
+impl BlockFiles {
+    /// Begins the collections, or goes on with them after a restart.
+    pub fn new(engine: &Dry, folder: &Path, last: u64) -> Result<Self> {
+        let output = &engine.scene().output;
+        let collection = |name: &str| {
+            let path = folder.join(name);
+            match engine.step() {
+                0 => Pvd::create(path),
+                _ => Pvd::resume(path, engine.time()),
+            }
+        };
+        let contacts = output.contacts.then(|| collection("contacts.pvd"));
+        Ok(Self {
+            schedule: Schedule::of(output.every, engine.time_step(), last),
+            folder: folder.to_owned(),
+            blocks: collection("blocks.pvd")?,
+            contacts: contacts.transpose()?,
+        })
+    }
+}
+
+impl Recorder<Dry> for BlockFiles {
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn record(&mut self, engine: &mut Dry, notes: &mut Notes) -> Result<()> {
+        let (step, time) = (engine.step(), engine.time());
+        let simulation = &engine.simulation;
+        let path = self.folder.join(format!("blocks_{step:06}.vtu"));
+        write_vtu(
+            &path,
+            &block_polyhedra(simulation.setup(), simulation.blocks()),
+        )?;
+        self.blocks.add(time, &path)?;
+        notes.file(self.folder.join("blocks.pvd"));
+        notes.file(path);
+        if let Some(contacts) = &mut self.contacts {
+            let path = self.folder.join(format!("contacts_{step:06}.vtp"));
+            write_vtp(&path, &contact_cloud(simulation.blocks()))?;
+            contacts.add(time, &path)?;
+            notes.file(self.folder.join("contacts.pvd"));
+            notes.file(path);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,100 @@
+//! A run of blocks in numbers.
+
+use super::{dry::Dry, engine::Engine};
+use serde::Serialize;
+use std::fmt;
+
+/// What blocks did.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Rocks {
+    /// Number of blocks, fixed ones included.
+    pub blocks: usize,
+    /// Blocks that move or might at the end: neither fixed nor asleep.
+    pub awake: usize,
+    /// Contacts at the end.
+    pub contacts: usize,
+    /// Pairs at the end that may touch.
+    pub pairs: usize,
+    /// Longest sub-step at the end, s.
+    pub sub_step: f64,
+    /// Largest speed of a centroid at the end, m/s.
+    pub max_speed: f64,
+    /// Largest speed of a centroid that was seen, m/s.
+    pub max_speed_seen: f64,
+    /// Energies, J.
+    pub ledger: Energies,
+    /// What the balance of energies has gained since the start, as a part of what was turned over.
+    pub energy_error: f64,
+    /// Steps a second, without what was written.
+    pub steps_a_second: f64,
+}
+
+/// Energies of blocks, J.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Energies {
+    /// Kinetic.
+    pub kinetic: f64,
+    /// Potential in gravity, from the origin of the coordinates.
+    pub potential: f64,
+    /// Elastic, in the contacts.
+    pub elastic: f64,
+    /// Taken by friction.
+    pub friction: f64,
+    /// Taken by the dashpots of contacts.
+    pub dashpot: f64,
+    /// Taken by mass damping.
+    pub mass_damping: f64,
+    /// Held by contacts that ended.
+    pub lost: f64,
+    /// Done by driven blocks.
+    pub driven: f64,
+    /// Done by loads.
+    pub loads: f64,
+}
+
+impl Rocks {
+    /// The present state.
+    pub fn of(engine: &Dry) -> Self {
+        let blocks = engine.simulation.blocks();
+        let ledger = blocks.ledger();
+        Self {
+            blocks: blocks.len(),
+            awake: engine.awake(),
+            contacts: blocks.contacts().count(),
+            pairs: blocks.candidates(),
+            sub_step: blocks.time_step().min(engine.time_step()),
+            max_speed: engine.max_speed(),
+            max_speed_seen: engine.max_speed(),
+            energy_error: engine.energy_error(&ledger),
+            ledger: Energies {
+                kinetic: ledger.kinetic,
+                potential: ledger.potential,
+                elastic: ledger.elastic,
+                friction: ledger.friction,
+                dashpot: ledger.dashpot,
+                mass_damping: ledger.mass_damping,
+                lost: ledger.lost,
+                driven: ledger.driven,
+                loads: ledger.loads,
+            },
+            steps_a_second: 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Rocks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "  {} blocks, {} awake, {} contacts; {:.0} steps/s; speed {:.3e} m/s (largest seen \
+             {:.3e}); energies close to {:.1e}",
+            self.blocks,
+            self.awake,
+            self.contacts,
+            self.steps_a_second,
+            self.max_speed,
+            self.max_speed_seen,
+            self.energy_error.abs()
+        )
+    }
+}

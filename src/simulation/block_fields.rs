@@ -1,0 +1,144 @@
+//! What blocks show, for ParaView.
+
+use crate::{
+    block::Form,
+    bodies::{Blocks, Motion, Setup},
+    output::{Array, Cloud, Polyhedra},
+};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// Faces of a sphere around its axis; half as many along it.
+const AROUND: u32 = 24;
+
+/// The parts of all blocks where they are now, with what their blocks do: number, velocity (m/s) and
+/// speed (m/s), spin (rad/s), net force of their contacts (N), whether they are fixed or asleep, and
+/// the number of their material.
+pub fn block_polyhedra(setup: &Setup, blocks: &Blocks) -> Polyhedra {
+    let mut made = Polyhedra::default();
+    let mut owners = Vec::new();
+    let poses = blocks.poses();
+    for (number, (block, pose)) in setup.blocks.iter().zip(&poses).enumerate() {
+        for part in block.shape.parts() {
+            let first = made.points.len() as u32;
+            let (points, faces) = surface(&part.form);
+            let placed = points.into_iter().map(|x| pose.point(part.offset + x));
+            made.points.extend(placed.map(|x| x.to_array()));
+            let numbered = faces
+                .into_iter()
+                .map(|face| face.into_iter().map(|corner| first + corner).collect());
+            made.cells.push(numbered.collect());
+            owners.push(number);
+        }
+    }
+    let spins: Vec<DVec3> = blocks.spins().collect();
+    let forces: Vec<DVec3> = blocks.contact_forces().collect();
+    let asleep: Vec<bool> = blocks.asleep().collect();
+    let scalar = |name: &str, value: &dyn Fn(usize) -> f64| Array {
+        name: name.into(),
+        components: 1,
+        values: owners.iter().map(|&owner| value(owner) as f32).collect(),
+    };
+    let vector = |name: &str, value: &dyn Fn(usize) -> DVec3| Array {
+        name: name.into(),
+        components: 3,
+        values: owners
+            .iter()
+            .flat_map(|&owner| value(owner).to_array().map(|v| v as f32))
+            .collect(),
+    };
+    let flag = |set: bool| f64::from(u8::from(set));
+    made.arrays = vec![
+        scalar("id", &|owner| owner as f64),
+        vector("velocity", &|owner| poses[owner].velocity),
+        scalar("speed", &|owner| poses[owner].velocity.length()),
+        vector("spin", &|owner| spins[owner]),
+        vector("contact_force", &|owner| forces[owner]),
+        scalar("fixed", &|owner| {
+            flag(setup.blocks[owner].motion == Motion::Fixed)
+        }),
+        scalar("asleep", &|owner| flag(asleep[owner])),
+        scalar("material", &|owner| setup.blocks[owner].material as f64),
+    ];
+    made
+}
+
+/// The contacts of blocks: the points where forces act, with the force on the second block (N) and its
+/// magnitude (N), the normal from the first to the second, the overlap (m), the area (m²), and the
+/// numbers of both.
+pub fn contact_cloud(blocks: &Blocks) -> Cloud {
+    let contacts: Vec<_> = blocks.contacts().collect();
+    let vectors = |name: &str, values: Vec<DVec3>| Array {
+        name: name.into(),
+        components: 3,
+        values: values
+            .iter()
+            .flat_map(|v| v.to_array().map(|v| v as f32))
+            .collect(),
+    };
+    let scalars = |name: &str, values: Vec<f64>| Array {
+        name: name.into(),
+        components: 1,
+        values: values.into_iter().map(|v| v as f32).collect(),
+    };
+    Cloud {
+        points: contacts.iter().map(|c| c.point.to_array()).collect(),
+        arrays: vec![
+            vectors("force", contacts.iter().map(|c| c.force).collect()),
+            scalars(
+                "force_magnitude",
+                contacts.iter().map(|c| c.force.length()).collect(),
+            ),
+            vectors("normal", contacts.iter().map(|c| c.normal).collect()),
+            scalars("overlap", contacts.iter().map(|c| c.overlap).collect()),
+            scalars("area", contacts.iter().map(|c| c.area).collect()),
+            scalars(
+                "first",
+                contacts.iter().map(|c| c.blocks[0] as f64).collect(),
+            ),
+            scalars(
+                "second",
+                contacts.iter().map(|c| c.blocks[1] as f64).collect(),
+            ),
+        ],
+    }
+}
+
+/// Corners about the centroid, m, and faces of a form.
+fn surface(form: &Form) -> (Vec<DVec3>, Vec<Vec<u32>>) {
+    match form {
+        Form::Convex(shape) => (shape.vertices().to_vec(), shape.loops().to_vec()),
+        Form::Sphere { radius } => globe(*radius),
+    }
+}
+
+/// A sphere between meridians and parallels.
+fn globe(radius: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
+    let rings = AROUND / 2;
+    let mut points = vec![DVec3::Z * radius];
+    for ring in 1..rings {
+        let polar = PI * f64::from(ring) / f64::from(rings);
+        points.extend((0..AROUND).map(|k| {
+            let azimuth = TAU * f64::from(k) / f64::from(AROUND);
+            let (sine, cosine) = polar.sin_cos();
+            DVec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine) * radius
+        }));
+    }
+    let south = points.len() as u32;
+    points.push(-DVec3::Z * radius);
+    let on = |ring: u32, k: u32| 1 + (ring - 1) * AROUND + k % AROUND;
+    let mut faces = Vec::new();
+    for k in 0..AROUND {
+        faces.push(vec![0, on(1, k), on(1, k + 1)]);
+        for ring in 1..rings - 1 {
+            faces.push(vec![
+                on(ring, k),
+                on(ring + 1, k),
+                on(ring + 1, k + 1),
+                on(ring, k + 1),
+            ]);
+        }
+        faces.push(vec![south, on(rings - 1, k + 1), on(rings - 1, k)]);
+    }
+    (points, faces)
+}

@@ -49,6 +49,7 @@ impl Centring {
         let mut moved = DVec3::ZERO;
         for step in 1..=MAX_STEPS {
             let Some((direction, decrement)) = self.direction() else {
+                *point += frame * moved;
                 return step;
             };
             for ((rate, normal), slack) in

@@ -7,8 +7,9 @@ use super::{
     normal::{barrier, overlap, potential},
     pair::{Pair, Row},
     polygon::Polygon,
-    program::Program,
+    program::{Optimum, Program},
     section::Overlap,
+    separation::proven,
     sphere,
 };
 use crate::{Error, Result};
@@ -32,8 +33,8 @@ pub struct Resolver {
 
 /// What was found of a pair.
 enum Proof {
-    /// A plane, its normal from the smaller to the larger block.
-    Plane(DVec3),
+    /// A plane, its normal from the smaller to the larger block, and what it proves.
+    Plane(DVec3, Verdict),
     /// A point inside both, in L.
     Point(DVec3),
     Neither,
@@ -109,33 +110,39 @@ impl Resolver {
 
     fn polyhedra(&mut self, pair: &Pair<'_>, cache: &mut Cache) -> Result<Verdict> {
         let margin = pair.rounding();
-        let plane = cache.normal(pair.small, pair.large, pair.flipped);
+        let plane = cache.normal(pair);
         // The likelier proof first.
-        if !cache.contact && pair.separates(plane, margin) {
+        if !cache.contact
+            && let Some(verdict) = pair.judge(plane, margin)
+        {
             self.counts.planes += 1;
-            return Ok(Verdict::Apart);
+            return Ok(verdict);
         }
         let split = pair.fill(&mut self.rows);
-        let point = cache.place(pair.small, pair.large, pair.flipped) / pair.length;
-        let proof = if cache.point != [0.0; 3] && smallest_slack(&self.rows, point) > margin {
+        let kept = cache.place(pair);
+        let point = kept.map(|point| point / pair.length);
+        let inside = point.filter(|point| smallest_slack(&self.rows, *point) > margin);
+        let proof = if let Some(point) = inside {
             self.counts.points += 1;
             Proof::Point(point)
-        } else if cache.contact && pair.separates(plane, margin) {
+        } else if cache.contact
+            && let Some(verdict) = pair.judge(plane, margin)
+        {
             self.counts.planes += 1;
-            return Ok(Verdict::Apart);
+            return Ok(verdict);
         } else {
             self.prove(pair, split, margin)?
         };
         Ok(match proof {
             Proof::Neither => Verdict::Touching,
-            Proof::Plane(normal) => {
-                cache.hold(pair, normal, point * pair.length);
-                Verdict::Apart
+            Proof::Plane(normal, verdict) => {
+                cache.hold(pair, normal, kept);
+                verdict
             }
             Proof::Point(point) => {
                 let contact = self.describe(pair, split, point);
                 let place = contact.point - pair.small.centre;
-                cache.hold(pair, contact.normal, place);
+                cache.hold(pair, contact.normal, Some(place));
                 cache.contact = true;
                 Verdict::Contact(contact)
             }
@@ -144,27 +151,37 @@ impl Resolver {
 
     /// Proof without history.
     fn prove(&mut self, pair: &Pair<'_>, split: usize, margin: f64) -> Result<Proof> {
-        if let Some(normal) = pair.separating_face(margin) {
+        if let Some(normal) = pair.separating_face(margin)
+            && let Some(verdict) = pair.judge(normal, margin)
+        {
             self.counts.guesses += 1;
-            return Ok(Proof::Plane(normal));
+            return Ok(Proof::Plane(normal, verdict));
         }
         let point = pair.point_between(&self.rows, split);
         if smallest_slack(&self.rows, point) > margin {
             self.counts.guesses += 1;
             return Ok(Proof::Point(point));
         }
+        let rows = &self.rows[..];
+        let test = |optimum: &Optimum<'_>| {
+            if smallest_slack(rows, optimum.point) > margin {
+                return Proof::Point(optimum.point);
+            }
+            let normal = optimum.normal(rows, split);
+            match pair.judge(normal, margin) {
+                Some(verdict) => Proof::Plane(normal.normalize(), verdict),
+                None => Proof::Neither,
+            }
+        };
         self.counts.programs += 1;
-        let optimum = self.program.solve(&self.rows)?;
-        if smallest_slack(&self.rows, optimum.point) > margin {
-            return Ok(Proof::Point(optimum.point));
-        }
-        let own = self.rows[..split].iter().zip(optimum.dual);
-        let normal: DVec3 = own.map(|(row, z)| row.normal * *z).sum();
-        Ok(if pair.separates(normal, margin) {
-            Proof::Plane(normal.normalize_or_zero())
-        } else {
-            Proof::Neither
-        })
+        let optimum = self.program.solve(rows)?;
+        let proof = test(&optimum);
+        let Proof::Neither = proof else {
+            return Ok(proof);
+        };
+        self.counts.programs += 1;
+        let point = optimum.point;
+        Ok(test(&self.program.magnify(rows, point)?))
     }
 
     /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
@@ -208,9 +225,9 @@ impl Resolver {
 /// A pair with a sphere, in closed form.
 fn round(pair: &Pair<'_>, cache: &mut Cache) -> Verdict {
     let margin = pair.rounding();
-    let plane = cache.normal(pair.small, pair.large, pair.flipped);
-    if pair.separates(plane, margin) {
-        return Verdict::Apart;
+    let plane = cache.normal(pair);
+    if let Some(verdict) = pair.judge(plane, margin) {
+        return verdict;
     }
     let (small, large) = (pair.small, pair.large);
     let found = match (small.faces.is_empty(), large.faces.is_empty()) {
@@ -224,17 +241,12 @@ fn round(pair: &Pair<'_>, cache: &mut Cache) -> Verdict {
             }
         }
     };
-    let margin = margin * pair.length;
-    if found.gap.abs() <= margin {
-        return Verdict::Touching;
-    }
     let place = found.contact.point - small.centre;
-    cache.hold(pair, found.contact.normal, place);
-    if found.gap > 0.0 {
-        return Verdict::Apart;
-    }
-    cache.contact = true;
-    Verdict::Contact(found.contact)
+    cache.hold(pair, found.contact.normal, Some(place));
+    proven(found.gap, margin * pair.length).unwrap_or_else(|| {
+        cache.contact = true;
+        Verdict::Contact(found.contact)
+    })
 }
 
 /// That a block has a size and a place.

@@ -20,6 +20,15 @@ pub(super) struct Facet {
     pub ring: Vec<u32>,
 }
 
+/// Where the plane of a cut meets an edge, and the facets on both sides of that.
+struct Crossing {
+    edge: [u32; 2],
+    facets: [usize; 2],
+}
+
+/// Volume spanned by three unit normals below which they fix no point well.
+const PARALLEL: f64 = 1e-6;
+
 /// A convex cell. Vertices that no ring names any more are NaN until the next [`Cell::compact`].
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
@@ -108,7 +117,7 @@ impl Cell {
     fn cut(&mut self, plane: HalfSpace, source: u32, on: f64, heights: &[f64]) -> bool {
         let outside = |v: u32| heights[v as usize] > on;
         let inside = |v: u32| heights[v as usize] < -on;
-        let mut fresh: Vec<([u32; 2], DVec3)> = Vec::new();
+        let mut fresh: Vec<Crossing> = Vec::new();
         let mut rim: Vec<[u32; 2]> = Vec::new();
         let mut changed: Vec<(usize, Vec<u32>)> = Vec::new();
         let old = self.vertices.len() as u32;
@@ -126,11 +135,15 @@ impl Cell {
                 }
                 if inside(a) && outside(b) || outside(a) && inside(b) {
                     let edge = [a.min(b), a.max(b)];
-                    let known = fresh.iter().position(|(e, _)| *e == edge);
+                    let known = fresh.iter().position(|c| c.edge == edge);
                     let which = known.unwrap_or_else(|| {
-                        fresh.push((edge, self.crossing(edge, heights)));
+                        fresh.push(Crossing {
+                            edge,
+                            facets: [index, index],
+                        });
                         fresh.len() - 1
                     });
+                    fresh[which].facets[1] = index;
                     ring.push(old + which as u32);
                 }
             }
@@ -150,6 +163,10 @@ impl Cell {
         let Some(ring) = chain(&rim) else {
             return false;
         };
+        let fresh: Vec<DVec3> = fresh
+            .iter()
+            .map(|c| self.crossing(c, &plane, heights))
+            .collect();
         for (index, ring) in changed {
             self.facets[index].ring = ring;
         }
@@ -165,18 +182,30 @@ impl Cell {
                 self.dead += 1;
             }
         }
-        self.vertices.extend(fresh.iter().map(|(_, v)| v));
+        self.vertices.extend(fresh);
         if 2 * self.dead > self.vertices.len() {
             self.compact();
         }
         true
     }
 
-    /// Where an edge meets the plane.
-    fn crossing(&self, [a, b]: [u32; 2], heights: &[f64]) -> DVec3 {
-        let [va, vb] = [a, b].map(|v| self.vertices[v as usize]);
-        let [ha, hb] = [a, b].map(|v| heights[v as usize]);
-        va + (vb - va) * (ha / (ha - hb))
+    /// Where an edge meets the plane: where its two facets do. Between its ends instead if those are
+    /// nearly parallel; from ends to ends, errors would add up.
+    fn crossing(&self, crossing: &Crossing, plane: &HalfSpace, heights: &[f64]) -> DVec3 {
+        let [a, b] = crossing.edge.map(|v| self.vertices[v as usize]);
+        let [ha, hb] = crossing.edge.map(|v| heights[v as usize]);
+        let between = a + (b - a) * (ha / (ha - hb));
+        let [p, q] = crossing.facets.map(|f| self.facets[f].plane);
+        // From there, so that distances are small.
+        let [hp, hq, h] = [&p, &q, plane].map(|f| f.height(between));
+        let across = p.normal.cross(q.normal);
+        let det = across.dot(plane.normal);
+        if det.abs() < PARALLEL {
+            return between;
+        }
+        let sum =
+            q.normal.cross(plane.normal) * hp + plane.normal.cross(p.normal) * hq + across * h;
+        between - sum / det
     }
 
     /// Drops the vertices that no ring names.

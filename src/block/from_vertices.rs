@@ -82,27 +82,59 @@ fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Vec<Half
     );
     // The corners' mean is the origin, and so three of them fix the map.
     let map = regular * DMat3::from_cols(corners[0], corners[1], corners[2]).inverse();
-    let mut mapped: Vec<DVec3> = corners.iter().chain(points).map(|p| map * *p).collect();
+    let all: Vec<DVec3> = corners.iter().chain(points).copied().collect();
+    let mapped: Vec<DVec3> = all.iter().map(|p| map * *p).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
     // Far points first: then few others are ever outside. Sorting is stable, equals keep their order.
-    mapped[4..].sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
+    order[4..].sort_by(|a, b| {
+        let square = |i: usize| mapped[i].length_squared();
+        square(*b).total_cmp(&square(*a))
+    });
     // The dual of the tetrahedron has its vertices at √3.
     let mut dual = Cell::cuboid(DVec3::splat(-4.0), DVec3::splat(4.0));
-    for p in mapped {
-        let length = p.length();
+    for i in order {
+        let length = mapped[i].length();
         if length > 0.0 {
             let plane = HalfSpace {
-                normal: p / length,
+                normal: mapped[i] / length,
                 distance: 1.0 / length,
             };
-            dual.clip(plane, 0, coplanar);
+            dual.clip(plane, i as u32, coplanar);
         }
     }
     dual.compact();
-    let planes = dual.vertices.iter().map(|y| {
-        let normal = (map.transpose() * *y).normalize();
+    let mut corners = vec![Vec::new(); dual.vertices.len()];
+    for facet in &dual.facets {
+        for vertex in &facet.ring {
+            corners[*vertex as usize].push(all[facet.source as usize]);
+        }
+    }
+    let planes = dual.vertices.iter().zip(corners).map(|(y, corners)| {
+        let outwards = map.transpose() * *y;
+        let normal = normal_of(corners, outwards);
         let support = points.iter().map(|p| normal.dot(*p));
         let distance = support.fold(f64::NEG_INFINITY, f64::max);
         HalfSpace { normal, distance }
     });
     planes.collect()
+}
+
+/// Normal of the face with these corners in any order (Newell's: exact for three, the mean for more),
+/// which the dual knows only to its tolerance.
+fn normal_of(mut corners: Vec<DVec3>, outwards: DVec3) -> DVec3 {
+    let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    let (u, v) = outwards.normalize().any_orthonormal_pair();
+    let angle = |p: &DVec3| (*p - middle).dot(v).atan2((*p - middle).dot(u));
+    corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let twice = pairs
+        .map(|(a, b)| (*a - middle).cross(*b - middle))
+        .sum::<DVec3>();
+    // Corners that are nearly one leave no area; then the dual knows better.
+    let normal = twice.normalize_or(outwards.normalize());
+    if normal.dot(outwards) > 0.0 {
+        normal
+    } else {
+        outwards.normalize()
+    }
 }

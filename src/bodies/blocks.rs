@@ -246,17 +246,16 @@ impl Blocks {
         self.pairs.len()
     }
 
-    /// Boxes of all parts for a [`Broadphase`], grown by half the skin.
+    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more.
     pub fn items(&self) -> Vec<Item> {
-        self.parts.items(&self.bodies, self.skin)
+        self.parts.items(&self.bodies, |block| self.room(block))
     }
 
     /// Whether a step needs a new list of pairs first: a block has moved, or will in this step, by half
     /// the skin.
     pub fn wants_pairs(&self) -> bool {
-        let outlived =
-            |marks| pairs::outlived(&self.bodies, &self.states, marks, self.skin, self.time_step);
-        self.marks.is_empty() && !self.bodies.is_empty() || outlived(&self.marks)
+        self.marks.len() < self.bodies.len()
+            || pairs::outlived(&self.bodies, &self.states, &self.marks, self.ahead())
     }
 
     /// The pairs of [`Blocks::items`] that may touch. What the pairs remember of each other stays.
@@ -266,8 +265,12 @@ impl Blocks {
     pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
         let pairs = pairs::checked(pairs, &self.parts.block, &self.bodies)?;
         self.pairs = pairs::merged(&self.pairs, &pairs);
-        self.marks.clear();
-        self.marks.extend(self.states.iter().map(Mark::of));
+        let mark = |(i, state): (usize, &State)| Mark {
+            centre: state.centre,
+            rotation: state.rotation,
+            room: self.room(i),
+        };
+        self.marks = self.states.iter().enumerate().map(mark).collect();
         Ok(())
     }
 
@@ -306,6 +309,18 @@ impl Blocks {
             self.step_towards(until)?;
         }
         Ok(())
+    }
+
+    /// By how much the boxes of a block are grown, m.
+    fn room(&self, block: usize) -> f64 {
+        let (body, state) = (&self.bodies[block], &self.states[block]);
+        pairs::room(body, state, self.skin, self.ahead())
+    }
+
+    /// Time for which pairs must be known ahead, s.
+    fn ahead(&self) -> f64 {
+        // Without free blocks no step is too long, and there are no pairs.
+        if self.time_step.is_finite() { self.time_step } else { 0.0 }
     }
 
     /// A block in a message.

@@ -8,23 +8,18 @@ use super::{
 use crate::{Error, Result};
 use glam::{DQuat, DVec3};
 
-/// Where a block was when the list was made.
+/// Where a block was when the list was made, and how far it may go from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark {
     pub centre: DVec3,
     pub rotation: DQuat,
+    /// By how much its boxes were grown, m.
+    pub room: f64,
 }
 
 impl Mark {
-    pub fn of(state: &State) -> Self {
-        Self {
-            centre: state.centre,
-            rotation: state.rotation,
-        }
-    }
-
     /// No point of the block has moved farther than this, m.
-    pub fn moved(&self, state: &State, radius: f64) -> f64 {
+    fn moved(&self, state: &State, radius: f64) -> f64 {
         let turn = state.rotation * self.rotation.conjugate();
         // A point at the distance r from the axis moves by 2 r sin(θ/2).
         let turned = 2.0 * turn.xyz().length() * radius;
@@ -32,20 +27,25 @@ impl Mark {
     }
 }
 
-/// Whether some block may leave half the skin within `dt` s, so that pairs may be missing.
-pub(super) fn outlived(
-    bodies: &[Body],
-    states: &[State],
-    marks: &[Mark],
-    skin: f64,
-    dt: f64,
-) -> bool {
+/// By how much the boxes of a block are grown: half the skin, or two steps' way of a fast one, m.
+pub(super) fn room(body: &Body, state: &State, skin: f64, dt: f64) -> f64 {
+    (0.5 * skin).max(2.0 * ahead(body, state, dt))
+}
+
+/// Way of the fastest point in a step, m.
+fn ahead(body: &Body, state: &State, dt: f64) -> f64 {
+    if body.is_fixed() || state.asleep {
+        return 0.0;
+    }
+    state.fastest(body.shape.radius()) * dt
+}
+
+/// Whether some block may leave its boxes within a step, so that pairs may be missing.
+pub(super) fn outlived(bodies: &[Body], states: &[State], marks: &[Mark], dt: f64) -> bool {
     let all = bodies.iter().zip(states).zip(marks);
     all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
         .any(|((body, state), mark)| {
-            let radius = body.shape.radius();
-            let ahead = (state.velocity.length() + state.spin.length() * radius) * dt;
-            mark.moved(state, radius) + ahead > 0.5 * skin
+            mark.moved(state, body.shape.radius()) + ahead(body, state, dt) > mark.room
         })
 }
 

@@ -24,12 +24,13 @@ impl Parts {
         parts
     }
 
-    /// The boxes of all parts, each grown by half the skin. What forces do not move is one group.
-    pub fn items(&self, bodies: &[Body], skin: f64) -> Vec<Item> {
+    /// The boxes of all parts, each grown by the room of its block (m). What forces do not move is one
+    /// group.
+    pub fn items(&self, bodies: &[Body], room: impl Fn(usize) -> f64) -> Vec<Item> {
         let held = bodies.len() as u32;
         let item = |(placed, &block): (&Placed, &u32)| {
             let (min, max) = bounds(placed);
-            let grow = DVec3::splat(0.5 * skin);
+            let grow = DVec3::splat(room(block as usize));
             let free = bodies[block as usize].is_free();
             Item {
                 min: (min - grow).to_array(),

@@ -144,7 +144,7 @@ fields!(State {
     asleep,
     slept,
 });
-fields!(Mark { centre, rotation });
+fields!(Mark { centre, rotation, room });
 fields!(Pair {
     parts,
     cache,

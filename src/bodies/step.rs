@@ -47,6 +47,10 @@ impl Blocks {
                 "a step wants pairs first: find those of items() and give them to set_pairs";
             return Err(Error::scene("pairs", message));
         }
+        if !dt.is_finite() {
+            let message = "nothing limits the step, since no block is free; give time_step";
+            return Err(Error::scene("time_step", message));
+        }
         if !self.started {
             self.start()?;
         }
@@ -80,6 +84,14 @@ impl Blocks {
         std::mem::swap(&mut self.pairs, &mut self.next_pairs);
         self.touches = touches;
         self.sum_forces();
+        // A step of no length books the powers at the start.
+        self.books.step(
+            &self.bodies,
+            &self.states,
+            &mut self.touches,
+            self.damping,
+            0.0,
+        );
         self.shorten();
         self.started = true;
         Ok(())

@@ -1,0 +1,13 @@
+//! Dry blocks against exact solutions.
+
+mod faults;
+mod free_body;
+mod incline;
+mod ledger;
+mod rebound;
+mod repeat;
+mod rest;
+mod rig;
+mod sleep;
+mod toppling;
+mod wedge;

@@ -13,7 +13,8 @@ struct Corner {
 }
 
 struct Shaded {
-    @builtin(position) clip: vec4f,
+    // The pass that shades must find the very depths that the pass before has left.
+    @builtin(position) @invariant clip: vec4f,
     @location(0) p: vec3f,
     @location(1) normal: vec3f,
     @location(2) colour: vec4f,
@@ -33,11 +34,16 @@ fn body_vertex(in: Corner) -> Shaded {
 }
 
 @fragment
+fn depth_fragment(in: Shaded) -> @location(0) vec4f {
+    return vec4f(0.0);
+}
+
+@fragment
 fn body_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let colour = linear_of_srgb(in.colour.rgb);
     if (in.colour.a < 0.5) {
         return vec4f(colour, 1.0);
     }
     let normal = normalize(select(-in.normal, in.normal, front));
-    return vec4f(colour * illuminance(in.p, normal), 1.0);
+    return vec4f(colour * exposed(illuminance(in.p, normal)), 1.0);
 }

@@ -7,11 +7,9 @@ struct Spot {
     @location(1) place: vec2f,
 }
 
-// Linear; nearly white where sun and sky reach it, so that it prints well.
-const PLAIN = vec3f(0.92);
 // Width of the grid's lines, pixels, and how much darker they are.
 const WIDTH = 1.1;
-const DARKER = 0.16;
+const DARKER = 0.2;
 
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32) -> Spot {
@@ -31,5 +29,7 @@ fn ground_fragment(in: Spot) -> @location(0) vec4f {
     let cover = clamp(0.5 + 0.5 * WIDTH - from_line, vec2f(0.0), vec2f(1.0)) * fine;
     let grid = 1.0 - DARKER * max(cover.x, cover.y);
     let fade = 1.0 - smoothstep(view.ground.w, view.ground_y.w, length(in.place));
-    return vec4f(PLAIN * grid * illuminance(in.p, view.zenith.xyz), fade);
+    // White where all light reaches it: it has no edge on paper and leaves only grid and shadows.
+    let light = illuminance(in.p, view.zenith.xyz) / view.weights.z;
+    return vec4f(vec3f(grid * light), fade);
 }

@@ -16,11 +16,11 @@ const COARSE: usize = 4;
 const MANY: usize = 400_000;
 
 /// Illuminance of the sun on a surface that faces it.
-pub const SUN: f64 = 0.66;
+pub const SUN: f64 = 0.64;
 /// Illuminance of the whole sky on the ground.
-pub const SKY: f64 = 0.46;
+pub const SKY: f64 = 0.56;
 /// Illuminance from the ground on a surface that faces it.
-pub const BOUNCE: f64 = 0.10;
+pub const BOUNCE: f64 = 0.16;
 
 /// A direction that light comes from, as in view.wgsl.
 #[repr(C)]

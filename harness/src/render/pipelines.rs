@@ -34,6 +34,7 @@ pub struct Pipelines {
     pub light_layout: wgpu::BindGroupLayout,
     pub background: wgpu::RenderPipeline,
     pub ground: wgpu::RenderPipeline,
+    pub depth: wgpu::RenderPipeline,
     pub body: wgpu::RenderPipeline,
     pub stroke: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
@@ -73,8 +74,9 @@ impl Pipelines {
         Self {
             background: make("background", &[], Kind::Background),
             ground: make("ground", &[], Kind::Ground),
-            body: make("body", &corners, Kind::Solid),
-            stroke: make("stroke", &ends, Kind::Solid),
+            depth: make("body", &corners, Kind::Depth),
+            body: make("body", &corners, Kind::Shaded),
+            stroke: make("stroke", &ends, Kind::Stroke),
             shadow: make("shadow", &corners, Kind::Shadow),
             view_layout,
             light_layout,
@@ -86,7 +88,11 @@ impl Pipelines {
 enum Kind {
     Background,
     Ground,
-    Solid,
+    /// Leaves only its depth.
+    Depth,
+    /// Over the depth that it has left.
+    Shaded,
+    Stroke,
     Shadow,
 }
 
@@ -107,16 +113,24 @@ fn pipeline(
         bind_group_layouts: &[Some(bound)],
         immediate_size: 0,
     });
+    let fragment = match kind {
+        Kind::Depth => "depth_fragment",
+        _ => &format!("{name}_fragment"),
+    };
     let target = wgpu::ColorTargetState {
         format: COLOUR,
         blend: (kind == Kind::Ground).then_some(wgpu::BlendState::ALPHA_BLENDING),
-        write_mask: wgpu::ColorWrites::ALL,
+        write_mask: match kind {
+            Kind::Depth => wgpu::ColorWrites::empty(),
+            _ => wgpu::ColorWrites::ALL,
+        },
     };
     let (depth_compare, depth_write) = match kind {
         Kind::Background => (wgpu::CompareFunction::Always, false),
         // Drawn last, over what is farther away.
         Kind::Ground => (wgpu::CompareFunction::Greater, false),
-        Kind::Solid => (wgpu::CompareFunction::Greater, true),
+        Kind::Depth | Kind::Stroke => (wgpu::CompareFunction::Greater, true),
+        Kind::Shaded => (wgpu::CompareFunction::Equal, false),
         Kind::Shadow => (wgpu::CompareFunction::Less, true),
     };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -148,7 +162,7 @@ fn pipeline(
         },
         fragment: (kind != Kind::Shadow).then_some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(&format!("{name}_fragment")),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
             targets: &[Some(target)],
         }),

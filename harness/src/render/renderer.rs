@@ -120,12 +120,12 @@ impl Renderer {
         let zenith = camera.up.normalize();
         let level = axes.right.cross(zenith);
         // Over the spectator's left shoulder.
-        let shoulder = 1.0 * zenith - 0.62 * axes.right - 0.36 * level;
+        let shoulder = 1.0 * zenith - 0.85 * axes.right + 0.35 * level;
         let sun = drawing.sun.unwrap_or(shoulder).normalize();
         let bounds = geometry.bounds.unwrap_or([DVec3::ZERO; 2]);
         let texels = self.atlas.width();
         let lights = Lights::new(sun, zenith, bounds, geometry.solid.triangles(), texels);
-        let uniforms = Uniforms::new(drawing, &camera, &axes, size, bounds, &lights);
+        let uniforms = Uniforms::new(drawing, &camera, &axes, size, bounds, sun, &lights);
         let (buffer, row) = guarded(&self.device, "a picture", || {
             self.submit(drawing, &geometry, &lights, &uniforms, size)
         })??;
@@ -190,9 +190,12 @@ impl Renderer {
         pass.set_pipeline(&self.pipelines.background);
         pass.draw(0..3, 0..1);
         pass.set_vertex_buffer(1, placements.slice(..));
-        pass.set_pipeline(&self.pipelines.body);
-        for list in solid.iter().chain(&plain) {
-            list.draw(&mut pass);
+        // Depth first, so that light is computed once a pixel.
+        for pipeline in [&self.pipelines.depth, &self.pipelines.body] {
+            pass.set_pipeline(pipeline);
+            for list in solid.iter().chain(&plain) {
+                list.draw(&mut pass);
+            }
         }
         pass.set_pipeline(&self.pipelines.stroke);
         if let Some(list) = &strokes {

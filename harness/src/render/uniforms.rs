@@ -2,7 +2,7 @@
 
 use super::camera::{Axes, Camera};
 use super::drawing::{Background, Drawing};
-use super::light::{BOUNCE, Lights, SUN};
+use super::light::{BOUNCE, Lights, SKY, SUN};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
@@ -35,6 +35,7 @@ impl Uniforms {
         axes: &Axes,
         size: [u32; 2],
         [low, high]: [DVec3; 2],
+        sun: DVec3,
         lights: &Lights,
     ) -> Self {
         let [width, height] = size.map(f64::from);
@@ -54,7 +55,7 @@ impl Uniforms {
         };
         let ground_middle = middle + (ground - middle.dot(zenith)) * zenith;
         let grid = Grid::new(zenith, grid_spacing(radius));
-        let faded = 3.0 * radius;
+        let faded = 2.4 * radius;
         let depth = axes.forward.dot(middle - eye) - radius;
         let ground_depth = axes.forward.dot(ground_middle - eye) - faded * 2.0_f64.sqrt();
         let near = match drawing.ground {
@@ -71,6 +72,7 @@ impl Uniforms {
             let place = axis.dot(camera.to) + axis.dot(ground_middle);
             place.rem_euclid(grid.spacing)
         });
+        let open = SUN * sun.dot(zenith).max(0.0) + SKY;
         Self {
             right: four(axes.right, height / (width * tangent)),
             up: four(axes.up, 1.0 / tangent),
@@ -78,7 +80,7 @@ impl Uniforms {
             eye: four(eye, 0.5 * height / tangent),
             size: four(DVec3::new(width, height, lights.lights.len() as f64), 0.0),
             zenith: four(zenith, BOUNCE),
-            weights: four(DVec3::new(SUN, lights.sky_weight(), 0.0), 0.0),
+            weights: four(DVec3::new(SUN, lights.sky_weight(), open), 0.0),
             ground: four(ground_middle, radius),
             ground_x: four(x, grid.spacing),
             ground_y: four(y, faded),

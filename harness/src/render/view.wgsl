@@ -12,7 +12,8 @@ struct View {
     size: vec4f,
     // xyz: away from the ground; w: illuminance from below, sun on a facing surface being `weights.x`.
     zenith: vec4f,
-    // x: illuminance of the sun on a facing surface; y: of each direction of the sky.
+    // x: illuminance of the sun on a facing surface; y: of each direction of the sky;
+    // z: of all of them on open ground.
     weights: vec4f,
     // Ground: xyz: its middle, m; w: radius at which it begins to fade, m.
     ground: vec4f,
@@ -57,6 +58,15 @@ fn projected(p: vec3f) -> vec4f {
 
 fn linear_of_srgb(c: vec3f) -> vec3f {
     return select(pow((c + 0.055) / 1.055, vec3f(2.4)), c / 12.92, c <= vec3f(0.04045));
+}
+
+// Where the response to light begins to bend, so that what faces the sun does not burn out.
+const SHOULDER = 0.75;
+
+fn exposed(light: f32) -> f32 {
+    let rest = 1.0 - SHOULDER;
+    let bent = 1.0 - rest * exp((SHOULDER - light) / rest);
+    return select(bent, light, light < SHOULDER);
 }
 
 // Part of light `index` that reaches p on a surface with the normal n; `reach` texels soften it.

@@ -23,7 +23,7 @@ pub struct Args {
     /// Write the results as a JSON array
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Adapter whose description contains NAME [default: the first of `riprap info`]
+    /// Adapter whose description contains NAME [default: the first of `riprap adapters`]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
     /// Only the main kernels, on 64³ cells, for a short time

@@ -1,6 +1,6 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
-// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step reads
-// h* = h + R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
+// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step adds
+// R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
 // needs moments, stream, velocity, $where, $cells, $equilibrium, $eddy, $force, $relax, $keep, $guard, workgroup
 
 @compute @workgroup_size(WORKGROUP)

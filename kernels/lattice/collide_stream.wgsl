@@ -18,13 +18,14 @@ fn collide_stream(
         return;
     }
     let cell = cell_class(p);
+    // First, while few values are held.
+    let shear_rate = 1.0 / relaxation_time(p, cell);
     var f = load(p);
     var h = f;
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
     let bad = out_of_range(cell, rho, u);
-    let shear_rate = 1.0 / relaxation_time(p, cell);
     keep_velocity(p, cell, u);
     var d = equilibrium(rho, u);
     for (var k = 1u; k < 27u; k++) { // unroll

@@ -34,8 +34,9 @@ impl Stand {
     pub fn open(name: Option<&str>, full: bool) -> anyhow::Result<Self> {
         let adapter = gpu::pick(name)?;
         let info = adapter.get_info();
+        let wide = adapter.features() & wgpu::Features::SHADER_INT64;
         println!("on {}", gpu::describe(&info));
-        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits())?;
+        let (device, queue) = gpu::open(&adapter, wide, adapter.limits())?;
         Ok(Self {
             device,
             queue,
@@ -48,7 +49,7 @@ impl Stand {
     pub fn setup(&self, cells: [u32; 3], nu: f64) -> Setup {
         let mut setup = Setup::periodic(cells, nu);
         if self.software {
-            setup.use_long_bricks();
+            setup.suit_cpu(self.device.features());
             if cells[2].is_multiple_of(4) {
                 setup.lanes = 4;
             }

@@ -74,8 +74,8 @@ fn bench(
     name: &str,
     table: &mut Table,
 ) -> Result<(), Error> {
-    let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
-    let (device, queue) = gpu::open(adapter, timestamps, adapter.limits())?;
+    let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
+    let (device, queue) = gpu::open(adapter, adapter.features() & wanted, adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
     let mut clock = Clock::new(&device, &queue, software);
     for n in [32u32, 64] {
@@ -84,7 +84,7 @@ fn bench(
             setup.max_speed = 0.0;
             if software {
                 setup.lanes = 4;
-                setup.use_long_bricks();
+                setup.suit_cpu(device.features());
             }
             change(&mut setup);
             let state = flow::sheared_noise(&setup)?;

@@ -156,8 +156,10 @@ fn check(text: &str, lines: &[(String, u32)]) -> Result<(naga::Module, naga::val
         .map_err(|e| locate(e.location(text).map(|l| l.line_number), e.message().into()))?;
     let info = naga::valid::Validator::new(
         naga::valid::ValidationFlags::all(),
-        // unpack2x16float; wgpu checks it against the adapter.
-        naga::valid::Capabilities::default() | naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
+        // unpack2x16float and 64-bit words; wgpu checks both against the adapter.
+        naga::valid::Capabilities::default()
+            | naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32
+            | naga::valid::Capabilities::SHADER_INT64,
     )
     .validate(&module)
     .map_err(|e| {

@@ -6,6 +6,7 @@ use rig::Rig;
 use riprap::{
     checkpoint::Checkpoint,
     lattice::{Face, Force, Lattice, Populations, Setup, State, Storage},
+    wgpu,
 };
 
 /// WALE, force, walls, an inlet and an outflow: everything that carries memory from step to step.
@@ -81,6 +82,35 @@ fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
         );
         assert!(bits(&run(&rig, other, 51).1) == reference, "{what}");
     }
+}
+
+#[test]
+fn words_of_64_bits_change_no_bit() {
+    let rig = Rig::new();
+    if !rig.device.features().contains(wgpu::Features::SHADER_INT64) {
+        eprintln!("this adapter has no 64-bit words: nothing to compare");
+        return;
+    }
+    let field = Force::Field((0..616).map(|n| [1e-7 * n as f32, 0.0, 1e-6]).collect());
+    for storage in [Storage::F32, Storage::F16] {
+        let mut narrow = setup();
+        (narrow.storage, narrow.lanes, narrow.force) = (storage, 4, field.clone());
+        let wide = Setup {
+            wide: true,
+            ..narrow.clone()
+        };
+        let expected = bits(&run(&rig, narrow, 51).1);
+        assert!(bits(&run(&rig, wide, 51).1) == expected, "{storage:?}");
+    }
+}
+
+#[test]
+fn words_that_the_device_has_not_are_refused() {
+    let (device, _) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let mut setup = Setup::periodic([4, 4, 4], 0.1);
+    (setup.lanes, setup.wide) = (4, true);
+    let error = Lattice::new(&device, setup).unwrap_err().to_string();
+    assert!(error.contains("SHADER_INT64"), "{error}");
 }
 
 #[test]

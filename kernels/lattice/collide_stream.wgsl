@@ -1,6 +1,6 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
-// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step reads
-// h* = h + R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
+// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step adds
+// R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
 // needs moments, stream, velocity, $where, $cells, $equilibrium, $eddy, $force, $relax, $keep, $guard, workgroup
 
 @compute @workgroup_size(WORKGROUP)
@@ -18,13 +18,14 @@ fn collide_stream(
         return;
     }
     let cell = cell_class(p);
+    // First, while few values are held.
+    let shear_rate = 1.0 / relaxation_time(p, cell);
     var f = load(p);
     var h = f;
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
     let bad = out_of_range(cell, rho, u);
-    let shear_rate = 1.0 / relaxation_time(p, cell);
     keep_velocity(p, cell, u);
     var d = equilibrium(rho, u);
     for (var k = 1u; k < 27u; k++) { // unroll

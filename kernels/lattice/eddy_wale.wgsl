@@ -1,8 +1,8 @@
 // Gardner & Sitar 2018, eq. 7: tau = 1/2 + 3 (nu + nu_t), nu_t by WALE from central differences of the
 // velocity of the previous step.
-// needs grid, velocity, wale, $cells
+// needs grid, velocity, wale, $cells, $reals
 
-@group(0) @binding(30) var<storage, read> velocity_before: array<Real>;
+@group(0) @binding(30) var<storage, read> velocity_before: array<Reals>;
 
 override TAU: f32;
 override C_WALE: f32;
@@ -19,7 +19,7 @@ fn relaxation_time(p: Place, cell: u32) -> Real {
 }
 
 fn component_gradient(p: Place, cell: u32, start: u32) -> Vector {
-    let here = velocity_before[start + p.element];
+    let here = get_reals(velocity_before[start + p.element]);
     return Vector(
         difference(cell, 0u, before(p, start, vec3(-1, 0, 0)), here, before(p, start, vec3(1, 0, 0))),
         difference(cell, 2u, before(p, start, vec3(0, -1, 0)), here, before(p, start, vec3(0, 1, 0))),
@@ -28,5 +28,5 @@ fn component_gradient(p: Place, cell: u32, start: u32) -> Vector {
 }
 
 fn before(p: Place, start: u32, c: vec3<i32>) -> Real {
-    return from_neighbour(p, c, velocity_before[start + neighbour(p, c)]);
+    return from_neighbour(p, c, get_reals(velocity_before[start + neighbour(p, c)]));
 }

@@ -1,12 +1,12 @@
 // The velocity of this step, for the gradients of the next one.
-// needs velocity, grid, $cells
+// needs velocity, grid, $cells, $reals
 
-@group(0) @binding(31) var<storage, read_write> velocity_after: array<Real>;
+@group(0) @binding(31) var<storage, read_write> velocity_after: array<Reals>;
 
 fn keep_velocity(p: Place, cell: u32, u: Vector) {
     let kept = still_in_solid(cell, u);
     let elements = NX * NY * SLICES;
-    velocity_after[p.element] = kept.x;
-    velocity_after[elements + p.element] = kept.y;
-    velocity_after[2u * elements + p.element] = kept.z;
+    velocity_after[p.element] = put_reals(kept.x);
+    velocity_after[elements + p.element] = put_reals(kept.y);
+    velocity_after[2u * elements + p.element] = put_reals(kept.z);
 }

@@ -1,10 +1,10 @@
 // Populations in memory as they are computed: f - w in f32.
-// needs $lanes
+// needs $lanes, $reals
 
 fn decode(word: Word) -> Real {
-    return word;
+    return get_reals(word);
 }
 
 fn encode(value: Real) -> Word {
-    return value;
+    return put_reals(value);
 }

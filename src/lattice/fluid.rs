@@ -108,6 +108,13 @@ impl Lattice {
     /// hold it.
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
         check(&setup)?;
+        if !device.features().contains(setup.features()) {
+            return Err(Error::Device(
+                "`Setup::wide` asks for 64-bit words, which this device was not opened with; request \
+                 `Features::SHADER_INT64`, or leave it false"
+                    .into(),
+            ));
+        }
         let grid = Grid::new(&setup)?;
         let memory = super::memory(&setup, &grid, &device.limits())?;
         let geometry = Geometry::new(&setup, &grid);

@@ -1,6 +1,6 @@
 //! The one piece of shader text that is generated: populations over as many bindings as asked.
 
-use super::Storage;
+use super::{Setup, Storage};
 use std::fmt::Write;
 
 /// Directions of the lattice.
@@ -10,15 +10,16 @@ pub const Q: u32 = 27;
 ///
 /// The directions are spread over `bindings` buffers, the same number in each but the last. After
 /// inlining `s` is a literal, so that of the chain of comparisons one access is left.
-pub fn accessors(bindings: u32, storage: Storage, lanes: u32) -> String {
-    let word = match (storage, lanes) {
-        (Storage::F32, _) => "Real",
-        (Storage::F16, 4) => "vec2<u32>",
-        (Storage::F16, _) => "u32",
+pub fn accessors(bindings: u32, setup: &Setup) -> String {
+    let (word, file) = match (setup.storage, setup.lanes) {
+        (Storage::F32, _) => ("Reals", ", $reals"),
+        (Storage::F16, 4) if setup.is_wide() => ("u64", ""),
+        (Storage::F16, 4) => ("vec2<u32>", ""),
+        (Storage::F16, _) => ("u32", ""),
     };
     let each = Q.div_ceil(bindings);
     let used = Q.div_ceil(each);
-    let mut text = format!("// needs grid\nalias Word = {word};\n");
+    let mut text = format!("// needs grid{file}\nalias Word = {word};\n");
     let mut get = String::from("fn read_word(s: u32, e: u32) -> Word {\n");
     let mut put = String::from("fn write_word(s: u32, e: u32, word: Word) {\n");
     let elements = "NX * NY * SLICES";

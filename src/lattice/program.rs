@@ -18,16 +18,18 @@ fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
     let program = Program::new(entry)
         .text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
         .slot("lanes", &format!("lanes_{}", setup.lanes))
-        .text(
-            "populations",
-            populations::accessors(bindings, setup.storage, setup.lanes),
-        );
+        .text("populations", populations::accessors(bindings, setup));
+    let wide = setup.is_wide();
+    let word = format!(
+        "word_f16_{}{}",
+        setup.lanes,
+        if wide { "_wide" } else { "" }
+    );
     let program = match setup.storage {
         Storage::F32 => program.slot("store", "store_f32"),
-        Storage::F16 => program
-            .slot("store", "store_f16")
-            .slot("word", &format!("word_f16_{}", setup.lanes)),
+        Storage::F16 => program.slot("store", "store_f16").slot("word", &word),
     };
+    let program = program.slot("reals", if wide { "reals_wide" } else { "reals_direct" });
     match setup.force {
         Force::None => program.slot("force", "force_none"),
         Force::Constant(_) => program

@@ -12,14 +12,14 @@ pub const SOURCES: &[(&str, &str)] = sources! {
     "lattice":
         "beside_flags", "beside_none", "cell_force_constant", "cell_force_field",
         "cell_force_none", "cell_gradient", "cells_flagged", "cells_plain", "collide_stream",
-        "derive", "eddy_none", "eddy_wale", "equilibrium_product", "face_cells", "outflow", "equilibrium_second_order",
-        "exchange", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
+        "derive", "eddy_none", "eddy_wale", "equilibrium_product", "equilibrium_second_order",
+        "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
         "guard_on", "guo", "incoming", "initialise", "keep_none", "keep_velocity", "lanes_1",
         "lanes_2", "lanes_4", "lattice", "links", "macroscopic", "moments", "moving_wall",
-        "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
-        "relax_bgk", "relax_hermite", "relax_suga", "scalar_grid", "store_f16", "store_f32",
+        "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
+        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "scalar_grid", "store_f16", "store_f32",
         "stream", "sums", "velocity", "wale", "weights", "where_all", "where_listed",
-        "word_f16_2", "word_f16_4";
+        "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "measure":
         "copy_four_vectors", "copy_scalar", "copy_vector", "stream_only";
 };

@@ -7,12 +7,13 @@ use crate::{
     units::Units,
 };
 
-/// The lattice fluid of a scene; `software` says that the adapter computes on the CPU, where
-/// several cells an invocation pay.
+/// The lattice fluid of a scene; `cpu` has the features of an adapter that computes on the CPU, where
+/// several cells an invocation and wide words pay.
 ///
 /// # Errors
 /// If a formula is not finite somewhere, or a mesh cannot be read.
-pub fn lattice_setup(scene: &Scene, units: &Units, software: bool) -> Result<Setup> {
+pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) -> Result<Setup> {
+    let software = cpu.is_some();
     let cells = scene.cells();
     let numerics = &scene.numerics;
     let storage = match numerics.storage {
@@ -31,8 +32,8 @@ pub fn lattice_setup(scene: &Scene, units: &Units, software: bool) -> Result<Set
         }
     });
     setup.storage = storage;
-    if software {
-        setup.use_long_bricks();
+    if let Some(features) = cpu {
+        setup.suit_cpu(features);
     }
     setup.collision = match numerics.collision {
         scene::Collision::Hermite => Collision::Hermite,

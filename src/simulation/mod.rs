@@ -50,7 +50,7 @@ impl Simulation {
         let units = Units::of(scene)?;
         let advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-        let setup = lattice_setup(scene, &units, software)?;
+        let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
         let start = start(scene, &units)?;
         let changing = |(face, boundary): (Face, &Boundary)| match boundary {
             Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),

@@ -29,7 +29,7 @@ impl Needs {
     pub fn of(scene: &Scene, adapter: &wgpu::Adapter) -> Result<Self> {
         let units = Units::of(scene)?;
         let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let setup = lattice_setup(scene, &units, software)?;
+        let setup = lattice_setup(scene, &units, software.then(|| adapter.features()))?;
         let grid = Grid::new(&setup)?;
         let has = adapter.limits();
         let memory = memory(&setup, &grid, &has)?;
@@ -44,7 +44,7 @@ impl Needs {
             .max(limits.max_storage_buffers_per_shader_stage)
             .min(has.max_storage_buffers_per_shader_stage);
         Ok(Self {
-            features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            features: (adapter.features() & wgpu::Features::TIMESTAMP_QUERY) | setup.features(),
             limits,
             memory,
             setup,

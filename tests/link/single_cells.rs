@@ -68,7 +68,7 @@ fn kernels_for_single_cells_in_all_variants() {
         };
         let (file, entries, wanted) = SINGLE[kernel];
         let mut setup = Setup::periodic([4; 3], 0.1);
-        (setup.storage, setup.lanes) = LAYOUTS[layout];
+        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[layout];
         setup.equilibrium = [Equilibrium::Product, Equilibrium::SecondOrder][equilibrium];
         setup.wale = Some(0.5);
         if walls == 1 {

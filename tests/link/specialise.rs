@@ -9,11 +9,14 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Numbers of bindings that spread 27 directions in all ways that the limits of devices ask for.
 pub const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
-pub const LAYOUTS: [(Storage, u32); 4] = [
-    (Storage::F32, 1),
-    (Storage::F32, 4),
-    (Storage::F16, 2),
-    (Storage::F16, 4),
+/// Storage, lanes, and whether words have 64 bits.
+pub const LAYOUTS: [(Storage, u32, bool); 6] = [
+    (Storage::F32, 1, false),
+    (Storage::F32, 4, false),
+    (Storage::F32, 4, true),
+    (Storage::F16, 2, false),
+    (Storage::F16, 4, false),
+    (Storage::F16, 4, true),
 ];
 
 /// The kinds of body force.

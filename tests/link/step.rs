@@ -5,7 +5,7 @@ use riprap::lattice::{Collision, Equilibrium, Reach, Setup, collide_stream, stre
 
 #[test]
 fn the_step_in_all_variants() {
-    for variant in variants(&[4, 3, 2, 2, 3, 2, 2, 2]) {
+    for variant in variants(&[LAYOUTS.len(), 3, 2, 2, 3, 2, 2, 2]) {
         let [
             layout,
             collision,
@@ -20,7 +20,7 @@ fn the_step_in_all_variants() {
             unreachable!()
         };
         let mut setup = Setup::periodic([4; 3], 0.1);
-        (setup.storage, setup.lanes) = LAYOUTS[layout];
+        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[layout];
         setup.collision = [Collision::Bgk, Collision::Hermite, Collision::Suga][collision];
         setup.equilibrium = [Equilibrium::Product, Equilibrium::SecondOrder][equilibrium];
         setup.wale = (wale == 1).then_some(0.5);
@@ -58,7 +58,7 @@ fn the_step_in_all_variants() {
 fn streaming_alone_in_all_layouts() {
     for variant in variants(&[LAYOUTS.len(), BINDINGS.len()]) {
         let mut setup = Setup::periodic([4; 3], 0.1);
-        (setup.storage, setup.lanes) = LAYOUTS[variant[0]];
+        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[variant[0]];
         let count = BINDINGS[variant[1]];
         let linked = stream_only(&setup, count).link().unwrap();
         assert_eq!(names(&linked, "stream_only"), ([].into(), count as usize));

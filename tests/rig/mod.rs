@@ -24,7 +24,8 @@ impl Rig {
 
     pub fn with_limits(limits: wgpu::Limits) -> Self {
         let adapter = adapter();
-        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits).unwrap();
+        let wide = adapter.features() & wgpu::Features::SHADER_INT64;
+        let (device, queue) = gpu::open(&adapter, wide, limits).unwrap();
         Self { device, queue }
     }
 

@@ -44,8 +44,8 @@ pub struct Args {
 /// If there is no adapter, the device fails, or the file cannot be written.
 pub fn run(args: Args) -> anyhow::Result<()> {
     let adapter = gpu::pick(args.adapter.as_deref())?;
-    let wanted = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
-    let (device, queue) = gpu::open(&adapter, wanted, adapter.limits())?;
+    let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
+    let (device, queue) = gpu::open(&adapter, adapter.features() & wanted, adapter.limits())?;
     let machine = Machine::of(&adapter.get_info());
     println!("{machine}");
     let mut clock = Clock::new(&device, &queue, machine.software);
@@ -57,7 +57,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
             continue;
         }
         println!("\n{grid}³ cells\n{}", report::HEAD);
-        for group in variant::groups(grid, &machine, args.quick, budget, &device.limits()) {
+        for group in variant::groups(grid, &machine, args.quick, budget, &device) {
             rows.extend(group::measure(&mut clock, &machine, group, args.quick)?);
         }
         targets::print(grid, &rows, machine.software);

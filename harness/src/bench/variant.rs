@@ -45,13 +45,14 @@ const MAIN: [(&str, Change); 6] = [
 ];
 
 /// The rest, in the layout that the adapter likes best.
-const REST: [(&str, Change); 8] = [
+const REST: [(&str, Change); 9] = [
     ("mrt, second-order equilibrium", |s| {
         s.equilibrium = Equilibrium::SecondOrder;
     }),
     ("Suga's mrt", |s| {
         (s.collision, s.equilibrium) = (Collision::Suga, Equilibrium::SecondOrder);
     }),
+    ("mrt, words of 32 bits", |s| s.wide = false),
     ("mrt, 1 binding", |s| s.bindings = Some(1)),
     ("mrt, 2 bindings", |s| s.bindings = Some(2)),
     ("mrt, 7 bindings", |s| s.bindings = Some(7)),
@@ -74,7 +75,7 @@ pub fn groups(
     machine: &Machine,
     quick: bool,
     budget: u64,
-    limits: &wgpu::Limits,
+    device: &wgpu::Device,
 ) -> Vec<Group> {
     // The layout that the adapter likes best first, then the one that is there to compare.
     let layouts = match machine.software {
@@ -91,6 +92,7 @@ pub fn groups(
             (Storage::F16, 4),
         ],
     };
+    let limits = device.limits();
     let mut all = Vec::new();
     for (rank, (storage, lanes)) in layouts.into_iter().enumerate() {
         let wanted: Vec<_> = match (rank, quick) {
@@ -104,10 +106,10 @@ pub fn groups(
             let mut setup = Setup::periodic([grid; 3], 0.01);
             (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
             if machine.software {
-                setup.use_long_bricks();
+                setup.suit_cpu(device.features());
             }
             change(&mut setup);
-            let memory = Grid::new(&setup).and_then(|g| memory(&setup, &g, limits));
+            let memory = Grid::new(&setup).and_then(|g| memory(&setup, &g, &limits));
             match memory {
                 Ok(memory) => Some(Variant {
                     name,

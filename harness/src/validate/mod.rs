@@ -14,6 +14,7 @@ mod conservation;
 mod decay;
 mod golden;
 mod null_models;
+mod offset_joint;
 mod open_channel;
 mod outlet;
 mod plane_walls;
@@ -101,6 +102,7 @@ pub const CASES: &[Case] = &[
     short("wale/near-wall", wale::near_wall),
     short("wale/solid-rotation", wale::solid_rotation),
     long("wale/channel-re-tau-180", turbulent_channel::run),
+    long("joint/stagnation", offset_joint::stagnation),
     short("outlet/pulse", outlet::pulse),
     short("stability/quiescent", stability::quiescent),
     short("stability/taylor-green", stability::taylor_green),

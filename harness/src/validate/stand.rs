@@ -34,8 +34,9 @@ impl Stand {
     pub fn open(name: Option<&str>, full: bool) -> anyhow::Result<Self> {
         let adapter = gpu::pick(name)?;
         let info = adapter.get_info();
+        let wide = adapter.features() & wgpu::Features::SHADER_INT64;
         println!("on {}", gpu::describe(&info));
-        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits())?;
+        let (device, queue) = gpu::open(&adapter, wide, adapter.limits())?;
         Ok(Self {
             device,
             queue,
@@ -44,11 +45,14 @@ impl Stand {
         })
     }
 
-    /// A periodic box with the library's defaults and the lanes that suit the adapter.
+    /// A periodic box with the library's defaults and the lanes and bricks that suit the adapter.
     pub fn setup(&self, cells: [u32; 3], nu: f64) -> Setup {
         let mut setup = Setup::periodic(cells, nu);
-        if self.software && cells[2].is_multiple_of(4) {
-            setup.lanes = 4;
+        if self.software {
+            setup.suit_cpu(self.device.features());
+            if cells[2].is_multiple_of(4) {
+                setup.lanes = 4;
+            }
         }
         setup
     }
@@ -90,7 +94,11 @@ impl Stand {
         })
     }
 
-    fn drive<T>(&self, what: &str, future: impl Future<Output = T>) -> riprap::Result<T> {
+    /// Waits for a future, not longer than a device may be silent.
+    ///
+    /// # Errors
+    /// If it is not ready in time.
+    pub fn drive<T>(&self, what: &str, future: impl Future<Output = T>) -> riprap::Result<T> {
         gpu::drive(&self.device, PATIENCE, what, future)
     }
 }

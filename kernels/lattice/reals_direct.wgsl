@@ -1,0 +1,12 @@
+// Values of an element in memory as they are computed.
+// needs $lanes
+
+alias Reals = Real;
+
+fn get_reals(kept: Reals) -> Real {
+    return kept;
+}
+
+fn put_reals(value: Real) -> Reals {
+    return value;
+}

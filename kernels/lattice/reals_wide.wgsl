@@ -1,0 +1,16 @@
+// Values of an element in memory, two in a word of 64 bits: a CPU adapter that goes through its invocations
+// one by one for each word of an access goes half as often.
+// needs lanes_4
+
+alias Reals = vec2<u64>;
+
+fn get_reals(kept: Reals) -> Real {
+    let low = vec2<u32>(kept);
+    let high = vec2<u32>(kept >> vec2<u32>(32u));
+    return bitcast<vec4<f32>>(vec4(low.x, high.x, low.y, high.y));
+}
+
+fn put_reals(value: Real) -> Reals {
+    let bits = bitcast<vec4<u32>>(value);
+    return vec2<u64>(bits.xz) | (vec2<u64>(bits.yw) << vec2<u32>(32u));
+}

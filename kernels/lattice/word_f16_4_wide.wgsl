@@ -1,0 +1,10 @@
+// Four cells in a word of 64 bits, low halves first.
+// needs lanes_4
+
+fn pack(value: Real) -> u64 {
+    return u64(pack2x16float(value.xy)) | (u64(pack2x16float(value.zw)) << 32u);
+}
+
+fn unpack(word: u64) -> Real {
+    return vec4(unpack2x16float(u32(word)), unpack2x16float(u32(word >> 32u)));
+}

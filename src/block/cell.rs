@@ -1,6 +1,7 @@
 //! A convex cell in the making: planes, vertices and rings, cut by one plane after another.
 
 use super::HalfSpace;
+use super::settle::meet;
 use glam::DVec3;
 
 /// Part of a cell's size within which a vertex counts as on a plane: a thousand times the rounding of
@@ -27,7 +28,7 @@ struct Crossing {
 }
 
 /// Volume spanned by three unit normals below which they fix no point well.
-const PARALLEL: f64 = 1e-6;
+pub(super) const PARALLEL: f64 = 1e-6;
 
 /// A convex cell. Vertices that no ring names any more are NaN until the next [`Cell::compact`].
 #[derive(Clone, Debug)]
@@ -193,16 +194,7 @@ impl Cell {
         let [ha, hb] = crossing.edge.map(|v| heights[v as usize]);
         let between = a + (b - a) * (ha / (ha - hb));
         let [p, q] = crossing.facets.map(|f| self.facets[f].plane);
-        // From there, so that distances are small.
-        let [hp, hq, h] = [&p, &q, plane].map(|f| f.height(between));
-        let across = p.normal.cross(q.normal);
-        let det = across.dot(plane.normal);
-        if det.abs() < PARALLEL {
-            return between;
-        }
-        let sum =
-            q.normal.cross(plane.normal) * hp + plane.normal.cross(p.normal) * hq + across * h;
-        between - sum / det
+        meet([p, q, *plane], between).unwrap_or(between)
     }
 
     /// Drops the vertices that no ring names.

@@ -14,6 +14,7 @@ mod polygons;
 mod polyhedron;
 mod random;
 mod rock_mass;
+mod settle;
 mod shape;
 mod solids;
 

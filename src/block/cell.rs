@@ -50,6 +50,15 @@ pub(super) enum Clip {
 }
 
 impl Cell {
+    /// A cell that is closed and convex.
+    pub fn new(vertices: Vec<DVec3>, facets: Vec<Facet>) -> Self {
+        Self {
+            vertices,
+            facets,
+            dead: 0,
+        }
+    }
+
     /// The box between two corners.
     pub fn cuboid(min: DVec3, max: DVec3) -> Self {
         let vertex = |i: u32| {
@@ -61,18 +70,15 @@ impl Cell {
             source: START,
             ring: ring.to_vec(),
         };
-        Self {
-            vertices: (0..8).map(vertex).collect(),
-            facets: vec![
-                facet(DVec3::NEG_X, -min.x, [0, 4, 6, 2]),
-                facet(DVec3::X, max.x, [1, 3, 7, 5]),
-                facet(DVec3::NEG_Y, -min.y, [0, 1, 5, 4]),
-                facet(DVec3::Y, max.y, [2, 6, 7, 3]),
-                facet(DVec3::NEG_Z, -min.z, [0, 2, 3, 1]),
-                facet(DVec3::Z, max.z, [4, 5, 7, 6]),
-            ],
-            dead: 0,
-        }
+        let facets = vec![
+            facet(DVec3::NEG_X, -min.x, [0, 4, 6, 2]),
+            facet(DVec3::X, max.x, [1, 3, 7, 5]),
+            facet(DVec3::NEG_Y, -min.y, [0, 1, 5, 4]),
+            facet(DVec3::Y, max.y, [2, 6, 7, 3]),
+            facet(DVec3::NEG_Z, -min.z, [0, 2, 3, 1]),
+            facet(DVec3::Z, max.z, [4, 5, 7, 6]),
+        ];
+        Self::new((0..8).map(vertex).collect(), facets)
     }
 
     /// Cuts away what is outside `plane`; vertices nearer than `on` (m) count as on it.

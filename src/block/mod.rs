@@ -10,6 +10,7 @@ mod from_vertices;
 mod half_space;
 mod joint_set;
 mod moments;
+mod overlap;
 mod polygons;
 mod polyhedron;
 mod random;

@@ -66,8 +66,9 @@ impl Shape {
         let middle = (min + max) / 2.0;
         let first = moments(middle);
         let volume = first.volume;
-        // Also if there is no triangle, and the size is not finite.
-        if !(volume.abs() > FLAT * size.powi(3)) {
+        // Not true either if there is no triangle, and the size is not a number.
+        let thick = volume.abs() > FLAT * size.powi(3);
+        if !thick {
             return Err(refuse(format!(
                 "the mesh is flat: {volume:.3e} m³ in a box {size:.3e} m across; a block needs a thickness"
             )));

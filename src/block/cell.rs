@@ -1,0 +1,250 @@
+//! A convex cell in the making: planes, vertices and rings, cut by one plane after another.
+
+use super::HalfSpace;
+use glam::DVec3;
+
+/// Part of a cell's size within which a vertex counts as on a plane: a thousand times the rounding of
+/// its coordinates, so that the verdict does not hang on them.
+pub(super) const ON: f64 = 1e-12;
+
+/// Where a face comes from: a face of the box that a cell starts from.
+pub(super) const START: u32 = u32::MAX;
+
+/// A face of a cell.
+#[derive(Clone, Debug)]
+pub(super) struct Facet {
+    pub plane: HalfSpace,
+    /// What the caller knows the plane by, or [`START`].
+    pub source: u32,
+    /// Vertices, counter-clockwise seen from outside.
+    pub ring: Vec<u32>,
+}
+
+/// Where the plane of a cut meets an edge, and the facets on both sides of that.
+struct Crossing {
+    edge: [u32; 2],
+    facets: [usize; 2],
+}
+
+/// Volume spanned by three unit normals below which they fix no point well.
+const PARALLEL: f64 = 1e-6;
+
+/// A convex cell. Vertices that no ring names any more are NaN until the next [`Cell::compact`].
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub vertices: Vec<DVec3>,
+    pub facets: Vec<Facet>,
+    dead: usize,
+}
+
+/// What a plane leaves of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Clip {
+    /// All of it: no vertex is outside, and the plane is redundant.
+    All,
+    /// Nothing: no vertex is inside.
+    Nothing,
+    /// A part; the plane is now a face.
+    Part,
+}
+
+impl Cell {
+    /// The box between two corners.
+    pub fn cuboid(min: DVec3, max: DVec3) -> Self {
+        let vertex = |i: u32| {
+            let pick = |axis: usize| [min[axis], max[axis]][(i >> axis & 1) as usize];
+            DVec3::new(pick(0), pick(1), pick(2))
+        };
+        let facet = |normal: DVec3, distance: f64, ring: [u32; 4]| Facet {
+            plane: HalfSpace { normal, distance },
+            source: START,
+            ring: ring.to_vec(),
+        };
+        Self {
+            vertices: (0..8).map(vertex).collect(),
+            facets: vec![
+                facet(DVec3::NEG_X, -min.x, [0, 4, 6, 2]),
+                facet(DVec3::X, max.x, [1, 3, 7, 5]),
+                facet(DVec3::NEG_Y, -min.y, [0, 1, 5, 4]),
+                facet(DVec3::Y, max.y, [2, 6, 7, 3]),
+                facet(DVec3::NEG_Z, -min.z, [0, 2, 3, 1]),
+                facet(DVec3::Z, max.z, [4, 5, 7, 6]),
+            ],
+            dead: 0,
+        }
+    }
+
+    /// Cuts away what is outside `plane`; vertices nearer than `on` (m) count as on it.
+    ///
+    /// The rim of what is left of the old faces is the ring of the new one, so that the surface stays
+    /// closed whatever the rounding. Should rounding make the rim more than one ring, the cut is
+    /// taken again with more vertices on the plane.
+    pub fn clip(&mut self, plane: HalfSpace, source: u32, on: f64) -> Clip {
+        let heights: Vec<f64> = self.vertices.iter().map(|v| plane.height(*v)).collect();
+        // Comparisons with the NaN of dead vertices are false: they are neither outside nor inside.
+        let mut on = on;
+        loop {
+            if !heights.iter().any(|h| *h > on) {
+                return Clip::All;
+            }
+            if !heights.iter().any(|h| *h < -on) {
+                return Clip::Nothing;
+            }
+            if self.cut(plane, source, on, &heights) {
+                return Clip::Part;
+            }
+            on *= 8.0;
+        }
+    }
+
+    /// Both sides of a plane, if it divides the cell: inside, with `plane` as the last face, and outside,
+    /// with its exact opposite. The vertices of the section are the same bits in both.
+    pub fn split(&self, plane: HalfSpace, source: u32, on: f64) -> Option<(Self, Self)> {
+        let mut inside = self.clone();
+        if inside.clip(plane, source, on) != Clip::Part {
+            return None;
+        }
+        let mut outside = self.clone();
+        // Heights are exactly opposite, and so the verdicts are the same.
+        outside.clip(plane.opposite(), source, on);
+        Some((inside, outside))
+    }
+
+    /// Whether it went well; nothing has changed if not.
+    fn cut(&mut self, plane: HalfSpace, source: u32, on: f64, heights: &[f64]) -> bool {
+        let outside = |v: u32| heights[v as usize] > on;
+        let inside = |v: u32| heights[v as usize] < -on;
+        let mut fresh: Vec<Crossing> = Vec::new();
+        let mut rim: Vec<[u32; 2]> = Vec::new();
+        let mut changed: Vec<(usize, Vec<u32>)> = Vec::new();
+        let old = self.vertices.len() as u32;
+        let is_on = |v: u32| v >= old || (!inside(v) && !outside(v));
+        for (index, facet) in self.facets.iter().enumerate() {
+            if !facet.ring.iter().any(|v| inside(*v)) {
+                changed.push((index, Vec::new()));
+                continue;
+            }
+            let mut ring = Vec::with_capacity(facet.ring.len() + 1);
+            for (i, &a) in facet.ring.iter().enumerate() {
+                let b = facet.ring[(i + 1) % facet.ring.len()];
+                if !outside(a) {
+                    ring.push(a);
+                }
+                if inside(a) && outside(b) || outside(a) && inside(b) {
+                    let edge = [a.min(b), a.max(b)];
+                    let known = fresh.iter().position(|c| c.edge == edge);
+                    let which = known.unwrap_or_else(|| {
+                        fresh.push(Crossing {
+                            edge,
+                            facets: [index, index],
+                        });
+                        fresh.len() - 1
+                    });
+                    fresh[which].facets[1] = index;
+                    ring.push(old + which as u32);
+                }
+            }
+            for (i, &a) in ring.iter().enumerate() {
+                let b = ring[(i + 1) % ring.len()];
+                if is_on(a) && is_on(b) {
+                    match rim.iter().position(|e| *e == [b, a]) {
+                        Some(twin) => drop(rim.swap_remove(twin)),
+                        None => rim.push([a, b]),
+                    }
+                }
+            }
+            if ring != facet.ring {
+                changed.push((index, ring));
+            }
+        }
+        let Some(ring) = chain(&rim) else {
+            return false;
+        };
+        let fresh: Vec<DVec3> = fresh
+            .iter()
+            .map(|c| self.crossing(c, &plane, heights))
+            .collect();
+        for (index, ring) in changed {
+            self.facets[index].ring = ring;
+        }
+        self.facets.retain(|facet| !facet.ring.is_empty());
+        self.facets.push(Facet {
+            plane,
+            source,
+            ring,
+        });
+        for (vertex, height) in self.vertices.iter_mut().zip(heights) {
+            if *height > on {
+                *vertex = DVec3::NAN;
+                self.dead += 1;
+            }
+        }
+        self.vertices.extend(fresh);
+        if 2 * self.dead > self.vertices.len() {
+            self.compact();
+        }
+        true
+    }
+
+    /// Where an edge meets the plane: where its two facets do. Between its ends instead if those are
+    /// nearly parallel; from ends to ends, errors would add up.
+    fn crossing(&self, crossing: &Crossing, plane: &HalfSpace, heights: &[f64]) -> DVec3 {
+        let [a, b] = crossing.edge.map(|v| self.vertices[v as usize]);
+        let [ha, hb] = crossing.edge.map(|v| heights[v as usize]);
+        let between = a + (b - a) * (ha / (ha - hb));
+        let [p, q] = crossing.facets.map(|f| self.facets[f].plane);
+        // From there, so that distances are small.
+        let [hp, hq, h] = [&p, &q, plane].map(|f| f.height(between));
+        let across = p.normal.cross(q.normal);
+        let det = across.dot(plane.normal);
+        if det.abs() < PARALLEL {
+            return between;
+        }
+        let sum =
+            q.normal.cross(plane.normal) * hp + plane.normal.cross(p.normal) * hq + across * h;
+        between - sum / det
+    }
+
+    /// Drops the vertices that no ring names.
+    pub fn compact(&mut self) {
+        let mut new = vec![u32::MAX; self.vertices.len()];
+        let mut kept = Vec::with_capacity(self.vertices.len());
+        for v in self.facets.iter_mut().flat_map(|f| &mut f.ring) {
+            let slot = &mut new[*v as usize];
+            if *slot == u32::MAX {
+                *slot = kept.len() as u32;
+                kept.push(self.vertices[*v as usize]);
+            }
+            *v = *slot;
+        }
+        self.vertices = kept;
+        self.dead = 0;
+    }
+
+    /// The vertices in use.
+    pub fn live(&self) -> impl Iterator<Item = DVec3> {
+        self.vertices.iter().copied().filter(|v| !v.is_nan())
+    }
+
+    /// Lower and upper corner of the box around it.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        self.live()
+            .fold(nothing, |(min, max), v| (min.min(v), max.max(v)))
+    }
+}
+
+/// The ring that runs against all of `rim`; none if that is more or less than one ring.
+fn chain(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
+    let [end, start] = *rim.first()?;
+    let mut ring = vec![start];
+    let mut at = end;
+    while at != start {
+        if ring.len() >= rim.len() {
+            return None;
+        }
+        ring.push(at);
+        at = rim.iter().find(|[_, to]| *to == at)?[0];
+    }
+    (ring.len() == rim.len() && ring.len() >= 3).then_some(ring)
+}

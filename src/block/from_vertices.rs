@@ -1,0 +1,140 @@
+//! Polyhedra from points: their convex hull, by duality.
+//!
+//! A point p is inside all planes y · x ≤ 1 of the hull if and only if y is inside the half-space
+//! p · y ≤ 1. So the hull of the points is the polyhedron of those half-spaces read the other way: its
+//! faces are the hull's vertices and its vertices are the hull's faces. The cell that cuts half-spaces
+//! cuts these too, drops duplicates and points inside as redundant, and makes coplanar points one face.
+
+use super::cell::{Cell, ON};
+use super::{HalfSpace, Polyhedron};
+use crate::{Error, Result};
+use glam::{DMat3, DVec3};
+
+/// Part of the size within which points count as coplanar: far above rounding, far below a scene's care.
+const COPLANAR: f64 = 1e-9;
+
+/// Thinnest cloud that is not flat, as part of its size.
+const FLAT: f64 = 1e-6;
+
+impl Polyhedron {
+    /// The convex hull of points (m), and its centroid (m), which becomes the origin. Points inside, on
+    /// faces or edges, and duplicates are dropped, also those that are less than about 1e-9 of the size
+    /// outside.
+    ///
+    /// # Errors
+    /// If a point is not finite, or all are on one plane, or the hull is a sliver (see
+    /// [`Polyhedron::from_half_spaces`]).
+    pub fn from_vertices(points: &[DVec3]) -> Result<(Self, DVec3)> {
+        Self::hull(points, COPLANAR)
+    }
+
+    /// The hull, points within `coplanar` of the size being on one plane.
+    pub(super) fn hull(points: &[DVec3], coplanar: f64) -> Result<(Self, DVec3)> {
+        if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
+            return Err(Error::scene(
+                format!("vertices[{bad}]"),
+                format!("{} is not finite; give numbers in m", points[bad]),
+            ));
+        }
+        let corners = simplex(points).ok_or_else(|| {
+            let message = "all points lie on one plane, line or point; a block needs a thickness";
+            Error::scene("vertices", message)
+        })?;
+        let centre = corners.iter().sum::<DVec3>() / 4.0;
+        let local: Vec<DVec3> = points.iter().map(|p| *p - centre).collect();
+        let faces = hull_planes(&local, corners.map(|c| c - centre), coplanar);
+        let size = local.iter().map(|p| p.abs().max_element());
+        let half = 2.0 * size.fold(0.0, f64::max);
+        let mut cell = Cell::cuboid(DVec3::splat(-half), DVec3::splat(half));
+        for (index, face) in faces.iter().enumerate() {
+            cell.clip(*face, index as u32, ON * half);
+        }
+        let (polyhedron, centroid) = Self::from_cell(cell)?;
+        Ok((polyhedron, centre + centroid))
+    }
+}
+
+/// Four points that span much of the cloud: an extreme one, then always the farthest from those before.
+fn simplex(points: &[DVec3]) -> Option<[DVec3; 4]> {
+    let farthest = |height: &dyn Fn(DVec3) -> f64| {
+        // The first of equals, so that the answer is the same every time.
+        let better = |best: DVec3, p: DVec3| if height(p) > height(best) { p } else { best };
+        points.iter().copied().reduce(better)
+    };
+    let a = farthest(&|p| -p.x)?;
+    let b = farthest(&|p| p.distance_squared(a))?;
+    let size = a.distance(b);
+    let along = (b - a).try_normalize()?;
+    let c = farthest(&|p| (p - a).cross(along).length_squared())?;
+    let up = (c - a).cross(along).try_normalize()?;
+    let d = farthest(&|p| (p - a).dot(up).abs())?;
+    let thin = (c - a).cross(along).length().min((d - a).dot(up).abs());
+    (thin > FLAT * size).then_some([a, b, c, d])
+}
+
+/// The planes of the hull. The points are first mapped so that `corners` become a regular tetrahedron:
+/// a hull goes with its points, and in the map the cloud is about as thick as it is long.
+fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Vec<HalfSpace> {
+    let regular = DMat3::from_cols(
+        DVec3::new(1.0, 1.0, 1.0),
+        DVec3::new(1.0, -1.0, -1.0),
+        DVec3::new(-1.0, 1.0, -1.0),
+    );
+    // The corners' mean is the origin, and so three of them fix the map.
+    let map = regular * DMat3::from_cols(corners[0], corners[1], corners[2]).inverse();
+    let all: Vec<DVec3> = corners.iter().chain(points).copied().collect();
+    let mapped: Vec<DVec3> = all.iter().map(|p| map * *p).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    // Far points first: then few others are ever outside. Sorting is stable, equals keep their order.
+    order[4..].sort_by(|a, b| {
+        let square = |i: usize| mapped[i].length_squared();
+        square(*b).total_cmp(&square(*a))
+    });
+    // The dual of the tetrahedron has its vertices at √3.
+    let mut dual = Cell::cuboid(DVec3::splat(-4.0), DVec3::splat(4.0));
+    for i in order {
+        let length = mapped[i].length();
+        if length > 0.0 {
+            let plane = HalfSpace {
+                normal: mapped[i] / length,
+                distance: 1.0 / length,
+            };
+            dual.clip(plane, i as u32, coplanar);
+        }
+    }
+    dual.compact();
+    let mut corners = vec![Vec::new(); dual.vertices.len()];
+    for facet in &dual.facets {
+        for vertex in &facet.ring {
+            corners[*vertex as usize].push(all[facet.source as usize]);
+        }
+    }
+    let planes = dual.vertices.iter().zip(corners).map(|(y, corners)| {
+        let outwards = map.transpose() * *y;
+        let normal = normal_of(corners, outwards);
+        let support = points.iter().map(|p| normal.dot(*p));
+        let distance = support.fold(f64::NEG_INFINITY, f64::max);
+        HalfSpace { normal, distance }
+    });
+    planes.collect()
+}
+
+/// Normal of the face with these corners in any order (Newell's: exact for three, the mean for more),
+/// which the dual knows only to its tolerance.
+fn normal_of(mut corners: Vec<DVec3>, outwards: DVec3) -> DVec3 {
+    let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    let (u, v) = outwards.normalize().any_orthonormal_pair();
+    let angle = |p: &DVec3| (*p - middle).dot(v).atan2((*p - middle).dot(u));
+    corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let twice = pairs
+        .map(|(a, b)| (*a - middle).cross(*b - middle))
+        .sum::<DVec3>();
+    // Corners that are nearly one leave no area; then the dual knows better.
+    let normal = twice.normalize_or(outwards.normalize());
+    if normal.dot(outwards) > 0.0 {
+        normal
+    } else {
+        outwards.normalize()
+    }
+}

@@ -1,0 +1,143 @@
+//! What is no block is refused, and the message says which face and what to do.
+
+use glam::DVec3;
+use riprap::block::{HalfSpace, Part, Polyhedron, Shape};
+
+fn cube() -> Vec<HalfSpace> {
+    Polyhedron::cuboid(DVec3::ONE).unwrap().faces().to_vec()
+}
+
+fn refused<T: std::fmt::Debug>(made: riprap::Result<T>, words: &[&str]) {
+    let message = made.unwrap_err().to_string();
+    for word in words {
+        assert!(message.contains(word), "'{word}' is not in: {message}");
+    }
+}
+
+#[test]
+fn unbounded() {
+    let mut open = cube();
+    open.remove(3);
+    refused(
+        Polyhedron::from_half_spaces(&open),
+        &[
+            "faces: 5 faces",
+            "unbounded towards (",
+            "1.000,",
+            "add a face",
+        ],
+    );
+    refused(Polyhedron::from_half_spaces(&[]), &["0 faces", "unbounded"]);
+    // Whatever the distances, also if nothing is left.
+    open.iter_mut().for_each(|f| f.distance = -1.0);
+    refused(Polyhedron::from_half_spaces(&open), &["unbounded"]);
+}
+
+#[test]
+fn empty() {
+    let mut faces = cube();
+    faces[3].distance = -0.6;
+    refused(
+        Polyhedron::from_half_spaces(&faces),
+        &["faces[3]", "nothing is left", "signs"],
+    );
+    // All planes through one point.
+    faces.iter_mut().for_each(|f| f.distance = 0.0);
+    refused(Polyhedron::from_half_spaces(&faces), &["faces"]);
+}
+
+#[test]
+fn sliver() {
+    let mut faces = cube();
+    faces.insert(
+        2,
+        HalfSpace::through(DVec3::new(-0.4999, 0.0, 0.0), DVec3::X),
+    );
+    refused(
+        Polyhedron::from_half_spaces(&faces),
+        &[
+            "faces[0]",
+            "5.000e-5 m from the centroid",
+            "1/10000",
+            "thicker",
+        ],
+    );
+    faces[2].distance = -0.4996;
+    assert!(Polyhedron::from_half_spaces(&faces).is_ok());
+    refused(
+        Polyhedron::cuboid(DVec3::new(1.0, 1e-5, 1.0)),
+        &["faces[2]", "thicker"],
+    );
+}
+
+#[test]
+fn not_finite() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut faces = cube();
+        faces[4].distance = bad;
+        refused(
+            Polyhedron::from_half_spaces(&faces),
+            &["faces[4]", "finite"],
+        );
+        let mut faces = cube();
+        faces[5].normal.y = bad;
+        refused(
+            Polyhedron::from_half_spaces(&faces),
+            &["faces[5]", "finite"],
+        );
+    }
+    let mut faces = cube();
+    faces[1].normal = DVec3::ZERO;
+    refused(
+        Polyhedron::from_half_spaces(&faces),
+        &["faces[1]", "not zero"],
+    );
+    let points = [DVec3::X, DVec3::NAN];
+    refused(
+        Polyhedron::from_vertices(&points),
+        &["vertices[1]", "finite"],
+    );
+}
+
+#[test]
+fn flat_points() {
+    let plane = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.3, 0.3, 1e-8)];
+    for points in [
+        &plane[..0],
+        &plane[..1],
+        &plane[..2],
+        &plane[..3],
+        &plane[..],
+    ] {
+        refused(
+            Polyhedron::from_vertices(points),
+            &["vertices", "thickness"],
+        );
+    }
+    refused(Polyhedron::from_vertices(&[DVec3::ONE; 5]), &["thickness"]);
+    let thin = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.3, 0.3, 1e-5)];
+    refused(Polyhedron::from_vertices(&thin), &["faces[", "thicker"]);
+}
+
+#[test]
+fn no_lengths() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(
+            Polyhedron::cuboid(DVec3::new(1.0, bad, 1.0)),
+            &["edges[1]", "positive"],
+        );
+        refused(Polyhedron::icosahedron(bad), &["edge", "positive"]);
+        refused(Shape::sphere(bad), &["radius", "positive"]);
+    }
+}
+
+#[test]
+fn no_compound() {
+    refused(Shape::compound(Vec::new()), &["parts", "at least one"]);
+    let form = riprap::block::Form::Sphere { radius: 1.0 };
+    let part = Part {
+        form,
+        offset: DVec3::new(0.0, f64::NAN, 0.0),
+    };
+    refused(Shape::compound(vec![part]), &["parts[0].offset", "finite"]);
+}

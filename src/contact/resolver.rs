@@ -18,6 +18,12 @@ use glam::DVec3;
 /// Share of the smallest distance of a face from its centroid beyond which an overlap is deep.
 const DEEP: f64 = 0.1;
 
+/// How often a pair whose cached point is outside has its faces moved out, and from which violation
+/// on (in L) it is not worth it: each time costs 1 µs and brings the point in by a share, against
+/// 50 µs for the linear program.
+const WIDENINGS: usize = 4;
+const FAR: f64 = 0.01;
+
 /// Resolves pairs one after the other: one a thread. It holds solvers and scratch space, so that
 /// nothing is allocated once all kinds of pairs have been seen; its answers depend on nothing that
 /// it resolved before.
@@ -131,7 +137,7 @@ impl Resolver {
             self.counts.planes += 1;
             return Ok(verdict);
         } else {
-            self.prove(pair, split, margin)?
+            self.prove(pair, split, margin, point)?
         };
         Ok(match proof {
             Proof::Neither => Verdict::Touching,
@@ -149,8 +155,14 @@ impl Resolver {
         })
     }
 
-    /// Proof without history.
-    fn prove(&mut self, pair: &Pair<'_>, split: usize, margin: f64) -> Result<Proof> {
+    /// Proof where the cache has none; `near`: the cached point, outside.
+    fn prove(
+        &mut self,
+        pair: &Pair<'_>,
+        split: usize,
+        margin: f64,
+        near: Option<DVec3>,
+    ) -> Result<Proof> {
         if let Some(normal) = pair.separating_face(margin)
             && let Some(verdict) = pair.judge(normal, margin)
         {
@@ -161,6 +173,13 @@ impl Resolver {
         if smallest_slack(&self.rows, point) > margin {
             self.counts.guesses += 1;
             return Ok(Proof::Point(point));
+        }
+        if let Some(near) = near {
+            let proof = self.widen(pair, split, margin, near);
+            let Proof::Neither = proof else {
+                self.counts.guesses += 1;
+                return Ok(proof);
+            };
         }
         let rows = &self.rows[..];
         let test = |optimum: &Optimum<'_>| {
@@ -184,11 +203,34 @@ impl Resolver {
         Ok(test(&self.program.magnify(rows, point)?))
     }
 
+    /// Proof from a point just outside (method of centres, Huard 1967): all faces are moved out until
+    /// the point is inside; the analytic centre of what they enclose is then deeper, inside the blocks
+    /// themselves, or its normal keeps them apart.
+    fn widen(&mut self, pair: &Pair<'_>, split: usize, margin: f64, near: DVec3) -> Proof {
+        let mut point = near;
+        for _ in 0..WIDENINGS {
+            let widening = 1.25 * (margin - smallest_slack(&self.rows, point));
+            if !(margin..FAR).contains(&widening) {
+                break;
+            }
+            let rows = &self.rows[..];
+            self.counts.newton_steps += self.centring.run(rows, widening, &mut point);
+            if smallest_slack(rows, point) > margin {
+                return Proof::Point(point);
+            }
+            let normal = barrier(rows, &self.centring.slacks, split);
+            if let Some(verdict) = pair.judge(normal, margin) {
+                return Proof::Plane(normal, verdict);
+            }
+        }
+        Proof::Neither
+    }
+
     /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
     /// the larger block.
     fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> Contact {
         let mut point = start;
-        self.counts.newton_steps += self.centring.run(&self.rows, &mut point);
+        self.counts.newton_steps += self.centring.run(&self.rows, 0.0, &mut point);
         let (rows, slacks) = (&self.rows[..], &self.centring.slacks[..]);
         let mut normal = barrier(rows, slacks, split);
         if self.options.normal == Normal::Potential {

@@ -21,14 +21,17 @@ fn cell(corner: [f32; 3], level: &Level) -> [i64; 3] {
 fn bucket(cell: [i64; 3], level: u32, buckets: u64) -> u64 {
     let word = |x: i64| x.rem_euclid(1 << 32) as u64;
     let times = |a: u64, b: u64| (a * b) % (1 << 32);
+    let block = cell.map(|x| x.div_euclid(4));
+    let inside = cell.map(|x| x.rem_euclid(4) as u64);
     let primes = [73_856_093, 19_349_663, 83_492_791];
     let mut h = times(level.into(), 2_654_435_761);
-    for (x, prime) in cell.into_iter().zip(primes) {
+    for (x, prime) in block.into_iter().zip(primes) {
         h ^= times(word(x), prime);
     }
     h = times(h ^ (h >> 16), 0x85eb_ca6b);
     h = times(h ^ (h >> 13), 0xc2b2_ae35);
-    (h ^ (h >> 16)) % buckets
+    h ^= h >> 16;
+    (64 * h + 16 * inside[2] + 4 * inside[1] + inside[0]) % buckets
 }
 
 /// Boxes, and the numbers of those in each of `buckets`.

@@ -1,46 +1,22 @@
 //! Boxes as the search sees them: f32 about a local origin, sorted into levels by size.
 
 use super::Item;
-use crate::{Error, Result};
-use bytemuck::{Pod, Zeroable};
+use crate::{
+    Error, Result,
+    search::{DeviceBox, Level, MAX_LEVELS, NUMBER_BITS},
+};
+use bytemuck::Zeroable;
 
 /// Largest coordinate, m: squares and differences of f32 are far from their end there.
 pub const FARTHEST: f64 = (1u128 << 100) as f64;
 
 /// Exponents of the cell edges that the search uses, in powers of two of a metre.
 const FINEST: i32 = -100;
-const COARSEST: i32 = 102;
+const COARSEST: i32 = FINEST + MAX_LEVELS as i32 - 1;
 
 /// Cells from the origin to the farthest corner are at most 2 to this power, so that an f32 holds
 /// their numbers exactly.
 const DIGITS: i32 = 22;
-
-/// Bits of [`DeviceBox::tag`] that hold the number of the item.
-pub(super) const NUMBER_BITS: u32 = 24;
-
-/// A box on the device.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct DeviceBox {
-    /// Lower corner from the local origin, m.
-    pub min: [f32; 3],
-    /// Group of the item.
-    pub group: u32,
-    /// Upper corner from the local origin, m.
-    pub max: [f32; 3],
-    /// Number of the item in the lower 24 bits, its level in the upper 8.
-    pub tag: u32,
-}
-
-/// The cells of the items of one size.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Level {
-    /// Cells a metre, a power of two.
-    pub scale: f32,
-    /// Longest edge of a box of this level, m; at most that of a cell.
-    pub extent: f32,
-}
 
 /// Boxes with the levels that they are on.
 ///
@@ -62,10 +38,9 @@ impl Boxes {
     /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
     /// 2²⁴ items.
     pub fn new(items: &[Item]) -> Result<Self> {
-        check(items)?;
-        let origin = middle(items);
+        let origin = check(items)?;
         let mut boxes = Vec::with_capacity(items.len());
-        let mut longest = [None; (COARSEST - FINEST + 1) as usize];
+        let mut longest = [None; MAX_LEVELS];
         for (number, item) in (0..).zip(items) {
             let local = |corner: [f64; 3]| [0, 1, 2].map(|a| (corner[a] - origin[a]) as f32);
             let (min, max) = (local(item.min), local(item.max));
@@ -109,24 +84,8 @@ impl Boxes {
     }
 }
 
-impl DeviceBox {
-    /// Number of the item.
-    pub fn number(&self) -> u32 {
-        self.tag & ((1 << NUMBER_BITS) - 1)
-    }
-
-    /// Its level, an index into [`Boxes::levels`].
-    pub fn level(&self) -> u32 {
-        self.tag >> NUMBER_BITS
-    }
-
-    /// Whether the two boxes have a point in common.
-    pub fn overlaps(&self, other: &Self) -> bool {
-        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
-    }
-}
-
-fn check(items: &[Item]) -> Result<()> {
+/// The middle of all boxes, if they are boxes.
+fn check(items: &[Item]) -> Result<[f64; 3]> {
     if items.len() > 1 << NUMBER_BITS {
         return Err(Error::Limit {
             name: "items of a search for pairs".into(),
@@ -135,38 +94,31 @@ fn check(items: &[Item]) -> Result<()> {
             remedy: "search in parts of the scene".into(),
         });
     }
+    let (mut lowest, mut highest) = ([FARTHEST; 3], [-FARTHEST; 3]);
     for (number, item) in items.iter().enumerate() {
-        let wrong = |message: String| Err(Error::scene(format!("items[{number}]"), message));
         for a in 0..3 {
-            let axis = ["x", "y", "z"][a];
             let (min, max) = (item.min[a], item.max[a]);
-            if !(min.abs() <= FARTHEST && max.abs() <= FARTHEST) {
-                return wrong(format!(
-                    "its box reaches from {min} to {max} m along {axis}; both must be finite and \
-                     within 2^100 m: look for what moved it there, such as too long a time step"
-                ));
+            // Also false if one of them is no number.
+            if !(-FARTHEST <= min && min <= max && max <= FARTHEST) {
+                return Err(refusal(number, a, min, max));
             }
-            if min > max {
-                return wrong(format!(
-                    "its box ends at {max} m along {axis}, before it begins at {min} m; exchange \
-                     the corners"
-                ));
-            }
+            lowest[a] = min.min(lowest[a]);
+            highest[a] = max.max(highest[a]);
         }
     }
-    Ok(())
+    Ok([0, 1, 2].map(|a| 0.5 * (lowest[a] + highest[a])))
 }
 
-/// The middle of all boxes.
-fn middle(items: &[Item]) -> [f64; 3] {
-    [0, 1, 2].map(|a| {
-        let min = items.iter().map(|i| i.min[a]).fold(f64::INFINITY, f64::min);
-        let max = items
-            .iter()
-            .map(|i| i.max[a])
-            .fold(-f64::INFINITY, f64::max);
-        if min <= max { 0.5 * (min + max) } else { 0.0 }
-    })
+fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
+    let axis = ["x", "y", "z"][axis];
+    let reason = if min.abs() <= FARTHEST && max.abs() <= FARTHEST {
+        "a box begins where it is lowest; exchange the corners"
+    } else {
+        "both must be finite and within 2^100 m; look for what moved it there, such as too long a \
+         time step"
+    };
+    let message = format!("its box reaches from {min} to {max} m along {axis}: {reason}");
+    Error::scene(format!("items[{number}]"), message)
 }
 
 /// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.

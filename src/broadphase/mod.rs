@@ -1,6 +1,16 @@
 //! Which pairs may touch: a list that is complete, sorted and the same from every finder.
+//!
+//! Finders take boxes as they are given: whoever wants a list to live for several steps grows its
+//! boxes by a skin first, and asks again once something has moved half of it.
 
 use crate::Result;
+
+mod boxes;
+mod host;
+mod list;
+
+pub use boxes::{Boxes, DeviceBox, FARTHEST, Level};
+pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +27,11 @@ impl Item {
     /// Whether the two boxes have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+    }
+
+    /// Whether the two may touch: their boxes do, and they are of different groups.
+    pub fn pairs_with(&self, other: &Self) -> bool {
+        self.group != other.group && self.overlaps(other)
     }
 }
 

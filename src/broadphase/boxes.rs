@@ -1,0 +1,175 @@
+//! Boxes as the search sees them: f32 about a local origin, sorted into levels by size.
+
+use super::Item;
+use crate::{Error, Result};
+use bytemuck::{Pod, Zeroable};
+
+/// Largest coordinate, m: squares and differences of f32 are far from their end there.
+pub const FARTHEST: f64 = (1u128 << 100) as f64;
+
+/// Exponents of the cell edges that the search uses, in powers of two of a metre.
+const FINEST: i32 = -100;
+const COARSEST: i32 = 102;
+
+/// Cells from the origin to the farthest corner are at most 2 to this power, so that an f32 holds
+/// their numbers exactly.
+const DIGITS: i32 = 22;
+
+/// Bits of [`DeviceBox::tag`] that hold the number of the item.
+pub(super) const NUMBER_BITS: u32 = 24;
+
+/// A box on the device.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct DeviceBox {
+    /// Lower corner from the local origin, m.
+    pub min: [f32; 3],
+    /// Group of the item.
+    pub group: u32,
+    /// Upper corner from the local origin, m.
+    pub max: [f32; 3],
+    /// Number of the item in the lower 24 bits, its level in the upper 8.
+    pub tag: u32,
+}
+
+/// The cells of the items of one size.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Level {
+    /// Cells a metre, a power of two.
+    pub scale: f32,
+    /// Longest edge of a box of this level, m; at most that of a cell.
+    pub extent: f32,
+}
+
+/// Boxes with the levels that they are on.
+///
+/// f64 → f32 and the shift to the local origin round, but neither changes the order of two
+/// numbers: boxes that overlap do so still. The search in f32 may find too much, never too little.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Boxes {
+    /// One an item, in their order.
+    pub boxes: Vec<DeviceBox>,
+    /// From fine to coarse; only those with an item.
+    pub levels: Vec<Level>,
+}
+
+impl Boxes {
+    /// Makes the boxes of `items`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] that names the item if a corner is not finite or farther than
+    /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
+    /// 2²⁴ items.
+    pub fn new(items: &[Item]) -> Result<Self> {
+        check(items)?;
+        let origin = middle(items);
+        let mut boxes = Vec::with_capacity(items.len());
+        let mut longest = [None; (COARSEST - FINEST + 1) as usize];
+        for (number, item) in (0..).zip(items) {
+            let local = |corner: [f64; 3]| [0, 1, 2].map(|a| (corner[a] - origin[a]) as f32);
+            let (min, max) = (local(item.min), local(item.max));
+            let extent = (0..3).map(|a| f64::from(max[a]) - f64::from(min[a]));
+            let extent = extent.fold(0.0, f64::max);
+            let reach = min.iter().chain(&max).map(|x| f64::from(x.abs()));
+            let level = (exponent(extent) + 1)
+                .max(exponent(reach.fold(0.0, f64::max)) + 1 - DIGITS)
+                .clamp(FINEST, COARSEST);
+            let at = (level - FINEST) as u32;
+            let longest = &mut longest[at as usize];
+            *longest = Some(f64::max(longest.unwrap_or(0.0), extent));
+            boxes.push(DeviceBox {
+                min,
+                group: item.group,
+                max,
+                tag: number | at << NUMBER_BITS,
+            });
+        }
+        // Levels are numbered without gaps: empty ones cost nothing.
+        let mut levels = Vec::new();
+        let ordinals = longest.map(|longest| {
+            levels.extend(longest.map(|_| Level::zeroed()));
+            levels.len().wrapping_sub(1) as u32
+        });
+        for (at, longest) in (0..).zip(longest) {
+            if let Some(longest) = longest {
+                let edge = f64::exp2(f64::from(FINEST + at)) as f32;
+                levels[ordinals[at as usize] as usize] = Level {
+                    scale: 1.0 / edge,
+                    extent: (longest as f32).next_up().min(edge),
+                };
+            }
+        }
+        for item in &mut boxes {
+            let number = item.tag & ((1 << NUMBER_BITS) - 1);
+            let level = ordinals[(item.tag >> NUMBER_BITS) as usize];
+            item.tag = number | level << NUMBER_BITS;
+        }
+        Ok(Self { boxes, levels })
+    }
+}
+
+impl DeviceBox {
+    /// Number of the item.
+    pub fn number(&self) -> u32 {
+        self.tag & ((1 << NUMBER_BITS) - 1)
+    }
+
+    /// Its level, an index into [`Boxes::levels`].
+    pub fn level(&self) -> u32 {
+        self.tag >> NUMBER_BITS
+    }
+
+    /// Whether the two boxes have a point in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+    }
+}
+
+fn check(items: &[Item]) -> Result<()> {
+    if items.len() > 1 << NUMBER_BITS {
+        return Err(Error::Limit {
+            name: "items of a search for pairs".into(),
+            wants: items.len() as u64,
+            has: 1 << NUMBER_BITS,
+            remedy: "search in parts of the scene".into(),
+        });
+    }
+    for (number, item) in items.iter().enumerate() {
+        let wrong = |message: String| Err(Error::scene(format!("items[{number}]"), message));
+        for a in 0..3 {
+            let axis = ["x", "y", "z"][a];
+            let (min, max) = (item.min[a], item.max[a]);
+            if !(min.abs() <= FARTHEST && max.abs() <= FARTHEST) {
+                return wrong(format!(
+                    "its box reaches from {min} to {max} m along {axis}; both must be finite and \
+                     within 2^100 m: look for what moved it there, such as too long a time step"
+                ));
+            }
+            if min > max {
+                return wrong(format!(
+                    "its box ends at {max} m along {axis}, before it begins at {min} m; exchange \
+                     the corners"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The middle of all boxes.
+fn middle(items: &[Item]) -> [f64; 3] {
+    [0, 1, 2].map(|a| {
+        let min = items.iter().map(|i| i.min[a]).fold(f64::INFINITY, f64::min);
+        let max = items
+            .iter()
+            .map(|i| i.max[a])
+            .fold(-f64::INFINITY, f64::max);
+        if min <= max { 0.5 * (min + max) } else { 0.0 }
+    })
+}
+
+/// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.
+fn exponent(x: f64) -> i32 {
+    (x.to_bits() >> 52) as i32 - 1023
+}

@@ -30,7 +30,10 @@ impl Broadphase for Sweep {
         let mut pairs = Vec::new();
         for (k, &i) in order.iter().enumerate() {
             let end = items[i].max[0];
-            for &j in order[k + 1..].iter().take_while(|&&j| items[j].min[0] <= end) {
+            for &j in order[k + 1..]
+                .iter()
+                .take_while(|&&j| items[j].min[0] <= end)
+            {
                 // Items of one group never pair: parts of one block, and all that is fixed.
                 if items[i].group != items[j].group && items[i].overlaps(&items[j]) {
                     pairs.push([i.min(j) as u32, i.max(j) as u32]);

@@ -16,7 +16,7 @@ fn blocks_that_tumble_down_a_slope() {
         list.push(Block::new(format!("{i}"), cuboid(1.0, 0.8, 0.7), at).turned(tilt));
     }
     let mut setup = setup(list, joint(1e9, 30.0));
-    setup.damping = 0.05;
+    (setup.damping, setup.largest_overlap) = (0.05, 0.3);
     let mut blocks = blocks(setup);
     let start = blocks.ledger();
     run(&mut blocks, 1.5);

@@ -18,14 +18,14 @@ fn scene() -> Setup {
         DVec3::new(5.0, 0.0, 0.5),
     ));
     Setup {
-        damping: 15.0,
+        damping: 8.0,
         ..setup(list, joint(1e7, 30.0))
     }
 }
 
 #[test]
 fn pushed_blocks_wake_and_go_where_they_would_have_gone() {
-    let (rest, push, end) = (5.0, 5.1, 5.7);
+    let (rest, push, end) = (4.0, 4.1, 4.7);
     let run_with = |sleep: Option<Sleep>| {
         let mut blocks = blocks(Setup { sleep, ..scene() });
         run(&mut blocks, rest);

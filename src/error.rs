@@ -180,6 +180,18 @@ impl Error {
         }
     }
 
+    /// The same error, its place being inside `outer`: `faces[2]` becomes `blocks[3] (wedge).faces[2]`.
+    /// Errors that have no place stay as they are.
+    pub fn within(self, outer: &str) -> Self {
+        match self {
+            Self::Scene { place, message } => Self::Scene {
+                place: format!("{outer}.{place}"),
+                message,
+            },
+            other => other,
+        }
+    }
+
     /// An error of a file.
     pub fn file(path: impl Into<PathBuf>, message: impl ToString) -> Self {
         Self::File {

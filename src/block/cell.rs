@@ -97,20 +97,17 @@ impl Cell {
         }
     }
 
-    /// Both sides of a plane: inside, with `plane` as a face, and outside, with its exact opposite.
-    /// The vertices of the section are the same bits in both.
-    pub fn split(self, plane: HalfSpace, source: u32, on: f64) -> (Option<Self>, Option<Self>) {
+    /// Both sides of a plane, if it divides the cell: inside, with `plane` as the last face, and outside,
+    /// with its exact opposite. The vertices of the section are the same bits in both.
+    pub fn split(&self, plane: HalfSpace, source: u32, on: f64) -> Option<(Self, Self)> {
         let mut inside = self.clone();
-        match inside.clip(plane, source, on) {
-            Clip::All => (Some(self), None),
-            Clip::Nothing => (None, Some(self)),
-            Clip::Part => {
-                let mut outside = self;
-                // Heights are exactly opposite, and so the verdicts are the same.
-                outside.clip(plane.opposite(), source, on);
-                (Some(inside), Some(outside))
-            }
+        if inside.clip(plane, source, on) != Clip::Part {
+            return None;
         }
+        let mut outside = self.clone();
+        // Heights are exactly opposite, and so the verdicts are the same.
+        outside.clip(plane.opposite(), source, on);
+        Some((inside, outside))
     }
 
     /// Whether it went well; nothing has changed if not.

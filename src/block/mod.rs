@@ -1,15 +1,22 @@
 //! Shapes of blocks.
 
 mod cell;
+mod compass;
 mod compound;
 mod from_half_spaces;
 mod from_vertices;
 mod half_space;
+mod joint_set;
 mod moments;
 mod polyhedron;
+mod random;
+mod rock_mass;
 mod shape;
 mod solids;
 
+pub use compass::Compass;
 pub use half_space::HalfSpace;
+pub use joint_set::{JointSet, Persistence, Scatter};
 pub use polyhedron::Polyhedron;
+pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
 pub use shape::{Form, Part, Shape};

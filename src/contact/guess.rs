@@ -5,24 +5,22 @@ use crate::block::HalfSpace;
 use glam::DVec3;
 
 impl Pair<'_> {
-    /// A face of one block that has all of the other outside, by more than `margin` (in L): its normal
-    /// from the smaller to the larger block.
+    /// A face of one block that has all of the other outside, but for `margin` (in L): its normal from
+    /// the smaller to the larger block.
     pub fn separating_face(&self, margin: f64) -> Option<DVec3> {
         let margin = margin * self.length;
-        // A face that looks away from the other block's centroid cannot keep it off.
         let clear = |face: &HalfSpace, shift: DVec3, vertices: &[DVec3]| {
-            let height = face.normal.dot(shift) - face.distance - margin;
-            height > 0.0 && vertices.iter().all(|v| face.normal.dot(*v) > -height)
+            let height = face.normal.dot(shift) - face.distance + margin;
+            // A face that looks away from the other block's centroid cannot keep it off.
+            height > 0.0 && vertices.iter().all(|v| face.normal.dot(*v) >= -height)
         };
         let (small, large) = (self.small, self.large);
         let own = small.faces.iter();
-        let found = own.clone().find(|f| clear(f, self.shift, &large.vertices));
-        found.map(|f| f.normal).or_else(|| {
-            let mut faces = large.faces.iter();
-            faces
-                .find(|f| clear(f, -self.shift, &small.vertices))
-                .map(|f| -f.normal)
-        })
+        let mut own = own.filter(|f| clear(f, self.shift, &large.vertices));
+        let other = large.faces.iter();
+        let mut other = other.filter(|f| clear(f, -self.shift, &small.vertices));
+        let found = own.next().map(|f| f.normal);
+        found.or_else(|| other.next().map(|f| -f.normal))
     }
 
     /// A point of the line of centres that is inside all `rows`, in L, if there is one.

@@ -16,6 +16,10 @@ pub(super) struct Row {
     pub offset: f64,
 }
 
+/// Ratio of sizes from which on faces are left out. Below it few would go, and a pair of equal blocks,
+/// whose order rounding decides, must not depend on it.
+const LARGER: f64 = 3.0;
+
 /// Two blocks, ordered by size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair<'a> {
@@ -63,18 +67,25 @@ impl<'a> Pair<'a> {
             normal: face.normal,
             offset: (face.distance + face.normal.dot(self.shift)) * scale,
         };
-        // Below this ratio few faces would go; a pair of equal sizes must not depend on the order.
-        if self.large.radius < 3.0 * self.small.radius {
+        if self.large.radius < LARGER * self.small.radius {
             rows.extend(self.large.faces.iter().map(far));
-        } else {
-            rows.extend(self.large.faces.iter().map(far).filter(|r| r.offset < 1.0));
+            return self.small.faces.len();
+        }
+        rows.extend(self.large.faces.iter().map(far).filter(|r| r.offset < 1.0));
+        if rows.len() == self.small.faces.len() {
+            // Deep inside: the nearest face says which way is out.
+            let nearest = |a: &Row, b: &Row| a.offset.total_cmp(&b.offset);
+            rows.extend(self.large.faces.iter().map(far).min_by(nearest));
         }
         self.small.faces.len()
     }
 
-    /// What rounding may do to a slack, in L: a few units in the last place of the longest vector.
+    /// What rounding may do to a slack or a gap, in L: some units in the last place of the longest
+    /// vector that enters it, the blocks' places included.
     pub fn rounding(&self) -> f64 {
-        8.0 * f64::EPSILON * (1.0 + (self.large.radius + self.shift.length()) / self.length)
+        let place = self.small.centre.abs().max(self.large.centre.abs());
+        let longest = self.length + self.large.radius + place.max_element();
+        8.0 * f64::EPSILON * longest / self.length
     }
 }
 

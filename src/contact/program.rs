@@ -26,10 +26,30 @@ pub(super) struct Optimum<'a> {
     pub dual: &'a [f64],
 }
 
+/// Unit of length of the second look, in L. clarabel's answers are good to 1e-10 L, and overlaps of
+/// 1e-9 L may hold balls of no more than that.
+const MAGNIFIED: f64 = 1e-6;
+
+/// How far the second look goes, in its own unit.
+const HORIZON: f64 = 10.0;
+
 impl Program {
     /// # Errors
-    /// If clarabel refuses the problem, which numbers that are not finite make it do.
+    /// If clarabel refuses the problem.
     pub fn solve(&mut self, rows: &[Row]) -> Result<Optimum<'_>> {
+        self.look(rows, DVec3::ZERO, 1.0, f64::INFINITY)
+    }
+
+    /// Solves the program once more around `point`, enlarged, for a pair that the first answer leaves
+    /// open. Rows beyond the horizon are moved onto it, which only makes the overlap smaller.
+    ///
+    /// # Errors
+    /// If clarabel refuses the problem.
+    pub fn magnify(&mut self, rows: &[Row], point: DVec3) -> Result<Optimum<'_>> {
+        self.look(rows, point, MAGNIFIED, HORIZON)
+    }
+
+    fn look(&mut self, rows: &[Row], from: DVec3, unit: f64, horizon: f64) -> Result<Optimum<'_>> {
         let count = rows.len();
         self.matrix.clear();
         self.matrix.extend(rows.iter().map(|row| row.normal.x));
@@ -37,7 +57,9 @@ impl Program {
         self.matrix.extend(rows.iter().map(|row| row.normal.z));
         self.matrix.resize(4 * count, -1.0);
         self.bounds.clear();
-        self.bounds.extend(rows.iter().map(|row| row.offset));
+        let slacks = rows.iter().map(|row| row.offset - row.normal.dot(from));
+        self.bounds
+            .extend(slacks.map(|slack| (slack / unit).min(horizon)));
         if self.solvers.len() <= count {
             self.solvers.resize_with(count + 1, || None);
         }
@@ -50,9 +72,18 @@ impl Program {
         solver.solve();
         let x = &solver.solution.x;
         Ok(Optimum {
-            point: DVec3::new(x[0], x[1], x[2]),
+            point: from + DVec3::new(x[0], x[1], x[2]) * unit,
             dual: &solver.solution.z,
         })
+    }
+}
+
+impl Optimum<'_> {
+    /// Normal of a plane between the blocks if they are apart, from the block of the first `split`
+    /// rows to the other: Σ z_k a_k.
+    pub fn normal(&self, rows: &[Row], split: usize) -> DVec3 {
+        let own = rows[..split].iter().zip(self.dual);
+        own.map(|(row, z)| row.normal * *z).sum()
     }
 }
 

@@ -1,6 +1,6 @@
-//! Proof that there is no contact: a plane with each block on its own side.
+//! Proof that there is no contact: a plane with each block on its own side, but for rounding.
 
-use super::{Placed, pair::Pair};
+use super::{Placed, Verdict, pair::Pair};
 use glam::DVec3;
 
 impl Placed {
@@ -15,12 +15,23 @@ impl Placed {
 }
 
 impl Pair<'_> {
-    /// Whether a plane with the normal `n`, from the smaller to the larger block and of any length,
-    /// keeps the blocks apart by more than `margin` (in L).
-    pub fn separates(&self, n: DVec3, margin: f64) -> bool {
+    /// What the plane with the normal `n`, from the smaller to the larger block and of any length,
+    /// proves: that the blocks are apart by more than `margin` (in L), or that they overlap by less.
+    pub fn judge(&self, n: DVec3, margin: f64) -> Option<Verdict> {
         let length = n.length();
         let gap =
             n.dot(self.shift) - self.small.support(n, length) - self.large.support(-n, length);
-        gap > margin * self.length * length
+        proven(gap, margin * self.length * length)
+    }
+}
+
+/// What a plane with the gap `gap` proves, if rounding is `margin`.
+pub(super) fn proven(gap: f64, margin: f64) -> Option<Verdict> {
+    if gap > margin {
+        Some(Verdict::Apart)
+    } else if margin > 0.0 && gap >= -margin {
+        Some(Verdict::Touching)
+    } else {
+        None
     }
 }

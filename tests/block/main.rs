@@ -4,3 +4,4 @@ mod closed_forms;
 mod measure;
 mod polyhedra;
 mod refusals;
+mod rock_masses;

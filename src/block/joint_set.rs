@@ -1,0 +1,205 @@
+//! Joint sets: parallel planes of weakness through a rock mass.
+
+use super::compass::Attitude;
+use super::random::uniform;
+use super::solids::positive;
+use super::{Compass, HalfSpace};
+use crate::{Error, Result};
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Largest number of a joint, from its set's origin.
+const MOST: f64 = 1e6;
+
+/// Parallel joints. Joint 0 goes through `origin`, the others follow on both sides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointSet {
+    /// Steepest fall, °: 0 is level, 90 upright.
+    pub dip: f64,
+    /// Where it falls to, ° from north to the east.
+    pub dip_direction: f64,
+    /// Mean distance from joint to joint, m.
+    pub spacing: f64,
+    /// How the distances vary.
+    pub scatter: Scatter,
+    /// A point of joint 0, m.
+    pub origin: DVec3,
+    /// Chooses distances and patches; another seed, another rock mass of the same kind.
+    pub seed: u64,
+    /// Without it, joints cut all that they meet.
+    pub persistence: Option<Persistence>,
+}
+
+/// Distribution of the distances from joint to joint, their mean being the set's spacing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scatter {
+    /// All the same.
+    None,
+    /// Uniform between spacing ± `range`.
+    Uniform {
+        /// Half the width of the distribution, m, less than the spacing.
+        range: f64,
+    },
+    /// Normal, cut off at 0.1 and 1.9 times the spacing, so that the mean stays.
+    Normal {
+        /// Standard deviation before the cut, m, at most the spacing.
+        deviation: f64,
+    },
+    /// Lognormal.
+    Lognormal {
+        /// Standard deviation, m.
+        deviation: f64,
+    },
+    /// Negative exponential: joints placed independently (Priest & Hudson 1976, Int. J. Rock Mech.
+    /// Min. Sci. 13:135). Makes slivers.
+    Exponential,
+}
+
+/// Joints that are not open everywhere. Each is divided into squares along strike and dip, its own
+/// shift of the grid and the open squares chosen by the seed; it cuts a block through and through
+/// if the middle of the section's corners is in an open square, else not at all. So blocks stay convex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Persistence {
+    /// Share of squares that are open, 0 to 1.
+    pub fraction: f64,
+    /// Side of the squares, m.
+    pub length: f64,
+}
+
+/// The joints of a set that a rock mass meets.
+pub(super) struct Joints<'a> {
+    set: &'a JointSet,
+    attitude: Attitude,
+    /// Number in the set, and plane; rising.
+    pub planes: Vec<(i64, HalfSpace)>,
+}
+
+impl JointSet {
+    /// The joints of the set between the heights that `range` gives for their normal, m.
+    pub(super) fn joints(
+        &self,
+        compass: &Compass,
+        range: impl Fn(DVec3) -> [f64; 2],
+    ) -> Result<Joints<'_>> {
+        self.check()?;
+        let attitude = compass.attitude(self.dip, self.dip_direction)?;
+        let normal = attitude.normal;
+        let base = normal.dot(self.origin);
+        let [low, high] = range(normal).map(|d| d - base);
+        let mut heights = Vec::new();
+        if let Scatter::None = self.scatter {
+            // Each from the origin, so that rounding does not add up.
+            let first = self.counted((low / self.spacing).ceil())?;
+            let last = self.counted((high / self.spacing).floor())?;
+            heights.extend((first..=last).map(|k| (k, k as f64 * self.spacing)));
+        } else {
+            let (mut k, mut at) = (0_i64, 0.0);
+            while at >= low {
+                k = self.counted((k - 1) as f64)?;
+                at -= self.distance(k);
+                heights.push((k, at));
+            }
+            heights.reverse();
+            (k, at) = (0, 0.0);
+            while at <= high {
+                heights.push((k, at));
+                at += self.distance(k);
+                k = self.counted((k + 1) as f64)?;
+            }
+            heights.retain(|(_, at)| (low..=high).contains(at));
+        }
+        let plane = |(k, at)| {
+            let distance = base + at;
+            (k, HalfSpace { normal, distance })
+        };
+        Ok(Joints {
+            set: self,
+            attitude,
+            planes: heights.into_iter().map(plane).collect(),
+        })
+    }
+
+    /// The number of a joint, unless it is one too many.
+    fn counted(&self, k: f64) -> Result<i64> {
+        if k.abs() <= MOST {
+            return Ok(k as i64);
+        }
+        let message = format!(
+            "the rock reaches more than {MOST} joints away from the origin of the set; move the \
+             origin into the rock or widen the spacing"
+        );
+        Err(Error::scene("spacing", message))
+    }
+
+    /// Distance from joint k to joint k + 1, m.
+    fn distance(&self, k: i64) -> f64 {
+        let mean = self.spacing;
+        let draw = |n: i64| uniform(self.seed, &[k, n]);
+        // Box & Muller 1958.
+        let normal = |n: i64| (-2.0 * draw(n).ln()).sqrt() * (TAU * draw(n + 1)).cos();
+        match self.scatter {
+            Scatter::None => mean,
+            Scatter::Uniform { range } => mean + range * (2.0 * draw(0) - 1.0),
+            Scatter::Normal { deviation } => {
+                // Two draws in three are inside even for the largest deviation.
+                let draws = (0..).step_by(2).map(|n| mean + deviation * normal(n));
+                let inside = |d: &f64| (0.1 * mean..=1.9 * mean).contains(d);
+                draws.take(1000).find(inside).unwrap_or(mean)
+            }
+            Scatter::Lognormal { deviation } => {
+                let square = (deviation / mean).powi(2).ln_1p();
+                mean * (square.sqrt() * normal(0) - square / 2.0).exp()
+            }
+            Scatter::Exponential => -mean * draw(0).ln(),
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        positive("spacing", self.spacing)?;
+        if !self.origin.is_finite() {
+            let message = format!("{} is not finite; give a point in m", self.origin);
+            return Err(Error::scene("origin", message));
+        }
+        let (least, most, width) = match self.scatter {
+            Scatter::Uniform { range } => (0.0, self.spacing.next_down(), range),
+            Scatter::Normal { deviation } => (0.0, self.spacing, deviation),
+            Scatter::Lognormal { deviation } => (0.0, 10.0 * self.spacing, deviation),
+            Scatter::None | Scatter::Exponential => (0.0, 0.0, 0.0),
+        };
+        if !(least..=most).contains(&width) {
+            let message =
+                format!("{width} m is not between 0 and {most:.6} m; change it or the spacing");
+            return Err(Error::scene("scatter", message));
+        }
+        let Some(Persistence { fraction, length }) = self.persistence else {
+            return Ok(());
+        };
+        positive("persistence.length", length)?;
+        if !(0.0..=1.0).contains(&fraction) {
+            let message = format!("{fraction} is no share; give a number from 0 to 1");
+            return Err(Error::scene("persistence.fraction", message));
+        }
+        Ok(())
+    }
+}
+
+impl Joints<'_> {
+    /// Whether joint `k` is open at `point`, m.
+    pub fn open(&self, k: i64, point: DVec3) -> bool {
+        let Some(Persistence { fraction, length }) = self.set.persistence else {
+            return true;
+        };
+        // Words of other lengths than those of the distances, so that the numbers are others.
+        let draw = |key: [i64; 4]| uniform(self.set.seed, &key);
+        let from = point - self.set.origin;
+        let square = |axis: DVec3, which: i64| {
+            let shift = draw([k, 0, 0, 1 + which]);
+            (from.dot(axis) / length + shift).floor() as i64
+        };
+        let [i, j] = [
+            square(self.attitude.strike, 0),
+            square(self.attitude.rise, 1),
+        ];
+        draw([k, i, j, 0]) < fraction
+    }
+}

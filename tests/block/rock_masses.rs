@@ -1,0 +1,386 @@
+//! Rock masses: volumes add up, neighbours share planes, the joints are where geology puts them.
+
+use crate::measure::assert_sound;
+use glam::DVec3;
+use riprap::block::{
+    Compass, Fragments, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter,
+};
+use std::collections::BTreeMap;
+
+fn cuboid(min: DVec3, max: DVec3) -> Vec<HalfSpace> {
+    let faces = DVec3::AXES.into_iter().flat_map(|axis| {
+        [
+            HalfSpace::through(min, -axis),
+            HalfSpace::through(max, axis),
+        ]
+    });
+    faces.collect()
+}
+
+fn set(dip: f64, dip_direction: f64, spacing: f64) -> JointSet {
+    JointSet {
+        dip,
+        dip_direction,
+        spacing,
+        scatter: Scatter::None,
+        origin: DVec3::ZERO,
+        seed: 7,
+        persistence: None,
+    }
+}
+
+/// 20 × 16 × 12 m with a slope, cut by three oblique sets.
+fn slope(spacing: f64, scatter: Scatter) -> RockMass {
+    let at = DVec3::new(500.0, -300.0, 40.0);
+    let joint = |dip, direction, seed| JointSet {
+        scatter,
+        seed,
+        origin: at + DVec3::new(0.3, 0.2, 0.1),
+        ..set(dip, direction, spacing)
+    };
+    let face = HalfSpace::through(at + DVec3::new(9.0, 0.0, 0.0), DVec3::new(1.0, 0.2, 1.0));
+    RockMass {
+        surfaces: vec![face],
+        joints: vec![
+            joint(35.0, 80.0, 1),
+            joint(80.0, 170.0, 2),
+            joint(65.0, 265.0, 3),
+        ],
+        ..RockMass::new(vec![cuboid(
+            at - DVec3::new(10.0, 8.0, 6.0),
+            at + DVec3::new(10.0, 8.0, 6.0),
+        )])
+    }
+}
+
+fn bits(plane: &HalfSpace) -> [u64; 4] {
+    let [x, y, z] = plane.normal.to_array();
+    // Adding zero makes one zero of both.
+    [x, y, z, plane.distance].map(|v| (v + 0.0).to_bits())
+}
+
+fn assert_adds_up(cut: &Fragments) {
+    let blocks = cut.blocks.iter().map(|b| b.shape.volume());
+    let slivers = cut.slivers.iter().map(|s| s.volume);
+    let sum: f64 = blocks.chain(slivers).sum();
+    let error = (sum - cut.volume).abs() / cut.volume;
+    // Rounding only: 1e-9 is what is asked.
+    assert!(error < 1e-12, "volumes miss by {error:e}");
+}
+
+#[test]
+fn three_orthogonal_sets_make_equal_bricks() {
+    let mass = RockMass {
+        joints: vec![
+            set(0.0, 0.0, 0.5),
+            set(90.0, 0.0, 1.0),
+            set(90.0, 90.0, 2.0),
+        ],
+        ..RockMass::new(vec![cuboid(DVec3::ZERO, DVec3::new(8.0, 5.0, 3.0))])
+    };
+    let cut = mass.cut().unwrap();
+    assert_eq!((cut.blocks.len(), cut.slivers.len()), (4 * 5 * 6, 0));
+    assert_eq!(cut.volume, 120.0);
+    let brick = Polyhedron::cuboid(DVec3::new(2.0, 1.0, 0.5)).unwrap();
+    for block in &cut.blocks {
+        assert_eq!(block.shape.faces().len(), 6);
+        assert!((block.shape.volume() - brick.volume()).abs() < 1e-14);
+        assert!((block.shape.radius() - brick.radius()).abs() < 1e-14);
+        // Centres are at odd halves of the spacings.
+        let cell = block.centre / DVec3::new(2.0, 1.0, 0.5) - 0.5;
+        assert!((cell - cell.round()).length() < 1e-13);
+    }
+}
+
+#[test]
+fn ten_thousand_blocks_add_up_and_are_sound() {
+    let cut = slope(0.66, Scatter::Uniform { range: 0.3 }).cut().unwrap();
+    assert!(cut.blocks.len() > 10_000, "{} blocks", cut.blocks.len());
+    assert_adds_up(&cut);
+    for block in cut.blocks.iter().step_by(7) {
+        assert_sound(&block.shape);
+        for (world, face) in block.planes.iter().zip(block.shape.faces()) {
+            assert_eq!(world.normal, face.normal);
+            let distance = world.distance - world.normal.dot(block.centre);
+            // World coordinates are 500 m: ε of that.
+            assert!((distance - face.distance).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn neighbours_faces_coincide_to_the_bit() {
+    let cut = slope(1.5, Scatter::Normal { deviation: 0.3 })
+        .cut()
+        .unwrap();
+    assert!(cut.blocks.len() > 500);
+    let size = cut.volume.cbrt();
+    // Area of faces by plane: what one side has, the other has too, unless it is the surface's.
+    let mut sides: BTreeMap<[u64; 4], f64> = BTreeMap::new();
+    for block in &cut.blocks {
+        for (plane, ring) in block.planes.iter().zip(block.shape.loops()) {
+            let points: Vec<DVec3> = ring
+                .iter()
+                .map(|v| block.shape.vertices()[*v as usize])
+                .collect();
+            *sides.entry(bits(plane)).or_default() += crate::measure::area(&points).length();
+        }
+    }
+    let mass = slope(1.5, Scatter::None);
+    let mut surface = 0;
+    for (plane, area) in &sides {
+        let [x, y, z, d] = plane.map(f64::from_bits);
+        let opposite = HalfSpace {
+            normal: -DVec3::new(x, y, z),
+            distance: -d,
+        };
+        match sides.get(&bits(&opposite)) {
+            Some(other) => assert!((area - other).abs() < 1e-9 * size * size),
+            None => {
+                let own = mass.volumes[0].iter().chain(&mass.surfaces);
+                assert!(
+                    own.map(bits).any(|b| b == *plane),
+                    "an open joint {plane:?}"
+                );
+                surface += 1;
+            }
+        }
+    }
+    assert_eq!(surface, 7);
+}
+
+#[test]
+fn the_same_mass_is_the_same_bits_on_any_number_of_threads() {
+    let mass = slope(1.5, Scatter::Lognormal { deviation: 0.8 });
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| mass.cut().unwrap())
+    };
+    let one = on(1);
+    assert_eq!(one, on(3));
+    let mut other = mass.clone();
+    other.joints[1].seed += 1;
+    assert_ne!(one.blocks.len(), other.cut().unwrap().blocks.len());
+}
+
+#[test]
+fn dip_and_dip_direction_are_the_geologists() {
+    let sqrt = f64::sqrt(0.5);
+    let z_up = Compass::default();
+    // 45° down to the east: the normal leans east.
+    let normal = z_up.normal(45.0, 90.0).unwrap();
+    assert!(normal.distance(DVec3::new(sqrt, 0.0, sqrt)) < 1e-15);
+    assert_eq!(z_up.normal(90.0, 0.0).unwrap(), DVec3::Y);
+    assert_eq!(z_up.normal(0.0, 123.0).unwrap(), DVec3::Z);
+    // y up, north away from the viewer: east is x.
+    let y_up = Compass {
+        up: DVec3::Y * 2.0,
+        north: DVec3::new(0.0, 5.0, -1.0),
+    };
+    let normal = y_up.normal(45.0, 90.0).unwrap();
+    assert!(normal.distance(DVec3::new(sqrt, sqrt, 0.0)) < 1e-15);
+    // The wedge of Goodman & Shi's kind: planes 45/105 and 70/235 meet in a line that plunges 31.1965°.
+    let a = z_up.normal(45.0, 105.0).unwrap();
+    let b = z_up.normal(70.0, 235.0).unwrap();
+    let line = a.cross(b).normalize();
+    assert!((line.z.abs().asin().to_degrees() - 31.1965).abs() < 5e-5);
+}
+
+/// Distances of joints of one level set in a tall column.
+fn gaps(scatter: Scatter, seed: u64) -> Vec<f64> {
+    let mass = RockMass {
+        joints: vec![JointSet {
+            scatter,
+            seed,
+            ..set(0.0, 0.0, 1.0)
+        }],
+        ..RockMass::new(vec![cuboid(
+            DVec3::new(-50.0, -50.0, -1000.0),
+            DVec3::new(50.0, 50.0, 1000.0),
+        )])
+    };
+    let cut = mass.cut().unwrap();
+    assert_adds_up(&cut);
+    let slivers = cut.slivers.iter().map(|s| (s.centre.z, s.volume));
+    let blocks = cut.blocks.iter().map(|b| (b.centre.z, b.shape.volume()));
+    let mut all: Vec<(f64, f64)> = blocks.chain(slivers).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The first and the last end at the column.
+    all[1..all.len() - 1].iter().map(|(_, v)| v / 1e4).collect()
+}
+
+#[test]
+fn spacings_have_the_distribution_asked_for() {
+    let moments = |scatter| {
+        let gaps = gaps(scatter, 11);
+        let n = gaps.len() as f64;
+        let mean = gaps.iter().sum::<f64>() / n;
+        let square = gaps.iter().map(|g| (g - mean).powi(2)).sum::<f64>() / n;
+        (gaps, mean, square.sqrt())
+    };
+    let (gaps, mean, deviation) = moments(Scatter::None);
+    assert_eq!(gaps.len(), 1998);
+    assert!((mean - 1.0).abs() < 1e-12 && deviation < 1e-9);
+    // Of 2000 gaps the mean errs by σ/45 and the deviation by about σ/63 (exponential σ/32): 4 of those.
+    let cases = [
+        (Scatter::Uniform { range: 0.6 }, 0.6 / 3f64.sqrt(), 1.0),
+        (Scatter::Normal { deviation: 0.2 }, 0.2, 1.0),
+        (Scatter::Lognormal { deviation: 0.4 }, 0.4, 2.0),
+        (Scatter::Exponential, 1.0, 2.0),
+    ];
+    for (scatter, sigma, heavy) in cases {
+        let (gaps, mean, deviation) = moments(scatter);
+        assert!(
+            (mean - 1.0).abs() < 4.0 * sigma / 44.0,
+            "{scatter:?}: mean {mean}"
+        );
+        let error = (deviation / sigma - 1.0).abs();
+        assert!(
+            error < 4.0 * heavy / 63.0,
+            "{scatter:?}: deviation {deviation}"
+        );
+        assert!(gaps.iter().all(|g| *g > 0.0));
+    }
+}
+
+#[test]
+fn joints_that_end_cut_their_share() {
+    let with = |fraction| {
+        let persistence = Some(Persistence {
+            fraction,
+            length: 0.5,
+        });
+        let mut mass = RockMass::new(vec![cuboid(DVec3::ZERO, DVec3::splat(20.0))]);
+        // Columns first, and then level joints that each column meets or not.
+        mass.joints = vec![
+            set(90.0, 0.0, 1.0),
+            set(90.0, 90.0, 1.0),
+            set(0.0, 0.0, 1.0),
+        ];
+        mass.joints[2].persistence = persistence;
+        let cut = mass.cut().unwrap();
+        assert_adds_up(&cut);
+        cut.blocks.len()
+    };
+    // 400 columns, each met by 19 joints.
+    assert_eq!(with(0.0), 400);
+    assert_eq!(with(1.0), 400 * 20);
+    let share = (with(0.3) - 400) as f64 / (400.0 * 19.0);
+    // 7600 draws: σ = 0.0053.
+    assert!((share - 0.3).abs() < 0.02, "{share}");
+}
+
+#[test]
+fn slivers_are_listed_and_can_be_kept() {
+    let mut mass = RockMass::new(vec![cuboid(DVec3::ZERO, DVec3::ONE)]);
+    // Thin at the top: 0.01 m that contact resolves; at the side: 2e-5 m that it does not.
+    mass.joints = vec![set(0.0, 0.0, 0.99), set(90.0, 90.0, 1.0 - 2e-5)];
+    mass.smallest_thickness = 0.02;
+    let cut = mass.cut().unwrap();
+    assert_adds_up(&cut);
+    assert_eq!((cut.blocks.len(), cut.slivers.len()), (1, 3));
+    let kept = cut.keep_slivers();
+    assert_adds_up(&kept);
+    assert_eq!((kept.blocks.len(), kept.slivers.len()), (2, 2));
+    mass.smallest_thickness = 0.0;
+    assert_eq!(mass.cut().unwrap().blocks.len(), 2);
+    mass.smallest_volume = 0.5;
+    let cut = mass.cut().unwrap();
+    assert_adds_up(&cut);
+    assert_eq!((cut.blocks.len(), cut.slivers.len()), (1, 3));
+}
+
+#[test]
+fn several_volumes_are_cut_by_the_same_joints() {
+    let low = cuboid(DVec3::ZERO, DVec3::new(4.0, 4.0, 1.0));
+    let high = cuboid(DVec3::new(0.0, 0.0, 1.0), DVec3::new(2.0, 4.0, 3.0));
+    let mass = RockMass {
+        joints: vec![set(60.0, 30.0, 0.7), set(70.0, 150.0, 0.8)],
+        ..RockMass::new(vec![low, high])
+    };
+    let cut = mass.cut().unwrap();
+    assert!((cut.volume - 32.0).abs() < 1e-13);
+    assert_adds_up(&cut);
+    let joint = mass.compass.normal(60.0, 30.0).unwrap();
+    let of = |upper: bool| {
+        let blocks = cut
+            .blocks
+            .iter()
+            .filter(move |b| (b.centre.z > 1.0) == upper);
+        let planes = blocks.flat_map(|b| &b.planes);
+        let joints = planes.filter(|p| p.normal == joint).map(bits);
+        joints.collect::<std::collections::BTreeSet<_>>()
+    };
+    assert!(of(true).intersection(&of(false)).count() >= 3);
+}
+
+#[test]
+fn what_is_no_rock_mass_is_refused() {
+    let good = slope(3.0, Scatter::None);
+    let refused = |change: &dyn Fn(&mut RockMass), words: &[&str]| {
+        let mut mass = good.clone();
+        change(&mut mass);
+        let message = mass.cut().unwrap_err().to_string();
+        for word in words {
+            assert!(message.contains(word), "'{word}' is not in: {message}");
+        }
+    };
+    refused(&|m| m.volumes.clear(), &["volumes", "at least one"]);
+    refused(
+        &|m| m.volumes[0][2].distance = f64::NAN,
+        &["volumes[0].faces[2]", "finite"],
+    );
+    refused(
+        &|m| drop(m.volumes[0].remove(0)),
+        &["volumes[0].faces", "unbounded"],
+    );
+    refused(
+        &|m| m.surfaces[0].distance = -1e4,
+        &["volumes[0].faces[6]", "nothing is left"],
+    );
+    refused(
+        &|m| m.joints[1].spacing = 0.0,
+        &["joints[1].spacing", "positive"],
+    );
+    refused(
+        &|m| m.joints[1].spacing = 1e-7,
+        &["joints[1].spacing", "widen"],
+    );
+    refused(&|m| m.joints[1].dip = 91.0, &["joints[1].dip", "upright"]);
+    refused(
+        &|m| m.joints[1].dip_direction = f64::NAN,
+        &["joints[1].dip_direction"],
+    );
+    refused(
+        &|m| m.joints[2].origin.x = 1e9,
+        &["joints[2].spacing", "origin"],
+    );
+    refused(
+        &|m| m.joints[2].origin.x = f64::NAN,
+        &["joints[2].origin", "finite"],
+    );
+    refused(
+        &|m| m.joints[0].scatter = Scatter::Uniform { range: 3.0 },
+        &["joints[0].scatter", "between"],
+    );
+    refused(
+        &|m| m.compass.north = DVec3::Z,
+        &["joints[0].compass", "parallel"],
+    );
+    let share = |fraction, length| Some(Persistence { fraction, length });
+    refused(
+        &|m| m.joints[0].persistence = share(1.5, 1.0),
+        &["persistence.fraction"],
+    );
+    refused(
+        &|m| m.joints[0].persistence = share(0.5, 0.0),
+        &["persistence.length"],
+    );
+    refused(
+        &|m| m.joints.iter_mut().for_each(|j| j.spacing = 0.05),
+        &["spacing", "pieces", "widen"],
+    );
+}

@@ -1,49 +1,32 @@
-//! Decides of a pair whether it is in contact, and describes the contact.
+//! The way of a pair: bounding spheres, cache, proof, description.
 
 use super::{
-    Cache, Contact, Counts, Normal, Options, Placed, Verdict,
+    Cache, Contact, Counts, Options, Placed, Verdict,
     centre::Centring,
     guess::smallest_slack,
-    normal::{barrier, overlap, potential},
     pair::{Pair, Row},
     polygon::Polygon,
-    program::{Optimum, Program},
-    section::Overlap,
+    program::Program,
+    prove::Proof,
     separation::proven,
     sphere,
 };
 use crate::{Error, Result};
-use glam::DVec3;
 
 /// Share of the smallest distance of a face from its centroid beyond which an overlap is deep.
 const DEEP: f64 = 0.1;
-
-/// How often a pair whose cached point is outside has its faces moved out, and from which violation
-/// on (in L) it is not worth it: each time costs 1 µs and brings the point in by a share, against
-/// 50 µs for the linear program.
-const WIDENINGS: usize = 4;
-const FAR: f64 = 0.01;
 
 /// Resolves pairs one after the other: one a thread. It holds solvers and scratch space, so that
 /// nothing is allocated once all kinds of pairs have been seen; its answers depend on nothing that
 /// it resolved before.
 #[derive(Default)]
 pub struct Resolver {
-    options: Options,
-    counts: Counts,
-    rows: Vec<Row>,
-    program: Program,
-    centring: Centring,
-    polygon: Polygon,
-}
-
-/// What was found of a pair.
-enum Proof {
-    /// A plane, its normal from the smaller to the larger block, and what it proves.
-    Plane(DVec3, Verdict),
-    /// A point inside both, in L.
-    Point(DVec3),
-    Neither,
+    pub(super) options: Options,
+    pub(super) counts: Counts,
+    pub(super) rows: Vec<Row>,
+    pub(super) program: Program,
+    pub(super) centring: Centring,
+    pub(super) polygon: Polygon,
 }
 
 impl Resolver {
@@ -153,114 +136,6 @@ impl Resolver {
                 Verdict::Contact(contact)
             }
         })
-    }
-
-    /// Proof where the cache has none; `near`: the cached point, outside.
-    fn prove(
-        &mut self,
-        pair: &Pair<'_>,
-        split: usize,
-        margin: f64,
-        near: Option<DVec3>,
-    ) -> Result<Proof> {
-        if let Some(normal) = pair.separating_face(margin)
-            && let Some(verdict) = pair.judge(normal, margin)
-        {
-            self.counts.guesses += 1;
-            return Ok(Proof::Plane(normal, verdict));
-        }
-        let point = pair.point_between(&self.rows, split);
-        if smallest_slack(&self.rows, point) > margin {
-            self.counts.guesses += 1;
-            return Ok(Proof::Point(point));
-        }
-        if let Some(near) = near {
-            let proof = self.widen(pair, split, margin, near);
-            let Proof::Neither = proof else {
-                self.counts.guesses += 1;
-                return Ok(proof);
-            };
-        }
-        let rows = &self.rows[..];
-        let test = |optimum: &Optimum<'_>| {
-            if smallest_slack(rows, optimum.point) > margin {
-                return Proof::Point(optimum.point);
-            }
-            let normal = optimum.normal(rows, split);
-            match pair.judge(normal, margin) {
-                Some(verdict) => Proof::Plane(normal.normalize(), verdict),
-                None => Proof::Neither,
-            }
-        };
-        self.counts.programs += 1;
-        let optimum = self.program.solve(rows)?;
-        let proof = test(&optimum);
-        let Proof::Neither = proof else {
-            return Ok(proof);
-        };
-        self.counts.programs += 1;
-        let point = optimum.point;
-        Ok(test(&self.program.magnify(rows, point)?))
-    }
-
-    /// Proof from a point just outside (method of centres, Huard 1967): all faces are moved out until
-    /// the point is inside; the analytic centre of what they enclose is then deeper, inside the blocks
-    /// themselves, or its normal keeps them apart.
-    fn widen(&mut self, pair: &Pair<'_>, split: usize, margin: f64, near: DVec3) -> Proof {
-        let mut point = near;
-        for _ in 0..WIDENINGS {
-            let widening = 1.25 * (margin - smallest_slack(&self.rows, point));
-            if !(margin..FAR).contains(&widening) {
-                break;
-            }
-            let rows = &self.rows[..];
-            self.counts.newton_steps += self.centring.run(rows, widening, &mut point);
-            if smallest_slack(rows, point) > margin {
-                return Proof::Point(point);
-            }
-            let normal = barrier(rows, &self.centring.slacks, split);
-            if let Some(verdict) = pair.judge(normal, margin) {
-                return Proof::Plane(normal, verdict);
-            }
-        }
-        Proof::Neither
-    }
-
-    /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
-    /// the larger block.
-    fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> Contact {
-        let mut point = start;
-        self.counts.newton_steps += self.centring.run(&self.rows, 0.0, &mut point);
-        let (rows, slacks) = (&self.rows[..], &self.centring.slacks[..]);
-        let mut normal = barrier(rows, slacks, split);
-        if self.options.normal == Normal::Potential {
-            let depth = overlap(rows, slacks, split, normal);
-            let least = pair
-                .small
-                .smallest_distance
-                .min(pair.large.smallest_distance);
-            let rounding = (2.0 * depth).max(0.01 * least / pair.length);
-            normal = potential(rows, slacks, split, rounding);
-        }
-        let level = self.options.normal == Normal::Barrier;
-        let around = Overlap {
-            rows,
-            slacks,
-            split,
-            normal,
-        };
-        let section = around.section(&mut self.polygon, level);
-        let length = pair.length;
-        let place = |x: DVec3| pair.small.centre + x * length;
-        Contact {
-            point: place(point),
-            normal: section.normal,
-            overlap: section.overlap * length,
-            area: section.area * length * length,
-            pressure_centre: place(point + section.pressure_centre),
-            width: section.width * length,
-            limit: 0.0,
-        }
     }
 }
 

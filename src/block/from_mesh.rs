@@ -41,7 +41,7 @@ impl Shape {
 
     /// The solid that a closed mesh encloses, and its centroid (m), which becomes the origin. A convex
     /// mesh becomes one polyhedron, faces within 1e-6 of the size on one plane being one. Any other
-    /// becomes a compound of at most 128 convex parts that do not overlap: exact ones if it has few concave
+    /// becomes a compound of at most 64 convex parts that do not overlap: exact ones if it has few concave
     /// edges, else parts that stand out from the mesh by at most 2 % of its size and 5 % of its volume. Volume, centroid and inertia are those
     /// of the mesh itself, exact, whatever the parts.
     ///
@@ -80,7 +80,7 @@ impl Shape {
         }
         let centroid = middle + first.centroid();
         let local = Mesh::new(mesh, centroid, ROUNDING * size);
-        let (hull, shift) = Polyhedron::hull(&local.vertices, ROUNDING)?;
+        let (hull, shift) = Polyhedron::hull(&local.triangles.vertices, ROUNDING)?;
         if (hull.volume() - volume).abs() <= SAME * volume {
             return Ok((hull.into(), centroid + shift));
         }

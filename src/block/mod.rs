@@ -10,9 +10,12 @@ mod from_vertices;
 mod half_space;
 mod joint_set;
 mod moments;
+mod overlap;
+mod polygons;
 mod polyhedron;
 mod random;
 mod rock_mass;
+mod settle;
 mod shape;
 mod solids;
 

@@ -2,6 +2,10 @@
 
 mod device;
 mod host;
+mod kernels;
+mod layout;
 #[path = "../rig/mod.rs"]
 mod rig;
+mod scan;
 mod scenes;
+mod workbench;

@@ -43,7 +43,7 @@ pub fn run(stand: &Stand) -> Outcome {
     for exponent in 2..=5 {
         let count = 10u32.pow(exponent);
         let items = items(count);
-        let mut finder = HostBroadphase::default();
+        let mut finder = HostBroadphase;
         let mut found = Vec::new();
         let repeats = 10u32.pow(6 - exponent).min(1000);
         // The shortest of many: whatever else runs only adds.

@@ -454,8 +454,8 @@ fn meshes_drawn_together_look_like_meshes_with_many_instances() {
         let bodies = (0..12).map(|index| Instance {
             mesh: if distinct { index } else { 0 },
             // Stretched as well as turned: normals must turn with the surface.
-            deformation: DMat3::from_rotation_x(index as f64)
-                * DMat3::from_diagonal(DVec3::new(1.0, 0.6, 0.8)),
+            deformation: DMat3::from_diagonal(DVec3::new(1.0, 0.6, 0.8))
+                * DMat3::from_rotation_x(index as f64),
             value: Some(index as f64),
             ..body(place(index))
         });

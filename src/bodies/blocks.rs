@@ -320,7 +320,11 @@ impl Blocks {
     /// Time for which pairs must be known ahead, s.
     fn ahead(&self) -> f64 {
         // Without free blocks no step is too long, and there are no pairs.
-        if self.time_step.is_finite() { self.time_step } else { 0.0 }
+        if self.time_step.is_finite() {
+            self.time_step
+        } else {
+            0.0
+        }
     }
 
     /// A block in a message.

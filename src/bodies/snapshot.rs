@@ -144,7 +144,11 @@ fields!(State {
     asleep,
     slept,
 });
-fields!(Mark { centre, rotation, room });
+fields!(Mark {
+    centre,
+    rotation,
+    room
+});
 fields!(Pair {
     parts,
     cache,

@@ -13,10 +13,14 @@ pub(super) struct Section {
     pub width: f64,
 }
 
-/// Angles between two faces below which they lie on each other, and above which one only rests an
-/// edge on the other; between them the two sections are mixed, so that nothing jumps. 5° and 10°.
-const FLAT_COSINE: f64 = 0.996_194_698_091_745_5;
-const STEEP_COSINE: f64 = 0.984_807_753_012_208;
+/// Cosines of the angles between two faces up to which they lie on each other, and from which on one
+/// only rests an edge on the other, 5° and 10°; between them the two sections are mixed, so that
+/// nothing jumps.
+const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
+
+/// The same for the angle of the faces to the contact normal, 20° and 10°: two edges that run side by
+/// side belong to two pairs of faces alike, and to neither.
+const UPRIGHT: [f64; 2] = [0.939_692_620_785_908_4, 0.984_807_753_012_208];
 
 /// The overlap around its analytic centre.
 pub(super) struct Overlap<'a> {
@@ -37,8 +41,9 @@ impl Overlap<'_> {
             self.tightest(0, self.split),
             self.tightest(self.split, self.rows.len()),
         );
-        let cosine = -self.rows[i].normal.dot(self.rows[j].normal);
-        let flatness = ((cosine - STEEP_COSINE) / (FLAT_COSINE - STEEP_COSINE)).clamp(0.0, 1.0);
+        let (up, down) = (self.rows[i].normal, self.rows[j].normal);
+        let upright = self.normal.dot((up - down).normalize_or_zero());
+        let flatness = ramp(-up.dot(down), FLAT).min(ramp(upright, UPRIGHT));
         if flatness == 0.0 {
             return self.cut(polygon);
         }
@@ -46,7 +51,8 @@ impl Overlap<'_> {
             return self.cut(polygon);
         };
         let normal = if level {
-            self.normal.lerp(flat.normal, evenness).normalize()
+            let share = flatness * evenness;
+            self.normal.lerp(flat.normal, share).normalize()
         } else {
             self.normal
         };
@@ -54,14 +60,13 @@ impl Overlap<'_> {
         if flatness == 1.0 {
             return flat;
         }
-        let w = flatness * flatness * (3.0 - 2.0 * flatness);
         let cut = self.cut(polygon);
-        let mix = |a: f64, b: f64| a + w * (b - a);
+        let mix = |a: f64, b: f64| a + flatness * (b - a);
         Section {
             normal,
             overlap: mix(cut.overlap, flat.overlap),
             area: mix(cut.area, flat.area),
-            pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, w),
+            pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, flatness),
             width: mix(cut.width, flat.width),
         }
     }
@@ -163,6 +168,12 @@ impl Plane {
     fn gradient(&self, normal: DVec3) -> DVec2 {
         DVec2::new(self.x.dot(normal), self.y.dot(normal))
     }
+}
+
+/// From 0 at the first bound to 1 at the second, without a kink.
+fn ramp(x: f64, [low, high]: [f64; 2]) -> f64 {
+    let s = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
 }
 
 /// Centre of a first moment; the origin where there is nothing.

@@ -21,7 +21,7 @@ fn near(a: f64, b: f64, limit: f64) {
 #[test]
 fn box_on_box_with_partial_overlap() {
     let (below, above) = (DVec3::new(2.0, 1.5, 1.0), DVec3::new(1.0, 1.0, 0.5));
-    for u in [1e-7, 1e-4, 1e-2] {
+    for u in [1e-11, 1e-7, 1e-4, 1e-2] {
         let a = Solid::cuboid(below).at(DVec3::ZERO, DQuat::IDENTITY);
         let centre = DVec3::new(0.8, -0.45, 0.75 - u);
         let b = Solid::cuboid(above).at(centre, DQuat::IDENTITY);

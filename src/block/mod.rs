@@ -3,7 +3,9 @@
 mod cell;
 mod compass;
 mod compound;
+mod convex_parts;
 mod from_half_spaces;
+mod from_mesh;
 mod from_vertices;
 mod half_space;
 mod joint_set;

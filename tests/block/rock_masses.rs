@@ -323,7 +323,7 @@ fn what_is_no_rock_mass_is_refused() {
     let refused = |change: &dyn Fn(&mut RockMass), words: &[&str]| {
         let mut mass = good.clone();
         change(&mut mass);
-        let message = mass.cut().unwrap_err().to_string();
+        let message = mass.cut().map(|c| c.blocks.len()).unwrap_err().to_string();
         for word in words {
             assert!(message.contains(word), "'{word}' is not in: {message}");
         }
@@ -334,7 +334,9 @@ fn what_is_no_rock_mass_is_refused() {
         &["volumes[0].faces[2]", "finite"],
     );
     refused(
-        &|m| drop(m.volumes[0].remove(0)),
+        &|m| {
+            m.volumes[0].remove(0);
+        },
         &["volumes[0].faces", "unbounded"],
     );
     refused(

@@ -6,10 +6,12 @@
 use crate::Result;
 
 mod boxes;
+mod device;
 mod host;
 mod list;
 
-pub use boxes::{Boxes, DeviceBox, FARTHEST, Level};
+pub use boxes::{Boxes, FARTHEST};
+pub use device::DeviceBroadphase;
 pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.

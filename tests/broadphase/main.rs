@@ -1,4 +1,7 @@
 //! Every finder of pairs gives the list that follows from the definition.
 
+mod device;
 mod host;
+#[path = "../rig/mod.rs"]
+mod rig;
 mod scenes;

@@ -20,6 +20,8 @@ const EDGE: f64 = 0.25;
 /// Half of an edge's width, pixels, and in parts of the body's radius, so that edges of small bodies do not
 /// cover them.
 const EDGE_HALF_WIDTH: (f32, f64) = (0.6, 0.014);
+/// Radius of a body from which on its edges are drawn, pixels: below, they have a seventh of a pixel.
+const EDGES_FROM: f64 = 5.0;
 const WHITE: [u8; 4] = [u8::MAX; 4];
 
 /// A corner of a triangle, as in body.wgsl.
@@ -85,11 +87,13 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The geometry of a drawing relative to `target` (m), each body in the colour that `colour` says.
+    /// The geometry of a drawing relative to `target` (m), with the colours that values have and the pixels that a
+    /// metre has at a place.
     pub fn new(
         drawing: &Drawing<'_>,
         target: DVec3,
         value_colour: impl Fn(f64) -> [u8; 3],
+        pixels_per_metre: impl Fn(DVec3) -> f64,
     ) -> Self {
         let colour = |body: &Instance| match body.value {
             _ if body.fixed => FIXED,
@@ -108,8 +112,9 @@ impl Geometry {
             bodies[body.mesh].push(body);
         }
         for (mesh, bodies) in drawing.meshes.iter().zip(&bodies) {
-            let limit = (EDGE_HALF_WIDTH.1 * mesh.radius()) as f32;
-            let half_width = [EDGE_HALF_WIDTH.0, limit];
+            let radius = mesh.radius();
+            let half_width = [EDGE_HALF_WIDTH.0, (EDGE_HALF_WIDTH.1 * radius) as f32];
+            let has_edges = |body: &&Instance| radius * pixels_per_metre(body.centre) >= EDGES_FROM;
             for body in bodies {
                 geometry.widen(body.centre - target, body.deformation, &mesh.vertices);
             }
@@ -123,7 +128,8 @@ impl Geometry {
                         Corner::new(centre + turn * vertex.position, normal, [r, g, b, u8::MAX])
                     });
                     geometry.solid.push(corners, &mesh.triangles);
-                    for ends in &mesh.edges {
+                    let edges = mesh.edges.iter().filter(|_| has_edges(body));
+                    for ends in edges {
                         let ends = ends.map(|end| centre + turn * end);
                         geometry.strokes.stroke(ends, dark([r, g, b]), half_width);
                     }
@@ -144,7 +150,8 @@ impl Geometry {
             geometry.solid.push(corners, &mesh.triangles);
             geometry.solid.close_with(placements.clone());
             geometry.strokes.close();
-            for &ends in &mesh.edges {
+            let any_edges = bodies.iter().any(has_edges);
+            for &ends in mesh.edges.iter().filter(|_| any_edges) {
                 let colour = dark([u8::MAX; 3]);
                 geometry.strokes.stroke(ends, colour, half_width);
             }

@@ -8,12 +8,12 @@ use glam::DVec3;
 
 /// Lights in the shader's table.
 pub const MOST: usize = 64;
-/// Tiles along each edge of the atlas; the sun takes the quarter in the corner, the sky the rest.
-const FINE: usize = 8;
-/// The same for a scene of many triangles, each of which is drawn once for every light.
-const COARSE: usize = 4;
-/// Triangles from which on the sky has fewer directions.
-const MANY: usize = 400_000;
+/// Tiles along each edge of the atlas, and triangles up to which they are as many; the sun takes the
+/// quarter in the corner, the directions of the sky the rest. Every light draws every triangle once, on the CPU
+/// in somewhat less than 1 µs. Beyond, nothing hides the sky.
+const TILES: [(usize, usize); 2] = [(8, 50_000), (4, 400_000)];
+/// How many times as many triangles a GPU draws in that time, at least.
+const GPU: usize = 50;
 
 /// Illuminance of the sun on a surface that faces it.
 pub const SUN: f64 = 0.64;
@@ -43,19 +43,24 @@ pub struct Lights {
 
 impl Lights {
     /// The lights over bodies in the box from `low` to `high` (m, relative to the camera's target), with
-    /// shadow maps in an atlas of `texels` × `texels`.
+    /// shadow maps in an atlas of `texels` × `texels`. `triangles` are those of all bodies, drawn on a CPU or not.
     pub fn new(
         sun: DVec3,
         zenith: DVec3,
         [low, high]: [DVec3; 2],
         triangles: usize,
+        on_cpu: bool,
         texels: u32,
     ) -> Self {
-        let along = if triangles < MANY { FINE } else { COARSE };
+        let pace = if on_cpu { 1 } else { GPU };
+        let fitting = TILES.iter().find(|(_, most)| triangles <= most * pace);
+        // One tile, and it is the sun's.
+        let along = fitting.map_or(1, |(along, _)| *along);
         let unit = texels / along as u32;
-        let inside = |at: usize| at % along < along / 2 && at / along < along / 2;
+        let sun_tiles = along.div_ceil(2);
+        let inside = |at: usize| at % along < sun_tiles && at / along < sun_tiles;
         let cells = (0..along * along).filter(|&at| !inside(at));
-        let mut tiles = vec![[0, 0, texels / 2]];
+        let mut tiles = vec![[0, 0, sun_tiles as u32 * unit]];
         tiles
             .extend(cells.map(|at| [(at % along) as u32 * unit, (at / along) as u32 * unit, unit]));
         let directions = tiles.len() - 1;
@@ -70,10 +75,13 @@ impl Lights {
         }
     }
 
-    /// Illuminance of each direction of the sky on a surface that faces it.
+    /// Illuminance of each direction of the sky on a surface that faces it; none if there are none.
     pub fn sky_weight(&self) -> f64 {
         // The cosines of directions that are even over a hemisphere have the mean ½.
-        2.0 * SKY / (self.lights.len() - 1) as f64
+        match self.lights.len() - 1 {
+            0 => 0.0,
+            directions => 2.0 * SKY / directions as f64,
+        }
     }
 }
 

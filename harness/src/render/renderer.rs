@@ -113,10 +113,15 @@ impl Renderer {
         };
         let axes = camera.axes()?;
         let (palette, [low, high]) = drawing.palette()?;
-        let geometry = Geometry::new(drawing, camera.to, |value| {
+        let value_colour = |value| {
             let colour = palette.colour((value - low) / (high - low));
             [colour.0, colour.1, colour.2]
-        });
+        };
+        let pixels_per_metre = |place: DVec3| {
+            let depth = axes.forward.dot(place - camera.from).abs();
+            camera.pixels_per_metre(size[1].into()) * camera.distance() / depth
+        };
+        let geometry = Geometry::new(drawing, camera.to, value_colour, pixels_per_metre);
         let zenith = camera.up.normalize();
         let level = axes.right.cross(zenith);
         // Over the spectator's left shoulder.
@@ -124,7 +129,9 @@ impl Renderer {
         let sun = drawing.sun.unwrap_or(shoulder).normalize();
         let bounds = geometry.bounds.unwrap_or([DVec3::ZERO; 2]);
         let texels = self.atlas.width();
-        let lights = Lights::new(sun, zenith, bounds, geometry.solid.triangles(), texels);
+        let triangles = geometry.solid.triangles();
+        let on_cpu = gpu::is_software(&self.device.adapter_info());
+        let lights = Lights::new(sun, zenith, bounds, triangles, on_cpu, texels);
         let uniforms = Uniforms::new(drawing, &camera, &axes, size, bounds, sun, &lights);
         let (buffer, row) = guarded(&self.device, "a picture", || {
             self.submit(drawing, &geometry, &lights, &uniforms, size)

@@ -72,6 +72,7 @@ impl Uniforms {
             let place = axis.dot(camera.to) + axis.dot(ground_middle);
             place.rem_euclid(grid.spacing)
         });
+        let sky = lights.sky_weight();
         let open = SUN * sun.dot(zenith).max(0.0) + SKY;
         Self {
             right: four(axes.right, height / (width * tangent)),
@@ -80,7 +81,10 @@ impl Uniforms {
             eye: four(eye, 0.5 * height / tangent),
             size: four(DVec3::new(width, height, lights.lights.len() as f64), 0.0),
             zenith: four(zenith, BOUNCE),
-            weights: four(DVec3::new(SUN, lights.sky_weight(), open), 0.0),
+            weights: four(
+                DVec3::new(SUN, sky, open),
+                if sky > 0.0 { 0.0 } else { SKY },
+            ),
             ground: four(ground_middle, radius),
             ground_x: four(x, grid.spacing),
             ground_y: four(y, faded),

@@ -13,7 +13,7 @@ struct View {
     // xyz: away from the ground; w: illuminance from below, sun on a facing surface being `weights.x`.
     zenith: vec4f,
     // x: illuminance of the sun on a facing surface; y: of each direction of the sky;
-    // z: of all of them on open ground.
+    // z: of all of them on open ground; w: of the sky on the ground, if it has no directions.
     weights: vec4f,
     // Ground: xyz: its middle, m; w: radius at which it begins to fade, m.
     ground: vec4f,
@@ -69,49 +69,46 @@ fn exposed(light: f32) -> f32 {
     return select(bent, light, light < SHOULDER);
 }
 
-// Part of light `index` that reaches p on a surface with the normal n; `reach` texels soften it.
+// Illuminance from light `index` at p on a surface with the normal n, 1 if all of it falls straight on; `reach` texels soften it.
 fn reached(index: u32, p: vec3f, n: vec3f, reach: i32) -> f32 {
     let light = lights[index];
+    let cosine = dot(n, light.towards.xyz);
     // Off the surface by more than a texel slants over it, else it would shade itself.
-    let slant = 1.0 - max(dot(n, light.towards.xyz), 0.0);
-    let q = p + n * light.towards.w * (0.75 + 1.5 * slant + f32(reach));
+    let q = p + n * light.towards.w * (2.25 - 1.5 * cosine + f32(reach));
     let place = vec3f(
         dot(light.across.xyz, q) + light.across.w,
         1.0 - dot(light.upwards.xyz, q) - light.upwards.w,
         dot(light.depth.xyz, q) + light.depth.w,
     );
-    if (any(place.xy <= vec2f(0.0)) || any(place.xy >= vec2f(1.0))) {
-        return 1.0;
-    }
-    var sum = 0.0;
-    for (var j = -reach; j <= reach; j++) {
-        for (var i = -reach; i <= reach; i++) {
+    // A light behind the surface needs no look, and beside what it sees nothing hides it. Loops of no
+    // turns say so, since devices on the CPU pass over them, but run both ways of a branch.
+    let beside = any(place.xy <= vec2f(0.0)) || any(place.xy >= vec2f(1.0));
+    let looks = select(reach, -1, beside || cosine <= 0.0);
+    var hidden = 0.0;
+    for (var j = -looks; j <= looks; j++) {
+        for (var i = -looks; i <= looks; i++) {
             let texel = clamp(
                 place.xy * light.tile.z + vec2f(f32(i), f32(j)) * light.tile.w,
                 vec2f(light.tile.w),
                 vec2f(light.tile.z - light.tile.w),
             );
-            sum += textureSampleCompareLevel(
+            hidden += 1.0 - textureSampleCompareLevel(
                 shadows, shadow_sampler, light.tile.xy + texel, min(place.z, 1.0));
         }
     }
     let width = f32(2 * reach + 1);
-    return sum / (width * width);
+    return max(cosine, 0.0) * (1.0 - hidden / (width * width));
 }
 
 // Illuminance: the sun, an even sky hidden in part by bodies, and light back from the ground. All are
 // white, so that a shaded colour keeps the ratios of its channels and the colour map can be read.
 fn illuminance(p: vec3f, n: vec3f) -> f32 {
-    var total = view.zenith.w * (0.5 - 0.5 * dot(n, view.zenith.xyz));
-    let sun = dot(n, lights[0].towards.xyz);
-    if (sun > 0.0) {
-        total += view.weights.x * sun * reached(0u, p, n, 1);
-    }
+    var sky = 0.0;
     for (var index = 1u; index < u32(view.size.z); index++) {
-        let cosine = dot(n, lights[index].towards.xyz);
-        if (cosine > 0.0) {
-            total += view.weights.y * cosine * reached(index, p, n, 0);
-        }
+        sky += view.weights.y * reached(index, p, n, 0);
     }
-    return total;
+    let below = 0.5 - 0.5 * dot(n, view.zenith.xyz);
+    // What directions of the sky are not looked into gives its light to all that it would see.
+    sky += view.weights.w * (1.0 - below);
+    return view.weights.x * reached(0u, p, n, 1) + sky + view.zenith.w * below;
 }

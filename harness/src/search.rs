@@ -2,44 +2,47 @@
 
 use riprap::{
     Result,
-    broadphase::{Broadphase, Item},
+    broadphase::{Broadphase, HostBroadphase, Item},
     scene::Scene,
     simulation::Dry,
 };
 
-pub struct Finder;
+/// A finder on the host or on a device.
+pub enum Finder {
+    /// On the host.
+    Host(HostBroadphase),
+}
 
 impl Finder {
+    /// Where it searches, in a line.
     pub fn describe(&self) -> String {
-        "on the host".into()
+        match self {
+            Self::Host(_) => "on the host".into(),
+        }
     }
 }
 
 impl Broadphase for Finder {
     async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        let mut order: Vec<u32> = (0..items.len() as u32).collect();
-        order.sort_by(|a, b| items[*a as usize].min[0].total_cmp(&items[*b as usize].min[0]));
-        let mut pairs = Vec::new();
-        for (at, &i) in order.iter().enumerate() {
-            for &j in &order[at + 1..] {
-                let (a, b) = (&items[i as usize], &items[j as usize]);
-                if b.min[0] > a.max[0] {
-                    break;
-                }
-                if a.group != b.group && a.overlaps(b) {
-                    pairs.push([i.min(j), i.max(j)]);
-                }
-            }
+        match self {
+            Self::Host(finder) => finder.pairs(items).await,
         }
-        pairs.sort_unstable();
-        Ok(pairs)
     }
 }
 
+/// The blocks of `scene` with the finder that it asks for, on the adapter called `adapter` or the
+/// best one.
+///
+/// # Errors
+/// Those of [`Dry::new`] and of the device.
 pub fn open(scene: &Scene, _adapter: Option<&str>) -> Result<Dry<Finder>> {
-    pollster::block_on(Dry::new(scene, Finder))
+    pollster::block_on(Dry::new(scene, Finder::Host(HostBroadphase)))
 }
 
+/// Takes `steps` steps.
+///
+/// # Errors
+/// Those of [`Dry::advance`], and a device that does not answer.
 pub fn drive(simulation: &mut Dry<Finder>, steps: u64) -> Result<()> {
     pollster::block_on(simulation.advance(steps))
 }

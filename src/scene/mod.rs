@@ -44,7 +44,7 @@ pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, Storage};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use probes::{Probe, ProbePlace};
 pub use rock::{Rock, Search, Sleep};
-pub use rock_masses::{JointSet, RockMass, Volume};
+pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::Run;
 pub use sample::{BodyForce, InitialFields};
 pub use solids::{Shape, Solid};

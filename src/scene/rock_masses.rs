@@ -9,7 +9,7 @@ use super::block_shape::PlaneFace;
 use super::solids::Shape;
 use super::tagged::{need, refuse_others, through};
 
-/// A convex volume of rock, cut into blocks by joints (Gardner, Kolb & Sitar 2017).
+/// A convex volume of rock, cut into convex blocks by joints (Gardner, Kolb & Sitar 2017).
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct RockMass {
@@ -33,6 +33,14 @@ pub struct RockMass {
     /// (0, 1, 0).
     #[schemars(default = "north")]
     pub north: [f64; 3],
+    /// Smaller pieces are left out, m³: the smallest block decides how long a time step may be.
+    /// Default 0: only pieces that are too thin for contact, below 1e-4 of their size, are left out.
+    #[schemars(default)]
+    pub smallest_volume: f64,
+    /// Pieces with a face nearer to their centroid than this part of their extent are left out, no
+    /// unit. Default 0: as above.
+    #[schemars(default)]
+    pub smallest_thickness: f64,
     /// Regions whose blocks, by their centroids, are fixed. Default none.
     #[schemars(default)]
     pub fixed: Vec<Shape>,
@@ -86,19 +94,52 @@ pub struct JointSet {
     pub dip: f64,
     /// Compass direction in which the joints fall, degrees clockwise from north.
     pub dip_direction: f64,
-    /// Mean distance between two joints along their normal, m.
+    /// Mean distance from joint to joint along their normal, m.
     pub spacing: f64,
-    /// How far a distance may be from the mean, as a part of it, from 0 to below 1: distances are
-    /// spread evenly over spacing · (1 ± scatter). Default 0.
+    /// How the distances vary. Default `none`.
     #[serde(default)]
-    pub scatter: f64,
-    /// Probability that a joint cuts a block that it meets, from above 0 to 1. Default 1.
-    #[serde(default = "through_all")]
-    pub persistence: f64,
+    pub distribution: Distribution,
+    /// How far they vary, as a part of the spacing: for `uniform` half the width, below 1; for `normal`
+    /// (at most 1) and `lognormal` (at most 10) the standard deviation. Default 0.25.
+    pub scatter: Option<f64>,
+    /// A point of one of the joints, m. Default (0, 0, 0).
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// How much of each joint is open. Default all of it.
+    pub persistence: Option<Persistence>,
 }
 
-fn through_all() -> f64 {
-    1.0
+/// Distribution of the distances from joint to joint, their mean being the spacing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Distribution {
+    /// All the same.
+    #[default]
+    None,
+    /// Uniform.
+    Uniform,
+    /// Normal, cut off at 0.1 and 1.9 times the spacing.
+    Normal,
+    /// Lognormal.
+    Lognormal,
+    /// Negative exponential, as of joints placed independently. Makes many thin blocks.
+    Exponential,
+}
+
+/// Joints that are not open everywhere: each is divided into squares, some of them open. A joint cuts
+/// a block that it meets through and through if it is open in the middle of the cut, else not at all.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Persistence {
+    /// Part of the squares that is open, from 0 to 1.
+    pub fraction: f64,
+    /// Edge of the squares, m.
+    pub length: f64,
+}
+
+impl JointSet {
+    /// Scatter where none is given.
+    pub const USUAL_SCATTER: f64 = 0.25;
 }
 
 fn metre() -> f64 {
@@ -136,6 +177,10 @@ struct Flat {
     up: Option<[f64; 3]>,
     #[serde(default = "north")]
     north: [f64; 3],
+    #[serde(default)]
+    smallest_volume: f64,
+    #[serde(default)]
+    smallest_thickness: f64,
     #[serde(default)]
     fixed: Vec<Shape>,
     #[serde(default)]
@@ -191,6 +236,8 @@ impl Flat {
             seed: self.seed,
             up: self.up,
             north: self.north,
+            smallest_volume: self.smallest_volume,
+            smallest_thickness: self.smallest_thickness,
             fixed: self.fixed,
             removed: self.removed,
             material: self.material,

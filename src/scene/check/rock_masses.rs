@@ -1,9 +1,9 @@
 //! Rock masses have a volume, and joints that can cut it.
 
 use super::blocks::{half_spaces, points};
-use super::rules::{direction, finite, names, ordered, positive, refuse};
+use super::rules::{direction, finite, names, not_negative, ordered, positive, refuse};
 use crate::error::Result;
-use crate::scene::{JointSet, Scene, Volume};
+use crate::scene::{Distribution, JointSet, Persistence, Scene, Volume};
 
 impl Scene {
     pub(super) fn check_rock_masses(&self) -> Result<()> {
@@ -38,6 +38,10 @@ impl Scene {
                 );
             }
             direction(format!("{key}.north"), &mass.north)?;
+            let smallest = mass.smallest_volume;
+            not_negative(format!("{key}.smallest_volume"), smallest, "m³")?;
+            let thinnest = mass.smallest_thickness;
+            not_negative(format!("{key}.smallest_thickness"), thinnest, "")?;
             let regions = [("fixed", &mass.fixed), ("removed", &mass.removed)];
             for (name, regions) in regions {
                 for (number, region) in regions.iter().enumerate() {
@@ -61,23 +65,35 @@ fn joints(key: &str, set: &JointSet) -> Result<()> {
     }
     finite(format!("{key}.dip_direction"), &[set.dip_direction])?;
     positive(format!("{key}.spacing"), set.spacing, "m")?;
-    if !(0.0..1.0).contains(&set.scatter) {
-        return refuse(
-            format!("{key}.scatter"),
-            format!(
-                "is {}; it lies from 0 (all distances equal) to below 1",
-                set.scatter
-            ),
-        );
+    finite(format!("{key}.origin"), &set.origin)?;
+    if let Some(scatter) = set.scatter {
+        let most = match set.distribution {
+            Distribution::Uniform => 1.0f64.next_down(),
+            Distribution::Normal => 1.0,
+            Distribution::Lognormal => 10.0,
+            Distribution::None | Distribution::Exponential => {
+                return refuse(
+                    format!("{key}.scatter"),
+                    "has no meaning for this distribution; remove it, or give distribution = \
+                     \"uniform\", \"normal\" or \"lognormal\"",
+                );
+            }
+        };
+        if !(0.0..=most).contains(&scatter) {
+            return refuse(
+                format!("{key}.scatter"),
+                format!("is {scatter}; it lies from 0 to {most:.0}, below 1 where uniform"),
+            );
+        }
     }
-    if !(set.persistence > 0.0 && set.persistence <= 1.0) {
-        return refuse(
-            format!("{key}.persistence"),
-            format!(
-                "is {}; it lies above 0 and up to 1 (joints cut all that they meet)",
-                set.persistence
-            ),
-        );
+    if let Some(Persistence { fraction, length }) = set.persistence {
+        positive(format!("{key}.persistence.length"), length, "m")?;
+        if !(0.0..=1.0).contains(&fraction) {
+            return refuse(
+                format!("{key}.persistence.fraction"),
+                format!("is {fraction}; it lies from 0 to 1 (joints open everywhere)"),
+            );
+        }
     }
     Ok(())
 }

@@ -31,7 +31,7 @@ pub(super) fn inside(
     Ok(Box::new(move |x| tree.at(x).abs() > 0.5))
 }
 
-fn closed(path: &Path, scale: f64, translate: DVec3) -> Result<TriangleMesh> {
+pub(super) fn closed(path: &Path, scale: f64, translate: DVec3) -> Result<TriangleMesh> {
     let mesh = TriangleMesh::read(path, scale, translate.to_array())?;
     mesh.closed()
         .map_err(|message| Error::file(path, message))?;

@@ -1,5 +1,6 @@
 //! From a scene to the blocks in it.
 
+mod masses;
 mod materials;
 mod meshes;
 mod rows;
@@ -38,6 +39,9 @@ pub fn block_setup(scene: &Scene) -> Result<Setup> {
     };
     for (index, block) in scene.blocks.iter().enumerate() {
         setup.blocks.extend(rows::blocks(scene, index, block)?);
+    }
+    for (index, mass) in scene.rock_masses.iter().enumerate() {
+        setup.blocks.extend(masses::blocks(scene, index, mass)?);
     }
     for (index, solid) in scene.solids.iter().enumerate() {
         setup.blocks.push(solids::block(scene, index, solid)?);
@@ -103,13 +107,4 @@ fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// `error` with `key` before its place: what a shape calls `faces[2]` is `blocks[4].faces[2]` in the
-/// scene.
-fn under(key: &str) -> impl Fn(Error) -> Error + '_ {
-    move |error| match error {
-        Error::Scene { place, message } => Error::scene(format!("{key}.{place}"), message),
-        other => other,
-    }
 }

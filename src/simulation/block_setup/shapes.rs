@@ -1,6 +1,5 @@
 //! Shapes of a scene's blocks, about their centroids.
 
-use super::under;
 use crate::{
     Result,
     block::{Form, HalfSpace, Part, Polyhedron, Shape},
@@ -10,7 +9,6 @@ use glam::{DQuat, DVec3};
 
 /// The shape of the table `key`, and its centroid (m) in the block's own frame.
 pub(super) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Shape, DVec3)> {
-    let at = under(key);
     let about_centre = |made: Result<Polyhedron>| made.map(|made| (made.into(), DVec3::ZERO));
     match shape {
         BlockShape::Box { size } => about_centre(Polyhedron::cuboid(DVec3::from(*size))),
@@ -29,7 +27,7 @@ pub(super) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Sha
         }
         BlockShape::Compound { parts } => return compound(scene, key, parts),
     }
-    .map_err(at)
+    .map_err(|error| error.within(key))
 }
 
 /// The hull of points.
@@ -54,14 +52,14 @@ fn compound(scene: &Scene, key: &str, parts: &[crate::scene::Part]) -> Result<(S
         let (made, centroid) = shape(scene, &key, &part.shape)?;
         let turn = rotation(&part.rotation);
         for piece in made.parts() {
-            let (form, shift) = turned(&piece.form, turn).map_err(under(&key))?;
+            let (form, shift) = turned(&piece.form, turn).map_err(|error| error.within(&key))?;
             placed.push(Part {
                 form,
                 offset: DVec3::from(part.position) + turn * (centroid + piece.offset) + shift,
             });
         }
     }
-    Shape::compound(placed).map_err(under(key))
+    Shape::compound(placed).map_err(|error| error.within(key))
 }
 
 /// A form turned about its centroid, and what rounding has moved that by, m.

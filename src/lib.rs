@@ -5,6 +5,11 @@
 //! loop) → [`output`] (files). Below them, [`link`] makes one shader of the files in `kernels/`
 //! and [`kernel`] binds and records it.
 //!
+//! Rock goes its own way through the host: [`block`] (shapes, and masses cut by joints) →
+//! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
+//! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
+//! [`bodies`] (all of it, a step).
+//!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
 //! adapter, reads no environment, never blocks and does not panic on input.
 //!

@@ -43,7 +43,7 @@ impl Shape {
     /// mesh becomes one polyhedron, faces within 1e-6 of the size on one plane being one. Any other
     /// becomes a compound of at most 64 convex parts that do not overlap: exact ones if it has few concave
     /// edges, else parts that hold all of it and stand out from it by at most 5 % of its size and 5 % of
-    /// its volume, the least of which 64 are capable. Volume, centroid and inertia are those of the mesh
+    /// its volume, by less where 64 suffice for less. Volume, centroid and inertia are those of the mesh
     /// itself, exact, whatever the parts. A mesh of 10⁴ triangles takes seconds, one of 4·10⁴ a minute.
     ///
     /// # Errors

@@ -4,13 +4,16 @@
 //! Cells do not overlap, and so neither do the parts. A part holds all of the solid that is in its cell.
 
 use super::cell::{Cell, Clip, ON};
-use super::polygons::{Polygon, best_cut, divide};
+use super::polygons::{Polygon, best_cut, divide, some};
 use super::{HalfSpace, Polyhedron};
 use crate::solid::{TriangleMesh, WindingTree};
 use glam::DVec3;
 
 /// Most parts: a compound of more is slow in contact.
 pub(super) const PARTS: usize = 64;
+
+/// Faces that are asked whether a mesh is concave, before its hull is made to find out.
+const SAMPLE: usize = 200;
 
 /// A mesh about its centroid.
 pub(super) struct Mesh {
@@ -31,6 +34,18 @@ impl Mesh {
             triangles,
             tolerance,
         }
+    }
+
+    /// Whether some of its faces show it to be concave, by more than rounding.
+    pub fn hollow(&self) -> bool {
+        let polygons = Polygon::all(&self.triangles, self.tolerance);
+        let faces = some(&polygons, SAMPLE).filter(|p| p.broad);
+        let over = |p: &Polygon| {
+            polygons
+                .iter()
+                .any(|o| o.rises(&p.plane, 10.0 * self.tolerance))
+        };
+        faces.into_iter().any(over)
     }
 
     /// Whether a cell that no face crosses is inside.

@@ -19,7 +19,7 @@ pub(super) struct Polygon {
     pub plane: HalfSpace,
     pub corners: Vec<DVec3>,
     /// Whether its plane is known well.
-    broad: bool,
+    pub broad: bool,
 }
 
 impl Polygon {
@@ -39,7 +39,7 @@ impl Polygon {
     }
 
     /// Whether a corner is higher than `height` (m) above `plane`.
-    fn rises(&self, plane: &HalfSpace, height: f64) -> bool {
+    pub fn rises(&self, plane: &HalfSpace, height: f64) -> bool {
         self.corners.iter().any(|c| plane.height(*c) > height)
     }
 }
@@ -102,7 +102,7 @@ fn across(polygons: &[Polygon]) -> impl Iterator<Item = HalfSpace> {
 }
 
 /// At most `count` of `all`, evenly.
-fn some<T>(all: &[T], count: usize) -> impl Iterator<Item = &T> {
+pub(super) fn some<T>(all: &[T], count: usize) -> impl Iterator<Item = &T> {
     all.iter().step_by(all.len().div_ceil(count).max(1))
 }
 

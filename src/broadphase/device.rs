@@ -134,13 +134,16 @@ impl DeviceBroadphase {
         })
     }
 
-    /// Room for `pairs`, or for as many as a binding holds.
-    fn list(&self, sorted: &BinsOf, hits: &Hits, pairs: u32) -> Result<List> {
+    /// As many of the pairs as a binding holds.
+    fn capacity(&self, pairs: u32) -> u32 {
         let limits = self.device.limits();
         let bytes = limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
-        let capacity = pairs.min((bytes / 8).try_into().unwrap_or(u32::MAX));
+        pairs.min((bytes / 8).try_into().unwrap_or(u32::MAX))
+    }
+
+    fn list(&self, sorted: &BinsOf, hits: &Hits, capacity: u32) -> Result<List> {
         let list = storage(&self.device, "pairs", 8 * u64::from(capacity));
         let mut buffers = self.buffers(sorted);
         buffers.extend([("pair_starts", &hits.counts), ("pair_list", &list)]);
@@ -263,8 +266,9 @@ impl Broadphase for DeviceBroadphase {
             });
         }
         let room = prepared.list.as_ref().map_or(0, |list| list.capacity);
-        if room < header.pairs {
-            prepared.list = Some(self.list(&prepared.sorted, &prepared.hits, header.pairs)?);
+        let wanted = self.capacity(header.pairs);
+        if room < wanted {
+            prepared.list = Some(self.list(&prepared.sorted, &prepared.hits, wanted)?);
         }
         let found = self.write(&prepared, level_count, header.pairs).await?;
         self.prepared = Some(prepared);

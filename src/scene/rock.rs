@@ -51,15 +51,15 @@ pub struct Sleep {
     pub time: f64,
 }
 
-/// Where pairs of blocks that may touch are searched; the pairs are the same.
+/// Where pairs of blocks that may touch are searched; the pairs are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Search {
-    /// Where it is faster for this number of blocks.
+    /// On the host, since steps are there too and a search is a small part of them.
     #[default]
     Auto,
     /// On the host; needs no GPU.
     Host,
-    /// On the device.
+    /// On the device, as a fluid will need it.
     Device,
 }

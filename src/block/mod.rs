@@ -1,4 +1,39 @@
-//! Shapes of blocks.
+//! Shapes of blocks: convex polyhedra, compounds, spheres, and rock masses cut by joints.
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::block::{JointSet, Polyhedron, RockMass, Scatter};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // A wedge from its corners; its centroid becomes the origin.
+//! let (wedge, centre) = Polyhedron::from_vertices(&[
+//!     DVec3::ZERO,
+//!     DVec3::new(2.0, 0.0, 0.0),
+//!     DVec3::new(0.0, 1.0, 0.0),
+//!     DVec3::new(0.0, 0.0, 1.0),
+//! ])?;
+//! assert!((wedge.volume() - 1.0 / 3.0).abs() < 1e-15);
+//! assert!(centre.distance(DVec3::new(0.5, 0.25, 0.25)) < 1e-15);
+//!
+//! // A cube of 4 m cut every 1 m by joints that fall by 60° to the east.
+//! let cube = Polyhedron::cuboid(DVec3::splat(4.0))?;
+//! let mass = RockMass {
+//!     joints: vec![JointSet {
+//!         dip: 60.0,
+//!         dip_direction: 90.0,
+//!         spacing: 1.0,
+//!         scatter: Scatter::None,
+//!         origin: DVec3::ZERO,
+//!         seed: 0,
+//!         persistence: None,
+//!     }],
+//!     ..RockMass::new(vec![cube.faces().to_vec()])
+//! };
+//! let cut = mass.cut()?;
+//! assert_eq!(cut.blocks.len(), 6);
+//! # Ok(())
+//! # }
+//! ```
 
 mod cell;
 mod compass;
@@ -10,9 +45,12 @@ mod from_vertices;
 mod half_space;
 mod joint_set;
 mod moments;
+mod overlap;
+mod polygons;
 mod polyhedron;
 mod random;
 mod rock_mass;
+mod settle;
 mod shape;
 mod solids;
 

@@ -18,9 +18,10 @@ pub(super) struct Section {
 /// nothing jumps.
 const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
 
-/// The same for the angle of the faces to the contact normal, 20° and 10°: two edges that run side by
-/// side belong to two pairs of faces alike, and to neither.
-const UPRIGHT: [f64; 2] = [0.939_692_620_785_908_4, 0.984_807_753_012_208];
+/// The same for the share of Σ 1/t, t the slacks of a block's faces at the analytic centre, that the
+/// tightest face has: almost all where it lies on the other block's, half at a blunt edge, or where two
+/// edges run side by side, which belong to two pairs of faces alike and to neither.
+const SHARE: [f64; 2] = [0.6, 0.8];
 
 /// The overlap around its analytic centre.
 pub(super) struct Overlap<'a> {
@@ -37,13 +38,10 @@ impl Overlap<'_> {
     /// The section that the force acts on. `level`: turn the normal to the faces' where they lie flat
     /// on each other.
     pub fn section(&self, polygon: &mut Polygon, level: bool) -> Section {
-        let (i, j) = (
-            self.tightest(0, self.split),
-            self.tightest(self.split, self.rows.len()),
-        );
-        let (up, down) = (self.rows[i].normal, self.rows[j].normal);
-        let upright = self.normal.dot((up - down).normalize_or_zero());
-        let flatness = ramp(-up.dot(down), FLAT).min(ramp(upright, UPRIGHT));
+        let (i, share_i) = self.tightest(0, self.split);
+        let (j, share_j) = self.tightest(self.split, self.rows.len());
+        let cosine = -self.rows[i].normal.dot(self.rows[j].normal);
+        let flatness = ramp(cosine, FLAT).min(ramp(share_i.min(share_j), SHARE));
         if flatness == 0.0 {
             return self.cut(polygon);
         }
@@ -142,14 +140,16 @@ impl Overlap<'_> {
         plane
     }
 
-    fn tightest(&self, from: usize, to: usize) -> usize {
-        (from..to).fold(from, |best, k| {
-            if self.slacks[k] < self.slacks[best] {
-                k
-            } else {
-                best
+    /// The tightest of some rows, and its share of their Σ 1/t.
+    fn tightest(&self, from: usize, to: usize) -> (usize, f64) {
+        let (mut tightest, mut sum) = (from, 0.0);
+        for k in from..to {
+            sum += self.slacks[k].recip();
+            if self.slacks[k] < self.slacks[tightest] {
+                tightest = k;
             }
-        })
+        }
+        (tightest, (self.slacks[tightest] * sum).recip())
     }
 }
 

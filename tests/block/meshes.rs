@@ -262,7 +262,8 @@ fn a_solid_with_many_concave_edges_has_parts_near_it_and_exact_mass() {
     assert_eq!(inside(&parts, DVec3::ZERO), 0);
     assert!(inside(&parts, DVec3::X) >= 1);
     let sum: f64 = parts.iter().map(|(p, _)| p.volume()).sum();
-    assert!((sum / shape.volume() - 1.0).abs() <= 0.05);
+    // Each part holds all of the solid in its cell, and stands out a little.
+    assert!((0.0..0.01).contains(&(sum / shape.volume() - 1.0)));
 }
 
 #[test]

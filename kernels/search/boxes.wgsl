@@ -34,12 +34,14 @@ fn cell_of(corner: vec3<f32>, scale: f32) -> vec3<i32> {
     return vec3<i32>(floor(corner * scale));
 }
 
-// Teschner et al. 2003, VMV: spatial hashing; the last steps mix the bits (Appleby's MurmurHash3). `buckets` is a
-// power of two.
+// Teschner et al. 2003, VMV, spatial hashing, of blocks of 4 x 4 x 4 cells that stay together: neighbours are near in
+// memory. The last steps mix the bits (Appleby's MurmurHash3). `buckets` is a power of two, at least 64.
 fn bucket_of(cell: vec3<i32>, level: u32, buckets: u32) -> u32 {
-    let u = vec3<u32>(cell);
-    var h = (u.x * 73856093u) ^ (u.y * 19349663u) ^ (u.z * 83492791u) ^ (level * 2654435761u);
+    let block = vec3<u32>(cell >> vec3(2u));
+    var h = (block.x * 73856093u) ^ (block.y * 19349663u) ^ (block.z * 83492791u) ^ (level * 2654435761u);
     h = (h ^ (h >> 16u)) * 0x85ebca6bu;
     h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
-    return (h ^ (h >> 16u)) & (buckets - 1u);
+    h = h ^ (h >> 16u);
+    let inside = vec3<u32>(cell & vec3(3i));
+    return (h * 64u + inside.z * 16u + inside.y * 4u + inside.x) & (buckets - 1u);
 }

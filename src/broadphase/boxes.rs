@@ -38,8 +38,7 @@ impl Boxes {
     /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
     /// 2²⁴ items.
     pub fn new(items: &[Item]) -> Result<Self> {
-        check(items)?;
-        let origin = middle(items);
+        let origin = check(items)?;
         let mut boxes = Vec::with_capacity(items.len());
         let mut longest = [None; MAX_LEVELS];
         for (number, item) in (0..).zip(items) {
@@ -85,7 +84,8 @@ impl Boxes {
     }
 }
 
-fn check(items: &[Item]) -> Result<()> {
+/// The middle of all boxes, if they are boxes.
+fn check(items: &[Item]) -> Result<[f64; 3]> {
     if items.len() > 1 << NUMBER_BITS {
         return Err(Error::Limit {
             name: "items of a search for pairs".into(),
@@ -94,38 +94,31 @@ fn check(items: &[Item]) -> Result<()> {
             remedy: "search in parts of the scene".into(),
         });
     }
+    let (mut lowest, mut highest) = ([FARTHEST; 3], [-FARTHEST; 3]);
     for (number, item) in items.iter().enumerate() {
-        let wrong = |message: String| Err(Error::scene(format!("items[{number}]"), message));
         for a in 0..3 {
-            let axis = ["x", "y", "z"][a];
             let (min, max) = (item.min[a], item.max[a]);
-            if !(min.abs() <= FARTHEST && max.abs() <= FARTHEST) {
-                return wrong(format!(
-                    "its box reaches from {min} to {max} m along {axis}; both must be finite and \
-                     within 2^100 m: look for what moved it there, such as too long a time step"
-                ));
+            // Also false if one of them is no number.
+            if !(-FARTHEST <= min && min <= max && max <= FARTHEST) {
+                return Err(refusal(number, a, min, max));
             }
-            if min > max {
-                return wrong(format!(
-                    "its box ends at {max} m along {axis}, before it begins at {min} m; exchange \
-                     the corners"
-                ));
-            }
+            lowest[a] = min.min(lowest[a]);
+            highest[a] = max.max(highest[a]);
         }
     }
-    Ok(())
+    Ok([0, 1, 2].map(|a| 0.5 * (lowest[a] + highest[a])))
 }
 
-/// The middle of all boxes.
-fn middle(items: &[Item]) -> [f64; 3] {
-    [0, 1, 2].map(|a| {
-        let min = items.iter().map(|i| i.min[a]).fold(f64::INFINITY, f64::min);
-        let max = items
-            .iter()
-            .map(|i| i.max[a])
-            .fold(-f64::INFINITY, f64::max);
-        if min <= max { 0.5 * (min + max) } else { 0.0 }
-    })
+fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
+    let axis = ["x", "y", "z"][axis];
+    let reason = if min.abs() <= FARTHEST && max.abs() <= FARTHEST {
+        "a box begins where it is lowest; exchange the corners"
+    } else {
+        "both must be finite and within 2^100 m; look for what moved it there, such as too long a \
+         time step"
+    };
+    let message = format!("its box reaches from {min} to {max} m along {axis}: {reason}");
+    Error::scene(format!("items[{number}]"), message)
 }
 
 /// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.

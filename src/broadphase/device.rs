@@ -268,11 +268,6 @@ impl Broadphase for DeviceBroadphase {
         }
         let found = self.write(&prepared, level_count, header.pairs).await?;
         self.prepared = Some(prepared);
-        // What f32 could not tell apart goes now.
-        let exact: Vec<_> = found
-            .into_iter()
-            .filter(|&[i, j]| items[i as usize].overlaps(&items[j as usize]))
-            .collect();
-        Ok(list::sort(items.len(), &exact))
+        Ok(list::exact(items, &found))
     }
 }

@@ -1,25 +1,32 @@
-//! The list of pairs in its order, by counting: linear in items and pairs.
+//! From what a search in f32 found to the list: exact, and in its order.
 
-/// Sorts pairs (i, j), i < j < `items`.
-pub(super) fn sort(items: usize, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
-    let mut ends = vec![0; items + 1];
-    for [first, _] in pairs {
+use super::Item;
+
+/// Sorts pairs (i, j), i < j, by counting, linear in items and pairs, and takes those whose boxes
+/// overlap in f64.
+pub(super) fn exact(items: &[Item], found: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let mut ends = vec![0; items.len() + 1];
+    for [first, _] in found {
         ends[*first as usize + 1] += 1;
     }
-    for n in 0..items {
+    for n in 0..items.len() {
         ends[n + 1] += ends[n];
     }
     // The start of each row moves to its end as the row is filled.
-    let mut sorted = vec![[0; 2]; pairs.len()];
-    for pair in pairs {
-        let end = &mut ends[pair[0] as usize];
-        sorted[*end] = *pair;
+    let mut seconds = vec![0; found.len()];
+    for [first, second] in found {
+        let end = &mut ends[*first as usize];
+        seconds[*end] = *second;
         *end += 1;
     }
+    let mut list = Vec::with_capacity(found.len());
     let mut start = 0;
-    for end in &ends[..items] {
-        sorted[start..*end].sort_unstable();
-        start = *end;
+    for ((number, item), end) in (0..).zip(items).zip(ends) {
+        let row = &mut seconds[start..end];
+        row.sort_unstable();
+        let exact = row.iter().filter(|j| item.overlaps(&items[**j as usize]));
+        list.extend(exact.map(|j| [number, *j]));
+        start = end;
     }
-    sorted
+    list
 }

@@ -28,6 +28,11 @@ pub struct BinsOf {
     workgroups: u32,
 }
 
+/// Buckets for a number of items: at least two an item and a block of 64, a power of two.
+pub(crate) fn buckets(items: u32) -> u32 {
+    (2 * items).next_power_of_two().max(64)
+}
+
 impl Bins {
     /// Compiles the kernels.
     ///
@@ -47,7 +52,7 @@ impl Bins {
     /// [`crate::Error::Limit`] if the device cannot bind them.
     pub fn of(&self, device: &wgpu::Device, scan: &Scan, items: u32) -> Result<BinsOf> {
         let n = u64::from(items);
-        let buckets = (2 * n).next_power_of_two();
+        let buckets = u64::from(buckets(items));
         let bytes = n * size_of::<DeviceBox>() as u64;
         at_most(device, "boxes", bytes)?;
         at_most(device, "buckets", 8 * buckets)?;

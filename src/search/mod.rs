@@ -5,6 +5,7 @@ mod boxes;
 mod buffers;
 mod scan;
 
+pub(crate) use bins::buckets;
 pub use bins::{Bins, BinsOf};
 pub use boxes::{DeviceBox, Level};
 pub(crate) use boxes::{MAX_LEVELS, NUMBER_BITS};

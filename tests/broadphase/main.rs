@@ -1,7 +1,14 @@
 //! Every finder of pairs gives the list that follows from the definition.
 
+mod degenerate;
 mod device;
+mod finders;
 mod host;
+mod kernels;
+mod layout;
+mod refusals;
 #[path = "../rig/mod.rs"]
 mod rig;
+mod scan;
 mod scenes;
+mod workbench;

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         materials: vec![Material::default()],
         ..Setup::default()
     })?;
-    let mut finder = HostBroadphase::default();
+    let mut finder = HostBroadphase;
 
     // A push of 400 N at the top of the first one, for 0.3 s.
     let mut loads = vec![Load::default(); blocks.len()];

@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut ours = row()?;
     pollster::block_on(ours.advance(&mut own, 0.5))?;
     let mut theirs = row()?;
-    pollster::block_on(theirs.advance(&mut HostBroadphase::default(), 0.5))?;
+    pollster::block_on(theirs.advance(&mut HostBroadphase, 0.5))?;
     println!(
         "{} blocks, {} candidate pairs, {} lists in {:.1} s",
         ours.len(),

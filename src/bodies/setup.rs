@@ -104,6 +104,10 @@ impl Block {
 
 /// What moves a block.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one a block, whose shape and contacts are larger by far"
+)]
 pub enum Motion {
     /// Forces.
     #[default]

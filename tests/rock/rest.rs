@@ -4,7 +4,7 @@ use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     block::Polyhedron,
-    bodies::{Block, Blocks},
+    bodies::{Block, Blocks, ContactPoint},
 };
 use std::{f64::consts::PI, sync::Arc};
 
@@ -22,6 +22,25 @@ fn settled(list: Vec<Block>, stiffness: f64, damping: f64, time: f64) -> Blocks 
     let mut blocks = blocks(setup);
     run(&mut blocks, time);
     blocks
+}
+
+/// The ledger has followed the work on the springs from the first touch on; the state knows nothing of
+/// the way: ½f_n u_n + f_s²/2k_s A. Where the pressure is as good as even, u_n is that of its centre, and
+/// both are the same.
+fn assert_elastic(blocks: &Blocks, stiffness: f64) {
+    let energy = |contact: ContactPoint| {
+        let pressing = contact.force.dot(contact.normal);
+        let shear = contact.force - pressing * contact.normal;
+        0.5 * (pressing * contact.overlap + shear.length_squared() / (stiffness * contact.area))
+    };
+    let (followed, state) = (
+        blocks.ledger().elastic,
+        blocks.contacts().map(energy).sum::<f64>(),
+    );
+    assert!(
+        (followed / state - 1.0).abs() < 0.01,
+        "{followed} J, {state} J"
+    );
 }
 
 fn assert_still(blocks: &Blocks) {
@@ -53,7 +72,9 @@ fn a_crooked_stack_of_ten() {
     }
     // Softer, and the stack would be at the edge of buckling: k I over ten joints against its weight.
     // It sways like a cantilever of EI = k_n I h, ω₁ = 3.52 √(EI/(m h³ 10⁴)) = 6.4 rad/s: damped critically.
-    assert_still(&settled(list, 1e9, 12.0, 3.0));
+    let blocks = settled(list, 1e9, 12.0, 3.5);
+    assert_still(&blocks);
+    assert_elastic(&blocks, 1e9);
 }
 
 #[test]
@@ -67,7 +88,9 @@ fn a_pyramid_of_55() {
         }
     }
     assert_eq!(list.len(), 56);
-    assert_still(&settled(list, 1e7, 20.0, 2.0));
+    let blocks = settled(list, 1e7, 20.0, 2.0);
+    assert_still(&blocks);
+    assert_elastic(&blocks, 1e7);
 }
 
 #[test]

@@ -30,7 +30,7 @@ impl Rock {
     pub fn new(setup: Setup, what: impl Into<String>) -> anyhow::Result<Self> {
         Ok(Self {
             blocks: Blocks::new(setup)?,
-            finder: HostBroadphase::default(),
+            finder: HostBroadphase,
             what: what.into(),
             seconds: 0.0,
         })

@@ -197,44 +197,35 @@ fn a_cube_covers_what_a_pinhole_camera_sees_of_it() {
 
 #[test]
 fn the_nearer_block_hides_the_farther_in_any_order() {
-    let size = [120, 90];
+    let size = [420, 90];
     let meshes = [plain_cube()];
     let block = |y: f64, value: f64| Instance {
         value: Some(value),
         ..body(DVec3::new(0.0, y, 0.0))
     };
-    let alone = |value| {
+    let colour = |instances: Vec<Instance>| {
         let drawing = Drawing {
             meshes: &meshes,
-            instances: vec![block(-1.0, value)],
+            instances,
             view: View::From(level()),
+            colours: speed([0.0, 1.0]),
             ..Drawing::default()
         };
-        drawing
-    };
-    let colour = |mut drawing: Drawing<'_>| {
-        drawing.colours = speed([0.0, 1.0]);
-        let camera = View::From(Camera { ..level() });
-        drawing.view = camera;
-        drawing.sun = Some(DVec3::new(0.0, -1.0, 1.0));
-        let picture = render(&drawing, [size[0] + 300, size[1]]);
-        let [x, y] = extent_of_colour(&picture);
+        let picture = render(&drawing, size);
+        let [x, y] = body_in_the_middle_row(&picture);
         picture.pixel(x, y)
     };
-    let [slow, fast] = [0.1, 0.9].map(|value| colour(alone(value)));
+    let [slow, fast] = [0.1, 0.9].map(|value| colour(vec![block(-1.0, value)]));
     assert_ne!(slow, fast);
     for order in [[0, 1], [1, 0]] {
         let both = [block(-1.0, 0.1), block(2.0, 0.9)];
-        let drawing = Drawing {
-            instances: order.map(|index| both[index]).to_vec(),
-            ..alone(0.0)
-        };
-        assert_eq!(colour(drawing), slow, "order {order:?}");
+        let bodies = order.map(|index| both[index]).to_vec();
+        assert_eq!(colour(bodies), slow, "order {order:?}");
     }
 }
 
 /// Middle of the leftmost run of coloured pixels in the middle row.
-fn extent_of_colour(picture: &Picture) -> [u32; 2] {
+fn body_in_the_middle_row(picture: &Picture) -> [u32; 2] {
     let y = picture.height / 2;
     let first = (0..picture.width).find(|&x| picture.pixel(x, y) != WHITE);
     let first = first.expect("a body");
@@ -258,7 +249,7 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
             ..Drawing::default()
         };
         let picture = render(&drawing, size);
-        let [x, y] = extent_of_colour(&picture);
+        let [x, y] = body_in_the_middle_row(&picture);
         let drawn = picture.pixel(x, y).map(linear);
         let map = Palette::Sequential.colour(value);
         let map = [map.0, map.1, map.2].map(linear);
@@ -463,8 +454,8 @@ fn meshes_drawn_together_look_like_meshes_with_many_instances() {
         let bodies = (0..12).map(|index| Instance {
             mesh: if distinct { index } else { 0 },
             // Stretched as well as turned: normals must turn with the surface.
-            deformation: DMat3::from_rotation_x(index as f64)
-                * DMat3::from_diagonal(DVec3::new(1.0, 0.6, 0.8)),
+            deformation: DMat3::from_diagonal(DVec3::new(1.0, 0.6, 0.8))
+                * DMat3::from_rotation_x(index as f64),
             value: Some(index as f64),
             ..body(place(index))
         });

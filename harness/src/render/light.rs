@@ -11,7 +11,7 @@ pub const MOST: usize = 64;
 /// Tiles along each edge of the atlas, and triangles up to which they are as many; the sun takes the
 /// quarter in the corner, the directions of the sky the rest. Every light draws every triangle once, on the CPU
 /// in somewhat less than 1 µs. Beyond, nothing hides the sky.
-const TILES: [(usize, usize); 2] = [(8, 50_000), (4, 400_000)];
+const TILES: [(usize, usize); 2] = [(8, 50_000), (4, 600_000)];
 /// How many times as many triangles a GPU draws in that time, at least.
 const GPU: usize = 50;
 

@@ -3,9 +3,9 @@
 use crate::gpu;
 use riprap::{
     Result,
-    broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
     scene::{Scene, Search},
-    simulation::Dry,
+    simulation::{Dry, block_setup},
     wgpu,
 };
 use std::{path::Path, time::Duration};
@@ -32,14 +32,18 @@ pub enum Finder {
 }
 
 impl Finder {
-    /// The finder that `scene` asks for, on the adapter called `adapter` or the best one. Which is
-    /// faster no device is opened to find out: blocks and contacts are on the host, and a search there
-    /// is a small part of a step.
-    fn new(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
-        if scene.rock.search != Search::Device {
-            return Ok(Self::Host(HostBroadphase));
-        }
-        let adapter = gpu::pick(adapter)?;
+    /// The finder that `scene` asks for where there are `parts`, on the adapter called `adapter` or the
+    /// best one.
+    fn new(scene: &Scene, parts: usize, adapter: Option<&str>) -> Result<Self> {
+        let many = parts >= AutoBroadphase::CROSSOVER;
+        let adapter = match scene.rock.search {
+            Search::Device => gpu::pick(adapter)?,
+            Search::Auto if many => match gpu::pick(adapter) {
+                Ok(found) if !gpu::is_software(&found.get_info()) => found,
+                _ => return Ok(Self::Host(HostBroadphase)),
+            },
+            Search::Auto | Search::Host => return Ok(Self::Host(HostBroadphase)),
+        };
         let has = adapter.limits();
         let limits = wgpu::Limits {
             max_storage_buffers_per_shader_stage: has
@@ -82,7 +86,11 @@ impl Broadphase for Finder {
 /// # Errors
 /// Those of [`Dry::new`], with their line in the file, and of the device.
 pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Dry<Finder>> {
-    let made = pollster::block_on(Dry::new(scene, Finder::new(scene, adapter)?));
+    let made = block_setup(scene).and_then(|setup| {
+        let parts = setup.blocks.iter().map(|block| block.shape.parts().len());
+        let finder = Finder::new(scene, parts.sum(), adapter)?;
+        pollster::block_on(Dry::of(scene, setup, finder))
+    });
     made.map_err(|error| match std::fs::read_to_string(file) {
         Ok(text) => Scene::locate(error, &text, &file.display().to_string()),
         Err(_) => error,

@@ -37,8 +37,15 @@ impl<F: Broadphase> Dry<F> {
     /// What the scene lacks; [`Error::Overlaps`] if blocks overlap, or cannot be pushed apart;
     /// [`Error::TimeStep`] if the step is too long for the contacts at the start.
     pub async fn new(scene: &Scene, finder: F) -> Result<Self> {
+        Self::of(scene, block_setup(scene)?, finder).await
+    }
+
+    /// The same of the [`block_setup`] of `scene`, for a finder that depends on it.
+    ///
+    /// # Errors
+    /// Those of [`Dry::new`].
+    pub async fn of(scene: &Scene, setup: bodies::Setup, finder: F) -> Result<Self> {
         super::uncoupled(scene)?;
-        let setup = block_setup(scene)?;
         let blocks = Blocks::new(setup.clone())?;
         if !blocks.time_step().is_finite() {
             return Err(Error::scene(

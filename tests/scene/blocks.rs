@@ -61,6 +61,7 @@ mass_damping = 0.5
 time_step = 1e-5
 skin = 0.05
 sleep = { speed = 1e-4, time = 0.2 }
+largest_overlap = 0.3
 relax = true
 search = "device"
 [[materials]]

@@ -39,6 +39,12 @@ impl Scene {
         scene.check().map_err(|e| locate(e, text, place))?;
         Ok(scene)
     }
+
+    /// `error`, whose place is a key of the scene in `text`, with the line and column of that key;
+    /// `place` names the text. Errors that have no such place stay as they are.
+    pub fn locate(error: Error, text: &str, place: &str) -> Error {
+        locate(error, text, place)
+    }
 }
 
 /// The error of a text that does not follow the format.

@@ -20,6 +20,10 @@ pub struct Rock {
     /// When blocks that rest are left out of the computation until something reaches them. Default
     /// never.
     pub sleep: Option<Sleep>,
+    /// Largest overlap of two blocks, as a part of the smaller one's least distance from centroid to
+    /// face: beyond it the run ends. Default 0.1, as hard blocks have it; fast ones that hit with their
+    /// corners, which are soft, need more or a greater stiffness.
+    pub largest_overlap: f64,
     /// Whether blocks that overlap at the start are pushed apart before the time 0. Default false:
     /// they are refused.
     pub relax: bool,
@@ -35,6 +39,7 @@ impl Default for Rock {
             time_step: None,
             skin: None,
             sleep: None,
+            largest_overlap: 0.1,
             relax: false,
             search: Search::default(),
         }
@@ -51,15 +56,15 @@ pub struct Sleep {
     pub time: f64,
 }
 
-/// Where pairs of blocks that may touch are searched; the pairs are the same.
+/// Where pairs of blocks that may touch are searched; the pairs are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Search {
-    /// Where it is faster for this number of blocks.
+    /// On the host for less than 10 000 parts, else on a GPU if there is one.
     #[default]
     Auto,
     /// On the host; needs no GPU.
     Host,
-    /// On the device.
+    /// On the device, as a fluid will need it.
     Device,
 }

@@ -34,23 +34,33 @@ impl<F: Broadphase> Dry<F> {
     /// may touch.
     ///
     /// # Errors
-    /// What the scene lacks; [`Error::Overlaps`] if blocks cannot be pushed apart.
+    /// What the scene lacks; [`Error::Overlaps`] if blocks overlap, or cannot be pushed apart;
+    /// [`Error::TimeStep`] if the step is too long for the contacts at the start.
     pub async fn new(scene: &Scene, finder: F) -> Result<Self> {
+        Self::of(scene, block_setup(scene)?, finder).await
+    }
+
+    /// The same of the [`block_setup`] of `scene`, for a finder that depends on it.
+    ///
+    /// # Errors
+    /// Those of [`Dry::new`].
+    pub async fn of(scene: &Scene, setup: bodies::Setup, finder: F) -> Result<Self> {
         super::uncoupled(scene)?;
-        let setup = block_setup(scene)?;
         let blocks = Blocks::new(setup.clone())?;
-        let sub_steps = match scene.rock.time_step {
-            Some(_) => 1.0,
-            None => SUB_STEPS,
-        };
-        let time_step = sub_steps * blocks.time_step();
-        if !time_step.is_finite() {
+        if !blocks.time_step().is_finite() {
             return Err(Error::scene(
                 "rock.time_step",
                 "no block is free, so that no contact says how long a step may be; give time_step \
                  in s",
             ));
         }
+        let usual = SUB_STEPS * blocks.time_step();
+        let time_step = match (scene.rock.time_step, scene.run.duration) {
+            (Some(given), _) => given,
+            (None, None) => usual,
+            // A whole number of steps, so that the run ends when it is said to.
+            (None, Some(duration)) => duration / (duration / usual).ceil(),
+        };
         let mut dry = Self {
             scene: scene.clone(),
             time_step,
@@ -62,7 +72,17 @@ impl<F: Broadphase> Dry<F> {
         if scene.rock.relax {
             dry.blocks.relax(&mut dry.finder, SWEEPS).await?;
         }
+        dry.try_out().await?;
         Ok(dry)
+    }
+
+    /// Takes a sub-step and goes back: overlaps and a step that is too long show before the run.
+    async fn try_out(&mut self) -> Result<()> {
+        let start = self.blocks.snapshot();
+        let pairs = self.finder.pairs(&self.blocks.items()).await?;
+        self.blocks.set_pairs(pairs)?;
+        self.blocks.step()?;
+        self.blocks.restore(&start)
     }
 
     /// Takes `steps` steps, each of as many sub-steps as the contacts want.

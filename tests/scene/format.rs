@@ -155,6 +155,12 @@ fn the_schema_describes_every_key_with_its_unit() {
         "Time step, s.",
         "q_criterion",
         "\"+x\"",
+        "dodecahedron",
+        "Density, kg/m³.",
+        "Mass damping α, 1/s",
+        "rock_masses",
+        "tensile_strength",
+        "persistence",
     ] {
         assert!(schema.contains(part), "{part}");
     }

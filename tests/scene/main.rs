@@ -1,6 +1,7 @@
 //! The scene format: what it accepts, what it refuses and in which words, and what it samples.
 
 mod advice;
+mod blocks;
 mod format;
 mod formulas;
 mod parsing;

@@ -1,10 +1,12 @@
 //! `riprap check`: what a scene will run, and how long it will take.
 
 mod report;
+mod rock;
 mod text;
 mod trial;
 
 pub use report::Report;
+pub use rock::RockReport;
 
 use crate::{adapters::Adapter, gpu, print};
 use anyhow::Result;
@@ -33,6 +35,14 @@ pub struct Args {
 /// What the scene lacks, or what the adapter cannot hold.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
+    if scene.has_blocks() {
+        let report = rock::report(&scene, &args.scene, args.adapter.as_deref())?;
+        return if args.json {
+            print::print_json(&report)
+        } else {
+            print::print(&report.text())
+        };
+    }
     let adapter = gpu::pick(args.adapter.as_deref())?;
     let needs = Needs::of(&scene, &adapter)?;
     let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;

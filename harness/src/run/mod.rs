@@ -66,7 +66,10 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     match (scene.has_fluid(), scene.has_blocks()) {
         (true, false) => travel(Flow::open(&scene, args.adapter.as_deref())?, args, stop),
         // One that has both is refused there.
-        _ => travel(Dry::open(&scene, args.adapter.as_deref())?, args, stop),
+        _ => {
+            let engine = Dry::open(&scene, &args.scene, args.adapter.as_deref())?;
+            travel(engine, args, stop)
+        }
     }
 }
 

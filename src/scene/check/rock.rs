@@ -9,6 +9,7 @@ impl Scene {
         let rock = &self.rock;
         finite("rock.gravity", &rock.gravity)?;
         not_negative("rock.mass_damping", rock.mass_damping, "1/s")?;
+        positive("rock.largest_overlap", rock.largest_overlap, "")?;
         if let Some(time_step) = rock.time_step {
             positive("rock.time_step", time_step, "s")?;
         }

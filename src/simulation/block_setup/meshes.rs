@@ -9,15 +9,15 @@ use glam::DVec3;
 use std::path::Path;
 
 /// The shape of the mesh at `path`, or its hull, and its centroid, m.
-pub(super) fn shape(
-    path: &Path,
-    scale: f64,
-    translate: DVec3,
-    hull: bool,
-) -> Result<(Shape, DVec3)> {
-    let mesh = closed(path, scale, translate)?;
-    let (made, centroid) = Polyhedron::from_vertices(&mesh.vertices).map_err(of_file(path))?;
-    Ok((made.into(), centroid))
+pub(super) fn shape(path: &Path, scale: f64, hull: bool) -> Result<(Shape, DVec3)> {
+    if !hull {
+        return Shape::read(path, scale);
+    }
+    let mesh = closed(path, scale, DVec3::ZERO)?;
+    match Polyhedron::from_vertices(&mesh.vertices) {
+        Ok((made, centroid)) => Ok((made.into(), centroid)),
+        Err(error) => Err(Error::file(path, error)),
+    }
 }
 
 /// Whether a point is inside the mesh at `path`.
@@ -31,17 +31,10 @@ pub(super) fn inside(
     Ok(Box::new(move |x| tree.at(x).abs() > 0.5))
 }
 
+/// The closed mesh at `path`.
 pub(super) fn closed(path: &Path, scale: f64, translate: DVec3) -> Result<TriangleMesh> {
     let mesh = TriangleMesh::read(path, scale, translate.to_array())?;
     mesh.closed()
         .map_err(|message| Error::file(path, message))?;
     Ok(mesh)
-}
-
-/// What a shape says of its faces or vertices, said of the file.
-fn of_file(path: &Path) -> impl Fn(Error) -> Error + '_ {
-    move |error| match error {
-        Error::Scene { place, message } => Error::file(path, format!("{place}: {message}")),
-        other => other,
-    }
 }

@@ -30,6 +30,7 @@ pub fn block_setup(scene: &Scene) -> Result<Setup> {
         damping: rock.mass_damping,
         time_step: rock.time_step,
         skin: rock.skin,
+        largest_overlap: rock.largest_overlap,
         sleep: rock.sleep.map(|sleep| Sleep {
             speed: sleep.speed,
             after: sleep.time,

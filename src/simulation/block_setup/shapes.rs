@@ -23,7 +23,7 @@ pub(super) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Sha
         BlockShape::Sphere { radius } => Shape::sphere(*radius).map(|made| (made, DVec3::ZERO)),
         BlockShape::Mesh { file, scale, hull } => {
             let path = scene.dir().join(file);
-            return super::meshes::shape(&path, *scale, DVec3::ZERO, *hull);
+            return super::meshes::shape(&path, *scale, *hull);
         }
         BlockShape::Compound { parts } => return compound(scene, key, parts),
     }

@@ -47,12 +47,10 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
             file,
             scale,
             translate,
-        } => meshes::shape(
-            &scene.dir().join(file),
-            *scale,
-            DVec3::from(*translate),
-            false,
-        ),
+        } => {
+            let (made, centroid) = meshes::shape(&scene.dir().join(file), *scale, false)?;
+            Ok((made, DVec3::from(*translate) + centroid))
+        }
     }
 }
 

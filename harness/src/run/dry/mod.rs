@@ -34,10 +34,10 @@ pub struct Dry {
 }
 
 impl Dry {
-    /// The scene at its start; the adapter called `adapter`, or the best one, is only opened by what
+    /// The scene that was read from `file`, at its start; the adapter called `adapter`, or the best one, is only opened by what
     /// needs it.
-    pub fn open(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
-        let simulation = crate::search::open(scene, adapter)?;
+    pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
+        let simulation = crate::search::open(scene, file, adapter)?;
         Ok(Self {
             start: simulation.blocks().ledger(),
             simulation,

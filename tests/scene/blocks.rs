@@ -1,0 +1,452 @@
+//! Scenes of blocks: every key, the defaults, and what the blocks become.
+
+use riprap::bodies;
+use riprap::scene::*;
+use riprap::simulation::block_setup;
+
+use crate::{read, refused};
+
+/// A scene of one cube.
+const CUBE: &str = r#"
+[[materials]]
+name = "granite"
+density = 2700
+normal_stiffness = 1e9
+friction = 30
+[[blocks]]
+kind = "box"
+size = [1, 2, 3]
+[run]
+steps = 10
+"#;
+
+fn cube(more: &str) -> riprap::Result<Scene> {
+    read(&format!("{CUBE}{more}"))
+}
+
+fn changed(from: &str, to: &str) -> riprap::Result<Scene> {
+    assert!(CUBE.contains(from));
+    read(&CUBE.replace(from, to))
+}
+
+fn setup(text: &str) -> riprap::Result<bodies::Setup> {
+    block_setup(&read(text)?)
+}
+
+#[test]
+fn a_dry_scene_needs_neither_fluid_nor_domain() {
+    let scene = read(CUBE).unwrap();
+    assert!(scene.has_blocks() && !scene.has_fluid() && !scene.domain.is_given());
+    assert_eq!(scene.rock.gravity, [0.0, 0.0, -9.81]);
+    assert_eq!(scene.rock, Rock::default());
+    let material = &scene.materials[0];
+    assert_eq!((material.shear_stiffness(), material.damping), (0.8e9, 0.1));
+    let block = &scene.blocks[0];
+    assert_eq!((block.motion, block.position), (Motion::Free, [0.0; 3]));
+    let setup = block_setup(&scene).unwrap();
+    assert_eq!(setup.blocks[0].name, "block_1");
+    assert_eq!(setup.blocks[0].shape.volume(), 6.0);
+    assert_eq!(setup.gravity.z, -9.81);
+}
+
+#[test]
+fn every_key_of_blocks_is_understood() {
+    let scene = read(
+        r#"
+[domain]
+size = [20, 20, 20]
+[rock]
+gravity = [0, -9.81, 0]
+mass_damping = 0.5
+time_step = 1e-5
+skin = 0.05
+sleep = { speed = 1e-4, time = 0.2 }
+largest_overlap = 0.3
+relax = true
+search = "device"
+[[materials]]
+name = "a"
+density = 2700
+normal_stiffness = 1e9
+shear_stiffness = 5e8
+friction = 30
+cohesion = 1e3
+tensile_strength = 1e2
+damping = 0.2
+[[material_pairs]]
+between = ["a", "a"]
+normal_stiffness = 2e9
+shear_stiffness = 1e9
+friction = 20
+cohesion = 0
+tensile_strength = 0
+damping = 0.3
+[[blocks]]
+name = "v"
+kind = "vertices"
+vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+position = [1, 1, 1]
+rotation = { axis = [0, 0, 2], angle = 90 }
+velocity = [1, 0, 0]
+spin = [0, 0, 1]
+material = "a"
+[[blocks]]
+name = "h"
+kind = "half_spaces"
+faces = [{ normal = [-1, 0, 0], distance = 0 }, { normal = [0, -1, 0], distance = 0 }, { normal = [0, 0, -1], distance = 0 }, { normal = [1, 1, 1], distance = 0.57735 }]
+position = [3, 1, 1]
+motion = "fixed"
+[[blocks]]
+kind = "tetrahedron"
+edge = 1
+position = [5, 1, 1]
+[[blocks]]
+kind = "octahedron"
+edge = 1
+position = [7, 1, 1]
+[[blocks]]
+kind = "dodecahedron"
+edge = 0.5
+position = [9, 2, 2]
+[[blocks]]
+kind = "icosahedron"
+edge = 0.5
+position = [12, 2, 2]
+[[blocks]]
+name = "s"
+kind = "sphere"
+radius = 0.5
+position = [14, 2, 2]
+motion = "driven"
+velocity = ["sin(t)", 0, 0]
+[[blocks]]
+name = "c"
+kind = "compound"
+parts = [
+  { kind = "box", size = [1, 1, 1] },
+  { kind = "sphere", radius = 0.5, position = [1, 0, 0], rotation = { axis = [1, 0, 0], angle = 10 } },
+]
+position = [16, 2, 2]
+repeat = [{ count = 2, step = [0, 3, 0] }, { count = 2, step = [0, 0, 3] }]
+[[rock_masses]]
+name = "m"
+kind = "box"
+min = [1, 10, 1]
+max = [5, 14, 5]
+joints = [{ dip = 30, dip_direction = 90, spacing = 1, distribution = "normal", scatter = 0.2, origin = [3, 12, 3], persistence = { fraction = 0.5, length = 2 } }]
+seed = 3
+up = [0, 0, 1]
+north = [0, 1, 0]
+smallest_volume = 1e-3
+smallest_thickness = 1e-3
+fixed = [{ kind = "half_space", point = [0, 0, 2], normal = [0, 0, 1] }]
+removed = [{ kind = "sphere", center = [0, 0, 0], radius = 1 }]
+[[solids]]
+kind = "half_space"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+material = "a"
+[run]
+duration = 1
+[output]
+every = 0.1
+contacts = false
+[[output.histories]]
+quantities = ["block_kinetic_energy", "block_potential_energy", "contact_energy", "friction_work", "damping_work", "outside_work", "energy_error", "contacts", "awake_blocks", "block_max_speed"]
+[[probes]]
+name = "p"
+kind = "block"
+block = "c_3"
+every = 0.01
+[[views]]
+name = "front"
+from = [10, -20, 10]
+to = [10, 10, 0]
+up = [0, 0, 1]
+field_of_view = 40
+size = [640, 480]
+speed = 2
+ground = 0
+every = 0.5
+strip = 3
+animation = false
+"#,
+    )
+    .unwrap();
+    assert_eq!(scene.rock.search, Search::Device);
+    assert_eq!(scene.views[0].size, [640, 480]);
+    let setup = block_setup(&scene).unwrap();
+    let names: Vec<_> = setup.blocks.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(
+        &names[..7],
+        ["v", "h", "block_3", "block_4", "block_5", "block_6", "s"]
+    );
+    assert_eq!(&names[7..11], ["c_1", "c_2", "c_3", "c_4"]);
+    assert_eq!((names[11], *names.last().unwrap()), ("m_1", "solid_1"));
+    // The vertices turn about the origin of their frame: (1, 0, 0) goes to (1, 2, 1).
+    let tetrahedron = &setup.blocks[0];
+    let centroid = tetrahedron.centre.to_array();
+    for (got, exact) in centroid.into_iter().zip([0.75, 1.25, 1.25]) {
+        assert!((got - exact).abs() < 1e-14, "{centroid:?}");
+    }
+    assert_eq!(setup.blocks[9].centre.z - setup.blocks[7].centre.z, 3.0);
+    let fixed = |name: &str| {
+        let block = setup.blocks.iter().find(|b| b.name == name).unwrap();
+        block.motion == bodies::Motion::Fixed
+    };
+    assert!(fixed("h") && fixed("solid_1") && !fixed("v"));
+    let mass = setup.blocks.iter().filter(|b| b.name.starts_with("m_"));
+    assert!(mass.clone().any(|b| b.motion == bodies::Motion::Fixed));
+    assert!(mass.clone().any(|b| b.motion == bodies::Motion::Free));
+    let volume: f64 = mass.map(|b| b.shape.volume()).sum();
+    assert!((volume - 64.0).abs() < 0.1, "{volume}");
+}
+
+/// n copies turned by 2π/n about an axis close the circle: the last lies one turn before the first.
+#[test]
+fn rows_that_turn_go_round() {
+    let blocks = setup(&CUBE.replace(
+        "size = [1, 2, 3]",
+        "size = [1, 1, 1]\nposition = [5, 0, 0]\n\
+         repeat = { count = 8, turn = { axis = [0, 0, 1], angle = 45 }, about = [1, 0, 0] }",
+    ))
+    .unwrap()
+    .blocks;
+    assert_eq!(blocks.len(), 8);
+    assert_eq!(blocks[7].name, "block_1_8");
+    for (k, block) in blocks.iter().enumerate() {
+        let angle = f64::to_radians(45.0 * k as f64);
+        let place = glam::DVec3::new(1.0 + 4.0 * angle.cos(), 4.0 * angle.sin(), 0.0);
+        assert!(
+            block.centre.distance(place) < 1e-14,
+            "{k}: {}",
+            block.centre
+        );
+        let x = block.rotation * glam::DVec3::X;
+        assert!(x.distance(glam::DVec3::new(angle.cos(), angle.sin(), 0.0)) < 1e-14);
+    }
+}
+
+/// A solid half-space is as thick as the domain is wide, so that no block falls off its edge soon.
+#[test]
+fn a_half_space_becomes_a_box_beyond_the_domain() {
+    let text = format!(
+        "{CUBE}[domain]\norigin = [-2, -2, -1]\nsize = [4, 4, 5]\n\
+         [[solids]]\nkind = \"half_space\"\npoint = [0, 0, 0]\nnormal = [0, 0, 3]\n"
+    );
+    let ground = setup(&text).unwrap().blocks.pop().unwrap();
+    assert!((ground.shape.volume() - 14.0 * 14.0 * 6.0).abs() < 1e-9);
+    assert!((ground.centre.z + 3.0).abs() < 1e-12, "{}", ground.centre);
+}
+
+#[test]
+fn a_scene_is_of_something() {
+    refused(read("[run]\nsteps = 1\n"), &["neither a fluid nor blocks"]);
+    refused(
+        cube("[numerics]\nmach = 0.1\n"),
+        &["numerics", "there is none", "add [fluid]"],
+    );
+    refused(
+        cube("[[output.histories]]\nquantities = [\"mass\"]\n"),
+        &[
+            "output.histories[0].quantities",
+            "mass",
+            "block_kinetic_energy",
+        ],
+    );
+    refused(
+        cube("[[probes]]\nname = \"p\"\nkind = \"point\"\nat = [0, 0, 0]\n"),
+        &["probes[0]", "kind = \"block\""],
+    );
+    refused(
+        crate::channel("[[views]]\nname = \"v\"\n"),
+        &["views", "there are none"],
+    );
+    refused(
+        crate::channel("[[output.histories]]\nquantities = [\"contacts\"]\n"),
+        &["output.histories[0].quantities", "contacts is of blocks"],
+    );
+}
+
+#[test]
+fn materials_have_mass_and_stiffness() {
+    for (from, to, words) in [
+        (
+            "2700",
+            "0",
+            [
+                "channel.toml:4:11",
+                "materials[0].density",
+                "greater than 0",
+            ],
+        ),
+        (
+            "1e9",
+            "-1",
+            ["channel.toml:5:20", "normal_stiffness", "greater than 0"],
+        ),
+        (
+            "friction = 30",
+            "friction = 90",
+            ["channel.toml:6:12", "friction", "below 90"],
+        ),
+        (
+            "friction = 30",
+            "friction = 3\ndamping = 2",
+            ["channel.toml:7:11", "damping", "such as 0.1"],
+        ),
+        (
+            "density",
+            "densty",
+            ["channel.toml:4:1", "`densty`", "did you mean `density`?"],
+        ),
+        (
+            "friction = 30",
+            "",
+            ["channel.toml:2:1", "`friction` is missing", "materials"],
+        ),
+    ] {
+        refused(changed(from, to), &words);
+    }
+    refused(
+        changed("[[blocks]]", "[[blocks]]\nmaterial = \"marble\""),
+        &["blocks[0].material", "`marble`", "there are: granite"],
+    );
+    refused(
+        read("[[blocks]]\nkind = \"sphere\"\nradius = 1\n[run]\nsteps = 1\n"),
+        &["materials", "add [[materials]]"],
+    );
+}
+
+#[test]
+fn blocks_are_written_so_that_they_can_be_made() {
+    let with = |keys: &str| changed("size = [1, 2, 3]", &format!("size = [1, 2, 3]\n{keys}"));
+    refused(
+        changed("[1, 2, 3]", "[1, 0, 3]"),
+        &["blocks[0].size[1]", "greater than 0"],
+    );
+    refused(
+        changed("\"box\"", "\"cube\""),
+        &["no word `cube`", "possible are box, vertices"],
+    );
+    refused(
+        changed("size = [1, 2, 3]", "edge = 1"),
+        &["`edge` has no meaning for kind `box`", "size"],
+    );
+    refused(
+        with("motion = \"fixed\"\nvelocity = [1, 0, 0]"),
+        &["blocks[0].velocity", "driven"],
+    );
+    refused(
+        with("velocity = [\"t\", 0, 0]"),
+        &["blocks[0].velocity", "motion = \"driven\""],
+    );
+    refused(
+        with("motion = \"driven\"\nvelocity = [\"x\", 0, 0]"),
+        &["blocks[0].velocity", "formula of t"],
+    );
+    refused(
+        with("repeat = { count = 0 }"),
+        &["blocks[0].repeat[0].count", "at least 1"],
+    );
+    refused(
+        with("repeat = { count = 2 }"),
+        &["blocks[0].repeat[0]", "step or a turn"],
+    );
+    refused(with("repeat = { cout = 2 }"), &["did you mean `count`?"]);
+    refused(
+        with("rotation = { axis = [0, 0, 0], angle = 1 }"),
+        &["rotation.axis", "direction"],
+    );
+    refused(
+        changed(
+            "kind = \"box\"\nsize = [1, 2, 3]",
+            "kind = \"compound\"\nparts = [{ kind = \"box\", size = [1, 1, 1], motion = \"free\" }]",
+        ),
+        &["`motion` belongs to the whole block"],
+    );
+    refused(
+        changed(
+            "kind = \"box\"\nsize = [1, 2, 3]",
+            "kind = \"vertices\"\nvertices = [[0, 0, 0]]",
+        ),
+        &["blocks[0].vertices", "at least 4"],
+    );
+}
+
+#[test]
+fn what_is_no_block_is_refused_with_its_table_and_key() {
+    let of = |shape: &str| setup(&CUBE.replace("kind = \"box\"\nsize = [1, 2, 3]", shape));
+    refused(
+        of("kind = \"vertices\"\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]"),
+        &["blocks[0].vertices", "one plane"],
+    );
+    refused(
+        of(
+            "kind = \"half_spaces\"\nfaces = [{ normal = [-1, 0, 0], distance = 0 }, { normal = [0, -1, 0], distance = 0 }, { normal = [0, 0, -1], distance = 0 }, { normal = [1, 1, 0], distance = 1 }]",
+        ),
+        &["blocks[0].faces", "unbounded"],
+    );
+    refused(
+        of("kind = \"box\"\nsize = [1, 1, 1e-6]"),
+        &["blocks[0]", "thinner than 1/10000"],
+    );
+}
+
+#[test]
+fn names_and_places_are_those_of_blocks() {
+    refused(
+        setup(&format!(
+            "{CUBE}[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"blok_1\"\n"
+        )),
+        &["probes[0].block", "did you mean `block_1`?"],
+    );
+    refused(
+        setup(&format!(
+            "{CUBE}[domain]\norigin = [5, 0, 0]\nsize = [1, 1, 1]\n"
+        )),
+        &["block_1", "outside the domain", "move it"],
+    );
+    refused(
+        cube("[[solids]]\nkind = \"half_space\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"),
+        &["solids[0]", "[domain]"],
+    );
+}
+
+#[test]
+fn rock_masses_and_views_agree_with_themselves() {
+    let mass = |joint: &str| {
+        cube(&format!(
+            "[[rock_masses]]\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\njoints = [{{ {joint} }}]\n"
+        ))
+    };
+    mass("dip = 30, dip_direction = 90, spacing = 1").unwrap();
+    refused(
+        mass("dip = 100, dip_direction = 90, spacing = 1"),
+        &["rock_masses[0].joints[0].dip", "90 (upright)"],
+    );
+    refused(
+        mass("dip = 30, dip_direction = 90, spacing = 0"),
+        &["joints[0].spacing", "greater than 0"],
+    );
+    refused(
+        mass("dip = 30, dip_direction = 90, spacing = 1, scatter = 0.2"),
+        &["scatter", "distribution"],
+    );
+    refused(
+        mass("dip = 30, dipdirection = 90, spacing = 1"),
+        &["did you mean `dip_direction`?"],
+    );
+    refused(
+        cube("[[views]]\nname = \"v\"\nfrom = [0, 0, 1]\n"),
+        &["views[0].from", "add `to`"],
+    );
+    refused(
+        cube("[[views]]\nname = \"v\"\nfrom = [0, 0, 1]\nto = [0, 0, 0]\n"),
+        &["views[0].up", "looks along it"],
+    );
+    refused(
+        cube("[[views]]\nname = \"v\"\nsize = [10, 10]\n"),
+        &["views[0].size[0]", "64 to 8192"],
+    );
+}

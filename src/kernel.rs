@@ -169,7 +169,16 @@ impl Kernel {
         if groups == 0 {
             return;
         }
-        let [x, y] = fold(groups);
+        self.record_grid(pass, bind, fold(groups));
+    }
+
+    /// Records a dispatch of x × y workgroups, for kernels that count them row by row.
+    pub fn record_grid(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        bind: &wgpu::BindGroup,
+        [x, y]: [u32; 2],
+    ) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, bind, &[]);
         pass.dispatch_workgroups(x, y, 1);

@@ -55,6 +55,7 @@ pub mod output;
 pub mod probe;
 pub mod readback;
 pub mod scene;
+pub mod search;
 pub mod simulation;
 pub mod solid;
 pub mod timer;

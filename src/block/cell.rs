@@ -1,6 +1,7 @@
 //! A convex cell in the making: planes, vertices and rings, cut by one plane after another.
 
 use super::HalfSpace;
+use super::settle::meet;
 use glam::DVec3;
 
 /// Part of a cell's size within which a vertex counts as on a plane: a thousand times the rounding of
@@ -27,7 +28,7 @@ struct Crossing {
 }
 
 /// Volume spanned by three unit normals below which they fix no point well.
-const PARALLEL: f64 = 1e-6;
+pub(super) const PARALLEL: f64 = 1e-6;
 
 /// A convex cell. Vertices that no ring names any more are NaN until the next [`Cell::compact`].
 #[derive(Clone, Debug)]
@@ -49,6 +50,15 @@ pub(super) enum Clip {
 }
 
 impl Cell {
+    /// A cell that is closed and convex.
+    pub fn new(vertices: Vec<DVec3>, facets: Vec<Facet>) -> Self {
+        Self {
+            vertices,
+            facets,
+            dead: 0,
+        }
+    }
+
     /// The box between two corners.
     pub fn cuboid(min: DVec3, max: DVec3) -> Self {
         let vertex = |i: u32| {
@@ -60,18 +70,15 @@ impl Cell {
             source: START,
             ring: ring.to_vec(),
         };
-        Self {
-            vertices: (0..8).map(vertex).collect(),
-            facets: vec![
-                facet(DVec3::NEG_X, -min.x, [0, 4, 6, 2]),
-                facet(DVec3::X, max.x, [1, 3, 7, 5]),
-                facet(DVec3::NEG_Y, -min.y, [0, 1, 5, 4]),
-                facet(DVec3::Y, max.y, [2, 6, 7, 3]),
-                facet(DVec3::NEG_Z, -min.z, [0, 2, 3, 1]),
-                facet(DVec3::Z, max.z, [4, 5, 7, 6]),
-            ],
-            dead: 0,
-        }
+        let facets = vec![
+            facet(DVec3::NEG_X, -min.x, [0, 4, 6, 2]),
+            facet(DVec3::X, max.x, [1, 3, 7, 5]),
+            facet(DVec3::NEG_Y, -min.y, [0, 1, 5, 4]),
+            facet(DVec3::Y, max.y, [2, 6, 7, 3]),
+            facet(DVec3::NEG_Z, -min.z, [0, 2, 3, 1]),
+            facet(DVec3::Z, max.z, [4, 5, 7, 6]),
+        ];
+        Self::new((0..8).map(vertex).collect(), facets)
     }
 
     /// Cuts away what is outside `plane`; vertices nearer than `on` (m) count as on it.
@@ -193,16 +200,7 @@ impl Cell {
         let [ha, hb] = crossing.edge.map(|v| heights[v as usize]);
         let between = a + (b - a) * (ha / (ha - hb));
         let [p, q] = crossing.facets.map(|f| self.facets[f].plane);
-        // From there, so that distances are small.
-        let [hp, hq, h] = [&p, &q, plane].map(|f| f.height(between));
-        let across = p.normal.cross(q.normal);
-        let det = across.dot(plane.normal);
-        if det.abs() < PARALLEL {
-            return between;
-        }
-        let sum =
-            q.normal.cross(plane.normal) * hp + plane.normal.cross(p.normal) * hq + across * h;
-        between - sum / det
+        meet([p, q, *plane], between).unwrap_or(between)
     }
 
     /// Drops the vertices that no ring names.

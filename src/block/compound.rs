@@ -1,6 +1,7 @@
 //! Rigid compounds of convex parts.
 
 use super::moments::outer;
+use super::solids::positive;
 use super::{Form, Part, Shape};
 use crate::{Error, Result};
 use glam::{DMat3, DVec3};
@@ -11,7 +12,7 @@ impl Shape {
     /// not overlap, or their mass would count twice.
     ///
     /// # Errors
-    /// If there is no part, or an offset is not finite.
+    /// If there is no part, an offset is not finite, a sphere has no radius, or two parts overlap.
     pub fn compound(parts: Vec<Part>) -> Result<(Self, DVec3)> {
         if parts.is_empty() {
             let message = "a compound needs a part; give at least one";
@@ -22,6 +23,18 @@ impl Shape {
                 format!("parts[{bad}].offset"),
                 format!("{} is not finite; give numbers in m", parts[bad].offset),
             ));
+        }
+        for (index, part) in parts.iter().enumerate() {
+            if let Form::Sphere { radius } = part.form {
+                positive(&format!("parts[{index}].radius"), radius)?;
+            }
+            if let Some(other) = parts[..index].iter().position(|p| p.overlaps(part)) {
+                let message = format!(
+                    "it overlaps parts[{other}], and mass would count twice there; move or cut one \
+                     of them, or give the outline of both as a mesh"
+                );
+                return Err(Error::scene(format!("parts[{index}]"), message));
+            }
         }
         let volume: f64 = parts.iter().map(|p| p.form.volume()).sum();
         let first: DVec3 = parts.iter().map(|p| p.offset * p.form.volume()).sum();

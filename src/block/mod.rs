@@ -3,14 +3,19 @@
 mod cell;
 mod compass;
 mod compound;
+mod convex_parts;
 mod from_half_spaces;
+mod from_mesh;
 mod from_vertices;
 mod half_space;
 mod joint_set;
 mod moments;
+mod overlap;
+mod polygons;
 mod polyhedron;
 mod random;
 mod rock_mass;
+mod settle;
 mod shape;
 mod solids;
 

@@ -68,6 +68,7 @@ impl Polyhedron {
     /// The polyhedron that a finished cell is, and the cell's centroid.
     pub(super) fn from_cell(mut cell: Cell) -> Result<(Self, DVec3)> {
         cell.compact();
+        cell.settle();
         let Some(centroid) = cell.centroid() else {
             return Err(Error::scene(
                 "faces",

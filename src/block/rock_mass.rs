@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// Most pieces: their polyhedra take about 2 kB each.
 const MOST: usize = 10_000_000;
 
+/// Radius of the smallest block, as part of the size of the mass: it is known to 1e-6 of itself.
+const SPECK: f64 = 1e-6;
+
 /// A rock mass to be cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockMass {
@@ -30,7 +33,8 @@ pub struct RockMass {
     /// Pieces smaller than this are slivers, m³; 0 for none.
     pub smallest_volume: f64,
     /// Pieces with a face nearer to the centroid than this part of the diameter (twice the radius) are
-    /// slivers; those below 1e-4, which contact cannot resolve, always are.
+    /// slivers. Those below 1e-4, which contact cannot resolve, always are, and so are pieces smaller
+    /// than 1e-6 of the mass, of which rounding takes too many digits.
     pub smallest_thickness: f64,
 }
 
@@ -106,8 +110,11 @@ impl RockMass {
             pieces.push(cell);
         }
         let middle = recentre(&mut pieces);
-        let size = pieces.iter().flat_map(Cell::live);
-        let on = ON * size.map(|v| v.abs().max_element()).fold(0.0, f64::max);
+        let reach = pieces
+            .iter()
+            .flat_map(Cell::live)
+            .map(|v| v.abs().max_element());
+        let size = reach.fold(0.0, f64::max);
         pieces.iter_mut().for_each(Cell::compact);
         let volume = pieces.iter().map(|p| p.moments(DVec3::ZERO).volume).sum();
         for (index, set) in self.joints.iter().enumerate() {
@@ -127,7 +134,7 @@ impl RockMass {
                 joints,
                 first: planes.len() as u32,
                 middle,
-                on,
+                on: ON * size,
             };
             let most: usize = pieces.par_iter().map(|p| 1 + cutter.meets(p).len()).sum();
             if most > MOST {
@@ -142,7 +149,7 @@ impl RockMass {
         }
         let made: Vec<Piece> = pieces
             .into_par_iter()
-            .map(|cell| self.finish(cell, &planes, middle))
+            .map(|cell| self.finish(cell, &planes, middle, size))
             .collect();
         let mut fragments = Fragments {
             volume,
@@ -157,8 +164,9 @@ impl RockMass {
         Ok(fragments)
     }
 
-    fn finish(&self, mut cell: Cell, planes: &[HalfSpace], middle: DVec3) -> Piece {
+    fn finish(&self, mut cell: Cell, planes: &[HalfSpace], middle: DVec3, size: f64) -> Piece {
         cell.compact();
+        cell.settle();
         let Some(centroid) = cell.centroid() else {
             return Piece::Sliver(Sliver {
                 volume: cell.moments(cell.vertices[0]).volume,
@@ -178,13 +186,14 @@ impl RockMass {
         };
         let volume = block.shape.volume();
         let thickness = block.shape.thickness();
-        if volume >= self.smallest_volume && thickness >= self.smallest_thickness.max(SLIVER) {
+        let possible = thickness >= SLIVER && block.shape.radius() >= SPECK * size;
+        if possible && volume >= self.smallest_volume && thickness >= self.smallest_thickness {
             return Piece::Block(block);
         }
         Piece::Sliver(Sliver {
             volume,
             centre: block.centre,
-            block: (thickness >= SLIVER).then_some(block),
+            block: possible.then_some(block),
         })
     }
 }

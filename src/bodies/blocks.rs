@@ -54,9 +54,11 @@ pub struct Blocks {
     pub(super) skin: f64,
     pub(super) sleep: Option<Sleep>,
     pub(super) start_overlap: f64,
+    pub(super) largest_overlap: f64,
     pub(super) resolvers: Resolvers,
 
     pub(super) time: f64,
+    pub(super) steps: u64,
     pub(super) time_step: f64,
     pub(super) started: bool,
     pub(super) states: Vec<State>,
@@ -121,8 +123,10 @@ impl Blocks {
             given_step: setup.time_step.is_some(),
             sleep: setup.sleep,
             start_overlap: setup.start_overlap,
+            largest_overlap: setup.largest_overlap,
             resolvers: Resolvers::new(options),
             time: 0.0,
+            steps: 0,
             time_step,
             started: false,
             marks: Vec::new(),
@@ -154,6 +158,11 @@ impl Blocks {
     /// s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.steps
     }
 
     /// Step of [`Blocks::step`], and the longest of [`Blocks::advance`], s.
@@ -292,6 +301,7 @@ impl Blocks {
             state.load = load.force;
             state.load_torque = load.torque();
         }
+        self.wake();
         Ok(())
     }
 
@@ -320,7 +330,11 @@ impl Blocks {
     /// Time for which pairs must be known ahead, s.
     fn ahead(&self) -> f64 {
         // Without free blocks no step is too long, and there are no pairs.
-        if self.time_step.is_finite() { self.time_step } else { 0.0 }
+        if self.time_step.is_finite() {
+            self.time_step
+        } else {
+            0.0
+        }
     }
 
     /// A block in a message.

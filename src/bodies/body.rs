@@ -81,12 +81,10 @@ impl State {
         Pose::rigid(self.centre, self.rotation, self.velocity, self.spin)
     }
 
+    /// Whether it can be computed with: distances and energies are squares.
     pub fn is_finite(&self) -> bool {
-        self.centre.is_finite()
-            && self.rotation.is_finite()
-            && self.velocity.is_finite()
-            && self.momentum.is_finite()
-            && self.spin.is_finite()
+        let squares = [self.centre, self.velocity, self.momentum, self.spin];
+        self.rotation.is_finite() && squares.iter().all(|v| v.length_squared().is_finite())
     }
 
     /// ½mv² + ½ω·L, J.

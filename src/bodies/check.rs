@@ -28,6 +28,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         positive("skin", skin, "m")?;
     }
     positive("start_overlap", setup.start_overlap, "")?;
+    positive("largest_overlap", setup.largest_overlap, "")?;
     if let Some(Sleep {
         speed,
         after,

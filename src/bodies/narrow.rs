@@ -4,7 +4,7 @@ use super::{
     Body,
     body::{Flight, State},
     parts::Parts,
-    touch::{NONE, Pair, Touch},
+    touch::{NONE, Pair, TENTHS, Touch},
 };
 use crate::{
     Error, Result,
@@ -82,8 +82,8 @@ pub(super) struct Scene<'a> {
     pub time_step: f64,
     /// Whether contacts that begin now are bonded.
     pub bonding: bool,
-    /// Whether blocks may overlap deeply.
-    pub deep: bool,
+    /// Largest overlap, as a share of the smaller distance from centroid to face.
+    pub largest_overlap: f64,
 }
 
 /// The joint of every two materials.
@@ -174,14 +174,16 @@ impl Scene<'_> {
                 },
                 ..*touch
             }),
-            Verdict::Contact(contact) if contact.is_deep() && !self.deep => {
+            Verdict::Contact(contact)
+                if contact.overlap > TENTHS * self.largest_overlap * contact.limit =>
+            {
                 return Err(Error::DeepOverlap {
                     first: self.name(blocks[0]),
                     second: self.name(blocks[1]),
                     depth: contact.overlap,
-                    limit: contact.limit,
-                    remedy: "take a greater normal_stiffness, a shorter time_step, or press them \
-                             together more slowly"
+                    limit: TENTHS * self.largest_overlap * contact.limit,
+                    remedy: "take a greater normal_stiffness, press them together more slowly, or \
+                             allow a greater largest_overlap"
                         .into(),
                 });
             }

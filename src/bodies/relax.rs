@@ -1,6 +1,6 @@
 //! Pushing apart what overlaps before the first step.
 
-use super::{Blocks, parts::place};
+use super::{Blocks, parts::place, touch::TENTHS};
 use crate::{
     Error, Result,
     broadphase::Broadphase,
@@ -49,8 +49,7 @@ impl Blocks {
             else {
                 continue;
             };
-            // `limit` is a tenth of the distance that `start_overlap` is a share of.
-            let most = 10.0 * self.start_overlap * contact.limit;
+            let most = TENTHS * self.start_overlap * contact.limit;
             if contact.overlap <= most {
                 continue;
             }

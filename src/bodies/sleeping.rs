@@ -13,23 +13,27 @@ impl State {
         [self.force + self.load, self.torque + self.load_torque]
     }
 
-    /// Falls asleep, stays so or wakes at the end of a step of `dt` (s).
-    pub fn drowse(&mut self, body: &Body, sleep: &Sleep, gravity: DVec3, dt: f64) {
-        let radius = body.shape.radius();
+    /// Wakes a sleeper whose forces have changed. It has been at rest up to now, so that the rest of the
+    /// step moves it as it would have moved a block that was awake.
+    pub fn wake(&mut self, body: &Body, sleep: &Sleep, gravity: DVec3) {
+        let [force, torque] = self.pulls();
+        let [slept, slept_torque] = self.slept;
+        let weight = body.mass * gravity.length();
+        let scale = if weight > 0.0 { weight } else { slept.length() };
+        let changed = (force - slept).length() > sleep.change * scale
+            || (torque - slept_torque).length() > sleep.change * scale * body.shape.radius();
+        if self.asleep && changed {
+            self.asleep = false;
+            self.slow = 0.0;
+        }
+    }
+
+    /// Falls asleep at the end of a step of `dt` (s), if it has been slow for long enough.
+    pub fn drowse(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
         if self.asleep {
-            let [force, torque] = self.pulls();
-            let [slept, slept_torque] = self.slept;
-            let weight = body.mass * gravity.length();
-            let scale = if weight > 0.0 { weight } else { slept.length() };
-            let changed = (force - slept).length() > sleep.change * scale
-                || (torque - slept_torque).length() > sleep.change * scale * radius;
-            if changed {
-                self.asleep = false;
-                self.slow = 0.0;
-            }
             return;
         }
-        if self.fastest(radius) >= sleep.speed {
+        if self.fastest(body.shape.radius()) >= sleep.speed {
             self.slow = 0.0;
             return;
         }

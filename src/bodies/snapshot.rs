@@ -23,6 +23,7 @@ const MAGIC: &[u8; 16] = b"riprap blocks 1\n";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     time: f64,
+    steps: u64,
     time_step: f64,
     started: bool,
     states: Vec<State>,
@@ -69,6 +70,7 @@ impl Blocks {
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             time: self.time,
+            steps: self.steps,
             time_step: self.time_step,
             started: self.started,
             states: self.states.clone(),
@@ -108,6 +110,7 @@ impl Blocks {
             return Err(Error::scene("snapshot", message));
         }
         self.time = snapshot.time;
+        self.steps = snapshot.steps;
         self.time_step = snapshot.time_step;
         self.started = snapshot.started;
         self.states.clone_from(&snapshot.states);
@@ -122,6 +125,7 @@ impl Blocks {
 
 fields!(Snapshot {
     time,
+    steps,
     time_step,
     started,
     states,
@@ -144,7 +148,11 @@ fields!(State {
     asleep,
     slept,
 });
-fields!(Mark { centre, rotation, room });
+fields!(Mark {
+    centre,
+    rotation,
+    room
+});
 fields!(Pair {
     parts,
     cache,

@@ -5,7 +5,7 @@ use super::{
     body::{self, Flight, State},
     bound, narrow,
     parts::place,
-    touch::Touch,
+    touch::{TENTHS, Touch},
 };
 use crate::{Error, Result, error::Overlap, law};
 use glam::DVec3;
@@ -134,6 +134,7 @@ impl Blocks {
         std::mem::swap(&mut self.pairs, &mut self.next_pairs);
         std::mem::swap(&mut self.touches, &mut touches);
         self.sum_forces();
+        self.wake();
         for (body, state) in self.bodies.iter().zip(&mut self.states) {
             body::land(body, state, gravity, damping, dt);
         }
@@ -143,15 +144,26 @@ impl Blocks {
         if let Some(sleep) = self.sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
                 if body.is_free() {
-                    state.drowse(body, &sleep, gravity, dt);
+                    state.drowse(body, &sleep, dt);
                 }
             }
         }
         self.time += dt;
+        self.steps += 1;
         self.shorten();
     }
 
-    /// The contacts of all pairs, into `next_pairs`.
+    /// Wakes the sleepers that something new pulls at.
+    pub(super) fn wake(&mut self) {
+        let Some(sleep) = self.sleep else {
+            return;
+        };
+        for (body, state) in self.bodies.iter().zip(&mut self.states) {
+            state.wake(body, &sleep, self.gravity);
+        }
+    }
+
+    /// The contacts of all pairs, into `next_pairs`. Those of the start are bonded, and as deep as they are.
     fn contacts_after(&mut self, dt: f64, bonding: bool) -> Result<Vec<Touch>> {
         self.next_pairs.clone_from(&self.pairs);
         let scene = narrow::Scene {
@@ -163,7 +175,11 @@ impl Blocks {
             touches: &self.touches,
             time_step: dt,
             bonding,
-            deep: bonding,
+            largest_overlap: if bonding {
+                f64::INFINITY
+            } else {
+                self.largest_overlap
+            },
         };
         narrow::resolve(&scene, &mut self.resolvers, &mut self.next_pairs)
     }
@@ -212,8 +228,7 @@ impl Blocks {
     }
 
     fn check_start(&self, touches: &[Touch]) -> Result<()> {
-        // `limit` is a tenth of the distance that `start_overlap` is a share of.
-        let most = |touch: &Touch| 10.0 * self.start_overlap * touch.limit;
+        let most = |touch: &Touch| TENTHS * self.start_overlap * touch.limit;
         let mut deep: Vec<_> = touches.iter().filter(|t| t.overlap > most(t)).collect();
         if deep.is_empty() {
             return Ok(());

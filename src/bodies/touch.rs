@@ -6,6 +6,10 @@ use glam::DVec3;
 /// No contact.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// The resolver's limit is a tenth of the smaller distance from centroid to face, of which overlaps are
+/// given as shares.
+pub(super) const TENTHS: f64 = 10.0;
+
 /// A candidate pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {

@@ -1,46 +1,22 @@
 //! Boxes as the search sees them: f32 about a local origin, sorted into levels by size.
 
 use super::Item;
-use crate::{Error, Result};
-use bytemuck::{Pod, Zeroable};
+use crate::{
+    Error, Result,
+    search::{DeviceBox, Level, MAX_LEVELS, NUMBER_BITS},
+};
+use bytemuck::Zeroable;
 
 /// Largest coordinate, m: squares and differences of f32 are far from their end there.
 pub const FARTHEST: f64 = (1u128 << 100) as f64;
 
 /// Exponents of the cell edges that the search uses, in powers of two of a metre.
 const FINEST: i32 = -100;
-const COARSEST: i32 = 102;
+const COARSEST: i32 = FINEST + MAX_LEVELS as i32 - 1;
 
 /// Cells from the origin to the farthest corner are at most 2 to this power, so that an f32 holds
 /// their numbers exactly.
 const DIGITS: i32 = 22;
-
-/// Bits of [`DeviceBox::tag`] that hold the number of the item.
-pub(super) const NUMBER_BITS: u32 = 24;
-
-/// A box on the device.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct DeviceBox {
-    /// Lower corner from the local origin, m.
-    pub min: [f32; 3],
-    /// Group of the item.
-    pub group: u32,
-    /// Upper corner from the local origin, m.
-    pub max: [f32; 3],
-    /// Number of the item in the lower 24 bits, its level in the upper 8.
-    pub tag: u32,
-}
-
-/// The cells of the items of one size.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Level {
-    /// Cells a metre, a power of two.
-    pub scale: f32,
-    /// Longest edge of a box of this level, m; at most that of a cell.
-    pub extent: f32,
-}
 
 /// Boxes with the levels that they are on.
 ///
@@ -65,7 +41,7 @@ impl Boxes {
         check(items)?;
         let origin = middle(items);
         let mut boxes = Vec::with_capacity(items.len());
-        let mut longest = [None; (COARSEST - FINEST + 1) as usize];
+        let mut longest = [None; MAX_LEVELS];
         for (number, item) in (0..).zip(items) {
             let local = |corner: [f64; 3]| [0, 1, 2].map(|a| (corner[a] - origin[a]) as f32);
             let (min, max) = (local(item.min), local(item.max));
@@ -106,23 +82,6 @@ impl Boxes {
             item.tag = number | level << NUMBER_BITS;
         }
         Ok(Self { boxes, levels })
-    }
-}
-
-impl DeviceBox {
-    /// Number of the item.
-    pub fn number(&self) -> u32 {
-        self.tag & ((1 << NUMBER_BITS) - 1)
-    }
-
-    /// Its level, an index into [`Boxes::levels`].
-    pub fn level(&self) -> u32 {
-        self.tag >> NUMBER_BITS
-    }
-
-    /// Whether the two boxes have a point in common.
-    pub fn overlaps(&self, other: &Self) -> bool {
-        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
     }
 }
 

@@ -2,8 +2,11 @@
 //! item lies in the one cell of its level that holds its lower corner, and looks through the cells
 //! of its own and all coarser levels from which a box can reach it.
 
-use super::{Boxes, Broadphase, DeviceBox, Item, Level, list};
-use crate::Result;
+use super::{Boxes, Broadphase, Item, list};
+use crate::{
+    Result,
+    search::{DeviceBox, Level},
+};
 use rayon::prelude::*;
 
 /// Up to here trying every pair is faster than making cells.

@@ -5,11 +5,15 @@
 
 use crate::Result;
 
+mod auto;
 mod boxes;
+mod device;
 mod host;
 mod list;
 
-pub use boxes::{Boxes, DeviceBox, FARTHEST, Level};
+pub use auto::AutoBroadphase;
+pub use boxes::{Boxes, FARTHEST};
+pub use device::{DeviceBroadphase, Header, Search};
 pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.

@@ -25,11 +25,13 @@ const FULL_STEP: f64 = 0.25;
 const MAX_STEPS: u64 = 60;
 
 impl Centring {
-    /// Moves `point`, inside all rows, to the analytic centre; the slacks there stay in `slacks`.
-    /// Returns the number of steps.
-    pub fn run(&mut self, rows: &[Row], point: &mut DVec3) -> u64 {
+    /// Moves `point`, inside all rows moved out by `widening`, to their analytic centre; the slacks
+    /// there stay in `slacks`. Returns the number of steps.
+    pub fn run(&mut self, rows: &[Row], widening: f64, point: &mut DVec3) -> u64 {
         self.slacks.clear();
-        let slacks = rows.iter().map(|row| row.offset - row.normal.dot(*point));
+        let slacks = rows
+            .iter()
+            .map(|row| row.offset - row.normal.dot(*point) + widening);
         self.slacks.extend(slacks);
         let tightest = (0..rows.len()).fold(0, |best, k| {
             if self.slacks[k] < self.slacks[best] {

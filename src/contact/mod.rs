@@ -6,8 +6,8 @@
 //! proves that there is one, and a pair of which neither can be shown is [`Verdict::Touching`].
 //!
 //! The way to a proof, cheapest first: bounding spheres; the plane or the point kept in the
-//! [`Cache`] of the pair; faces and the line of centres; the linear program. Then the analytic
-//! centre, the normal, and the section of the overlap.
+//! [`Cache`] of the pair; faces, the line of centres and the surroundings of the last point; the
+//! linear program. Then the analytic centre, the normal, and the section of the overlap.
 //!
 //! ```
 //! use glam::{DQuat, DVec3};
@@ -37,6 +37,7 @@
 mod cache;
 mod centre;
 mod counts;
+mod describe;
 mod guess;
 mod normal;
 mod options;
@@ -45,6 +46,7 @@ mod placed;
 mod polygon;
 mod program;
 mod projection;
+mod prove;
 mod resolver;
 mod section;
 mod separation;

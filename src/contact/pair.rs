@@ -54,8 +54,9 @@ impl<'a> Pair<'a> {
     ///
     /// Of a much larger block only the faces that come within twice the smaller block's bounding
     /// sphere are kept. A plane outside the sphere cuts nothing off the smaller block, so the overlap
-    /// is exactly the same; the factor of two keeps a face that comes or goes at least a radius from
-    /// the overlap, where it weighs next to nothing in the analytic centre.
+    /// is exactly the same, and so is the verdict. The analytic centre is that of the faces
+    /// kept: the factor of two keeps a face that comes or goes at least a radius from the overlap, where
+    /// its 1/t is small against that of the faces that bound the overlap.
     pub fn fill(&self, rows: &mut Vec<Row>) -> usize {
         let scale = self.length.recip();
         rows.clear();

@@ -7,83 +7,112 @@ use glam::{DMat3, DVec3};
 /// passes beyond this are rounding.
 const MAX_PASSES: usize = 200;
 
+/// Square of the sine of the angle below which a face is held by the others already.
+const PARALLEL: f64 = 1e-14;
+
+/// Faces that hold the point: on a face, an edge, or a corner.
+#[derive(Default)]
+struct Held {
+    faces: [usize; 3],
+    multipliers: [f64; 3],
+    count: usize,
+}
+
 /// The point of {x : a_k · x ≤ d_k} nearest to `from`, to within `tolerance` (m).
 pub(super) fn nearest(faces: &[HalfSpace], from: DVec3, tolerance: f64) -> DVec3 {
     let mut x = from;
-    // Faces that hold the point, with their multipliers.
-    let mut active: Vec<(usize, f64)> = Vec::with_capacity(4);
-    let mut passes = 0;
-    loop {
+    let mut held = Held::default();
+    // The face that is violated most, and its multiplier, until it is held.
+    let mut entering: Option<(usize, f64)> = None;
+    for _ in 0..MAX_PASSES {
         let violation = |k: usize| faces[k].normal.dot(x) - faces[k].distance;
-        let worst = (0..faces.len()).fold(0, |best, k| {
-            if violation(k) > violation(best) {
-                k
+        let (face, multiplier) = entering.unwrap_or_else(|| {
+            let worst = (0..faces.len()).fold(0, |best, k| {
+                if violation(k) > violation(best) {
+                    k
+                } else {
+                    best
+                }
+            });
+            (worst, 0.0)
+        });
+        if violation(face) <= tolerance && entering.is_none() {
+            return x;
+        }
+        let normal = faces[face].normal;
+        let shares = held.shares(faces, normal);
+        let free = normal - held.sum(faces, shares);
+        let rate = free.length_squared();
+        let can_move = held.count < 3 && rate > PARALLEL;
+        let full = if can_move {
+            violation(face) / rate
+        } else {
+            f64::INFINITY
+        };
+        let (way, blocking) = held.first_released(shares);
+        let step = full.min(way);
+        if !step.is_finite() {
+            return x; // No such point: the faces enclose nothing.
+        }
+        if can_move {
+            x -= step * free;
+        }
+        for (multiplier, share) in held.multipliers.iter_mut().zip(shares) {
+            *multiplier -= step * share;
+        }
+        if full <= way {
+            held.add(face, multiplier + step);
+            entering = None;
+        } else {
+            held.remove(blocking);
+            entering = Some((face, multiplier + step));
+        }
+    }
+    x
+}
+
+impl Held {
+    /// Shares s of the held normals with Σ s n nearest to `target`.
+    fn shares(&self, faces: &[HalfSpace], target: DVec3) -> [f64; 3] {
+        let normal = |i: usize| (i < self.count).then(|| faces[self.faces[i]].normal);
+        let dot = |i: usize, j: usize| match (normal(i), normal(j)) {
+            (Some(a), Some(b)) => a.dot(b),
+            _ => f64::from(u8::from(i == j)),
+        };
+        let column = |j| DVec3::new(dot(0, j), dot(1, j), dot(2, j));
+        let gram = DMat3::from_cols(column(0), column(1), column(2));
+        let right = DVec3::from_array(std::array::from_fn(|i| {
+            normal(i).map_or(0.0, |n| n.dot(target))
+        }));
+        (gram.inverse() * right).to_array()
+    }
+
+    fn sum(&self, faces: &[HalfSpace], shares: [f64; 3]) -> DVec3 {
+        let terms = self.faces[..self.count].iter().zip(shares);
+        terms.map(|(k, share)| faces[*k].normal * share).sum()
+    }
+
+    /// How far the multipliers can go before one is zero, and which.
+    fn first_released(&self, shares: [f64; 3]) -> (f64, usize) {
+        (0..self.count).fold((f64::INFINITY, 0), |best, i| {
+            let way = self.multipliers[i] / shares[i];
+            if shares[i] > 0.0 && way < best.0 {
+                (way, i)
             } else {
                 best
             }
-        });
-        if violation(worst) <= tolerance {
-            return x;
-        }
-        let normal = faces[worst].normal;
-        let mut multiplier = 0.0;
-        loop {
-            passes += 1;
-            if passes > MAX_PASSES {
-                return x;
-            }
-            let held: Vec<DVec3> = active.iter().map(|(k, _)| faces[*k].normal).collect();
-            let shares = least_squares(&held, normal);
-            let own = held.iter().zip(&shares).map(|(n, s)| *n * *s);
-            let free = normal - own.sum::<DVec3>();
-            let rate = free.length_squared();
-            // A face held by three others, or parallel to one, leaves no way to go.
-            let full = if rate > 1e-14 {
-                (normal.dot(x) - faces[worst].distance) / rate
-            } else {
-                f64::INFINITY
-            };
-            let blocking = active.iter().zip(&shares).enumerate().fold(
-                (f64::INFINITY, 0),
-                |best, (place, ((_, u), share))| {
-                    if *share > 0.0 && u / share < best.0 {
-                        (u / share, place)
-                    } else {
-                        best
-                    }
-                },
-            );
-            let step = full.min(blocking.0);
-            if !step.is_finite() {
-                return x;
-            }
-            if rate > 1e-14 {
-                x -= step * free;
-            }
-            for ((_, u), share) in active.iter_mut().zip(&shares) {
-                *u -= step * share;
-            }
-            multiplier += step;
-            if full <= blocking.0 {
-                active.push((worst, multiplier));
-                break;
-            }
-            active.remove(blocking.1);
-        }
+        })
     }
-}
 
-/// Shares s of at most three independent `normals` with Σ s n nearest to `target`.
-fn least_squares(normals: &[DVec3], target: DVec3) -> Vec<f64> {
-    let dot = |i: usize, j: usize| match (normals.get(i), normals.get(j)) {
-        (Some(a), Some(b)) => a.dot(*b),
-        _ => f64::from(u8::from(i == j)),
-    };
-    let column = |j| DVec3::new(dot(0, j), dot(1, j), dot(2, j));
-    let gram = DMat3::from_cols(column(0), column(1), column(2));
-    let right = DVec3::from_array(std::array::from_fn(|i| {
-        normals.get(i).map_or(0.0, |n| n.dot(target))
-    }));
-    let shares = gram.inverse() * right;
-    shares.to_array()[..normals.len().min(3)].to_vec()
+    fn add(&mut self, face: usize, multiplier: f64) {
+        self.faces[self.count] = face;
+        self.multipliers[self.count] = multiplier;
+        self.count += 1;
+    }
+
+    fn remove(&mut self, place: usize) {
+        self.count -= 1;
+        self.faces.swap(place, self.count);
+        self.multipliers.swap(place, self.count);
+    }
 }

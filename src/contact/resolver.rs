@@ -1,19 +1,17 @@
-//! Decides of a pair whether it is in contact, and describes the contact.
+//! The way of a pair: bounding spheres, cache, proof, description.
 
 use super::{
-    Cache, Contact, Counts, Normal, Options, Placed, Verdict,
+    Cache, Contact, Counts, Options, Placed, Verdict,
     centre::Centring,
     guess::smallest_slack,
-    normal::{barrier, overlap, potential},
     pair::{Pair, Row},
     polygon::Polygon,
-    program::{Optimum, Program},
-    section::Overlap,
+    program::Program,
+    prove::Proof,
     separation::proven,
     sphere,
 };
 use crate::{Error, Result};
-use glam::DVec3;
 
 /// Share of the smallest distance of a face from its centroid beyond which an overlap is deep.
 const DEEP: f64 = 0.1;
@@ -23,21 +21,12 @@ const DEEP: f64 = 0.1;
 /// it resolved before.
 #[derive(Default)]
 pub struct Resolver {
-    options: Options,
-    counts: Counts,
-    rows: Vec<Row>,
-    program: Program,
-    centring: Centring,
-    polygon: Polygon,
-}
-
-/// What was found of a pair.
-enum Proof {
-    /// A plane, its normal from the smaller to the larger block, and what it proves.
-    Plane(DVec3, Verdict),
-    /// A point inside both, in L.
-    Point(DVec3),
-    Neither,
+    pub(super) options: Options,
+    pub(super) counts: Counts,
+    pub(super) rows: Vec<Row>,
+    pub(super) program: Program,
+    pub(super) centring: Centring,
+    pub(super) polygon: Polygon,
 }
 
 impl Resolver {
@@ -131,7 +120,7 @@ impl Resolver {
             self.counts.planes += 1;
             return Ok(verdict);
         } else {
-            self.prove(pair, split, margin)?
+            self.prove(pair, split, margin, point)?
         };
         Ok(match proof {
             Proof::Neither => Verdict::Touching,
@@ -147,78 +136,6 @@ impl Resolver {
                 Verdict::Contact(contact)
             }
         })
-    }
-
-    /// Proof without history.
-    fn prove(&mut self, pair: &Pair<'_>, split: usize, margin: f64) -> Result<Proof> {
-        if let Some(normal) = pair.separating_face(margin)
-            && let Some(verdict) = pair.judge(normal, margin)
-        {
-            self.counts.guesses += 1;
-            return Ok(Proof::Plane(normal, verdict));
-        }
-        let point = pair.point_between(&self.rows, split);
-        if smallest_slack(&self.rows, point) > margin {
-            self.counts.guesses += 1;
-            return Ok(Proof::Point(point));
-        }
-        let rows = &self.rows[..];
-        let test = |optimum: &Optimum<'_>| {
-            if smallest_slack(rows, optimum.point) > margin {
-                return Proof::Point(optimum.point);
-            }
-            let normal = optimum.normal(rows, split);
-            match pair.judge(normal, margin) {
-                Some(verdict) => Proof::Plane(normal.normalize(), verdict),
-                None => Proof::Neither,
-            }
-        };
-        self.counts.programs += 1;
-        let optimum = self.program.solve(rows)?;
-        let proof = test(&optimum);
-        let Proof::Neither = proof else {
-            return Ok(proof);
-        };
-        self.counts.programs += 1;
-        let point = optimum.point;
-        Ok(test(&self.program.magnify(rows, point)?))
-    }
-
-    /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
-    /// the larger block.
-    fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> Contact {
-        let mut point = start;
-        self.counts.newton_steps += self.centring.run(&self.rows, &mut point);
-        let (rows, slacks) = (&self.rows[..], &self.centring.slacks[..]);
-        let mut normal = barrier(rows, slacks, split);
-        if self.options.normal == Normal::Potential {
-            let depth = overlap(rows, slacks, split, normal);
-            let least = pair
-                .small
-                .smallest_distance
-                .min(pair.large.smallest_distance);
-            let rounding = (2.0 * depth).max(0.01 * least / pair.length);
-            normal = potential(rows, slacks, split, rounding);
-        }
-        let level = self.options.normal == Normal::Barrier;
-        let around = Overlap {
-            rows,
-            slacks,
-            split,
-            normal,
-        };
-        let section = around.section(&mut self.polygon, level);
-        let length = pair.length;
-        let place = |x: DVec3| pair.small.centre + x * length;
-        Contact {
-            point: place(point),
-            normal: section.normal,
-            overlap: section.overlap * length,
-            area: section.area * length * length,
-            pressure_centre: place(point + section.pressure_centre),
-            width: section.width * length,
-            limit: 0.0,
-        }
     }
 }
 

@@ -13,10 +13,15 @@ pub(super) struct Section {
     pub width: f64,
 }
 
-/// Angles between two faces below which they lie on each other, and above which one only rests an
-/// edge on the other; between them the two sections are mixed, so that nothing jumps. 5° and 10°.
-const FLAT_COSINE: f64 = 0.996_194_698_091_745_5;
-const STEEP_COSINE: f64 = 0.984_807_753_012_208;
+/// Cosines of the angles between two faces up to which they lie on each other, and from which on one
+/// only rests an edge on the other, 5° and 10°; between them the two sections are mixed, so that
+/// nothing jumps.
+const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
+
+/// The same for the share of Σ 1/t, t the slacks of a block's faces at the analytic centre, that the
+/// tightest face has: almost all where it lies on the other block's, half at a blunt edge, or where two
+/// edges run side by side, which belong to two pairs of faces alike and to neither.
+const SHARE: [f64; 2] = [0.6, 0.8];
 
 /// The overlap around its analytic centre.
 pub(super) struct Overlap<'a> {
@@ -33,12 +38,10 @@ impl Overlap<'_> {
     /// The section that the force acts on. `level`: turn the normal to the faces' where they lie flat
     /// on each other.
     pub fn section(&self, polygon: &mut Polygon, level: bool) -> Section {
-        let (i, j) = (
-            self.tightest(0, self.split),
-            self.tightest(self.split, self.rows.len()),
-        );
+        let (i, share_i) = self.tightest(0, self.split);
+        let (j, share_j) = self.tightest(self.split, self.rows.len());
         let cosine = -self.rows[i].normal.dot(self.rows[j].normal);
-        let flatness = ((cosine - STEEP_COSINE) / (FLAT_COSINE - STEEP_COSINE)).clamp(0.0, 1.0);
+        let flatness = ramp(cosine, FLAT).min(ramp(share_i.min(share_j), SHARE));
         if flatness == 0.0 {
             return self.cut(polygon);
         }
@@ -46,7 +49,8 @@ impl Overlap<'_> {
             return self.cut(polygon);
         };
         let normal = if level {
-            self.normal.lerp(flat.normal, evenness).normalize()
+            let share = flatness * evenness;
+            self.normal.lerp(flat.normal, share).normalize()
         } else {
             self.normal
         };
@@ -54,14 +58,13 @@ impl Overlap<'_> {
         if flatness == 1.0 {
             return flat;
         }
-        let w = flatness * flatness * (3.0 - 2.0 * flatness);
         let cut = self.cut(polygon);
-        let mix = |a: f64, b: f64| a + w * (b - a);
+        let mix = |a: f64, b: f64| a + flatness * (b - a);
         Section {
             normal,
             overlap: mix(cut.overlap, flat.overlap),
             area: mix(cut.area, flat.area),
-            pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, w),
+            pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, flatness),
             width: mix(cut.width, flat.width),
         }
     }
@@ -137,14 +140,16 @@ impl Overlap<'_> {
         plane
     }
 
-    fn tightest(&self, from: usize, to: usize) -> usize {
-        (from..to).fold(from, |best, k| {
-            if self.slacks[k] < self.slacks[best] {
-                k
-            } else {
-                best
+    /// The tightest of some rows, and its share of their Σ 1/t.
+    fn tightest(&self, from: usize, to: usize) -> (usize, f64) {
+        let (mut tightest, mut sum) = (from, 0.0);
+        for k in from..to {
+            sum += self.slacks[k].recip();
+            if self.slacks[k] < self.slacks[tightest] {
+                tightest = k;
             }
-        })
+        }
+        (tightest, (self.slacks[tightest] * sum).recip())
     }
 }
 
@@ -163,6 +168,12 @@ impl Plane {
     fn gradient(&self, normal: DVec3) -> DVec2 {
         DVec2::new(self.x.dot(normal), self.y.dot(normal))
     }
+}
+
+/// From 0 at the first bound to 1 at the second, without a kink.
+fn ramp(x: f64, [low, high]: [f64; 2]) -> f64 {
+    let s = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
 }
 
 /// Centre of a first moment; the origin where there is nothing.

@@ -15,10 +15,14 @@ impl Placed {
 }
 
 impl Pair<'_> {
-    /// What the plane with the normal `n`, from the smaller to the larger block and of any length,
-    /// proves: that the blocks are apart by more than `margin` (in L), or that they overlap by less.
+    /// What the plane with the normal `n`, from the smaller to the larger block, proves: that the
+    /// blocks are apart by more than `margin` (in L), or that they overlap by less. `n` may have any
+    /// length; none proves nothing.
     pub fn judge(&self, n: DVec3, margin: f64) -> Option<Verdict> {
         let length = n.length();
+        if length == 0.0 {
+            return None;
+        }
         let gap =
             n.dot(self.shift) - self.small.support(n, length) - self.large.support(-n, length);
         proven(gap, margin * self.length * length)
@@ -29,7 +33,7 @@ impl Pair<'_> {
 pub(super) fn proven(gap: f64, margin: f64) -> Option<Verdict> {
     if gap > margin {
         Some(Verdict::Apart)
-    } else if margin > 0.0 && gap >= -margin {
+    } else if gap >= -margin {
         Some(Verdict::Touching)
     } else {
         None

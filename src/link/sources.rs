@@ -22,6 +22,9 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "measure":
         "copy_four_vectors", "copy_scalar", "copy_vector", "stream_only";
+    "search":
+        "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
+        "saturate", "scan_spread", "scan_sum";
 };
 
 /// The text of the file `name`.

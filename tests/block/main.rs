@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod measure;
+mod meshes;
 mod polyhedra;
 mod refusals;
 mod rock_masses;

@@ -6,11 +6,11 @@ use proptest::prelude::*;
 use riprap::block::{HalfSpace, Polyhedron};
 
 fn direction() -> impl Strategy<Value = DVec3> {
-    let coordinate = || -1.0..1.0_f64;
-    (coordinate(), coordinate(), coordinate())
-        .prop_map(|(x, y, z)| DVec3::new(x, y, z))
-        .prop_filter("in the ball", |v| (0.1..=1.0).contains(&v.length()))
-        .prop_map(DVec3::normalize)
+    // Uniform on the sphere (Archimedes).
+    (-1.0..1.0_f64, 0.0..std::f64::consts::TAU).prop_map(|(z, turn)| {
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * turn.cos(), r * turn.sin(), z).normalize()
+    })
 }
 
 /// Tangent planes at random distances around a point, with a box around all so that they bound.
@@ -36,7 +36,7 @@ fn same_solid(a: &Polyhedron, b: &Polyhedron) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn half_spaces_to_vertices_and_back_is_the_same_solid(

@@ -1,7 +1,7 @@
 //! What is no block is refused, and the message says which face and what to do.
 
 use glam::DVec3;
-use riprap::block::{HalfSpace, Part, Polyhedron, Shape};
+use riprap::block::{Form, HalfSpace, Part, Polyhedron, Shape};
 
 fn cube() -> Vec<HalfSpace> {
     Polyhedron::cuboid(DVec3::ONE).unwrap().faces().to_vec()
@@ -131,13 +131,59 @@ fn no_lengths() {
     }
 }
 
+fn ball(radius: f64, x: f64) -> Part {
+    Part {
+        form: Form::Sphere { radius },
+        offset: DVec3::new(x, 0.0, 0.0),
+    }
+}
+
 #[test]
 fn no_compound() {
     refused(Shape::compound(Vec::new()), &["parts", "at least one"]);
-    let form = riprap::block::Form::Sphere { radius: 1.0 };
-    let part = Part {
-        form,
-        offset: DVec3::new(0.0, f64::NAN, 0.0),
+    let compound = Shape::compound(vec![ball(1.0, 0.0), ball(1.0, f64::NAN)]);
+    refused(compound, &["parts[1].offset", "finite"]);
+    let compound = Shape::compound(vec![ball(1.0, 0.0), ball(-1.0, 3.0)]);
+    refused(compound, &["parts[1].radius", "positive"]);
+}
+
+#[test]
+fn parts_that_overlap() {
+    let cube = |x: f64, turn: f64| {
+        let turn = glam::DQuat::from_rotation_z(turn);
+        let cube = Polyhedron::cuboid(DVec3::ONE).unwrap();
+        let points: Vec<DVec3> = cube.vertices().iter().map(|v| turn * *v).collect();
+        let (polyhedron, _) = Polyhedron::from_vertices(&points).unwrap();
+        Part {
+            form: Form::Convex(polyhedron),
+            offset: DVec3::new(x, 0.3, 0.2),
+        }
     };
-    refused(Shape::compound(vec![part]), &["parts[0].offset", "finite"]);
+    // Half an edge, half a diagonal, and the distance of the ball's centre line from the cube, 0.
+    let (flat, corner) = (0.5, 0.5_f64.sqrt());
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let touching = [
+        ([cube(0.0, 0.0), cube(1.0, 0.0)], 2.0 * flat),
+        (
+            [cube(0.0, 0.0), cube(flat + corner, quarter)],
+            flat + corner,
+        ),
+        ([ball(0.5, 0.0), ball(0.25, 0.75)], 0.75),
+        ([cube(0.0, 0.0), ball(0.4, 0.9)], 0.9),
+        ([ball(0.4, 0.9), cube(0.0, 0.0)], -0.9),
+        // The edge is 0.3 to the side of the ball's centre.
+        ([cube(0.0, quarter), ball(0.5, corner + 0.4)], corner + 0.4),
+    ];
+    for (parts, gap) in touching {
+        assert!(Shape::compound(parts.to_vec()).is_ok(), "touching at {gap}");
+        let mut closer = parts.to_vec();
+        closer[1].offset.x -= 1e-3 * gap.signum();
+        refused(
+            Shape::compound(closer),
+            &["parts[1]", "overlaps parts[0]", "twice"],
+        );
+        let mut same = parts.to_vec();
+        same[1].offset = same[0].offset;
+        refused(Shape::compound(same), &["overlaps"]);
+    }
 }

@@ -1,7 +1,8 @@
 //! Rock masses: volumes add up, neighbours share planes, the joints are where geology puts them.
 
-use crate::measure::assert_sound;
+use crate::measure::{assert_sound, assert_sound_to};
 use glam::DVec3;
+use proptest::prelude::*;
 use riprap::block::{
     Compass, Fragments, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter,
 };
@@ -317,13 +318,46 @@ fn several_volumes_are_cut_by_the_same_joints() {
     assert!(of(true).intersection(&of(false)).count() >= 3);
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_sets_cut_sound_blocks(
+        sets in proptest::collection::vec((0.0..90.0_f64, 0.0..360.0_f64, 1.0..4.0_f64, 0..3_u64), 1..5),
+        twin in -3..3_i32,
+        surface in (-1.0..1.0_f64, -1.0..1.0_f64),
+    ) {
+        let mut mass = RockMass::new(vec![cuboid(DVec3::splat(-4.0), DVec3::splat(4.0))]);
+        mass.surfaces = vec![HalfSpace::through(DVec3::Z * 2.0, DVec3::new(surface.0, surface.1, 1.0))];
+        mass.joints = sets
+            .iter()
+            .map(|(dip, direction, spacing, seed)| JointSet {
+                scatter: if *seed == 0 { Scatter::None } else { Scatter::Exponential },
+                seed: *seed,
+                persistence: (*seed == 2).then_some(Persistence { fraction: 0.5, length: 2.0 }),
+                ..set(*dip, *direction, *spacing)
+            })
+            .collect();
+        // The first again, hardly turned: at worst by 1e-15, 1e-12, 1e-9 or nothing.
+        let mut again = mass.joints[0].clone();
+        again.dip = (again.dip + 10f64.powi(5 * twin - 8) * f64::from(twin.signum())).clamp(0.0, 90.0);
+        mass.joints.push(again);
+        let cut = mass.cut().unwrap();
+        assert_adds_up(&cut);
+        for block in &cut.blocks {
+            // 1e-12 of the mass for each verdict.
+            assert_sound_to(&block.shape, 1e-11 * 4.0);
+        }
+    }
+}
+
 #[test]
 fn what_is_no_rock_mass_is_refused() {
     let good = slope(3.0, Scatter::None);
     let refused = |change: &dyn Fn(&mut RockMass), words: &[&str]| {
         let mut mass = good.clone();
         change(&mut mass);
-        let message = mass.cut().unwrap_err().to_string();
+        let message = mass.cut().map(|c| c.blocks.len()).unwrap_err().to_string();
         for word in words {
             assert!(message.contains(word), "'{word}' is not in: {message}");
         }
@@ -334,7 +368,9 @@ fn what_is_no_rock_mass_is_refused() {
         &["volumes[0].faces[2]", "finite"],
     );
     refused(
-        &|m| drop(m.volumes[0].remove(0)),
+        &|m| {
+            m.volumes[0].remove(0);
+        },
         &["volumes[0].faces", "unbounded"],
     );
     refused(

@@ -34,15 +34,15 @@ pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Item {
     }
 }
 
-/// `count` boxes, as many of each size from 1 to `ratio` on a logarithmic scale as fill a volume
-/// equally, in a domain that they fill about by half; each eighth is fixed.
+/// `count` boxes of sizes from 1 to `ratio` cm, evenly on a logarithmic scale, in a domain of half
+/// their volume; each eighth is fixed.
 pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Item> {
     let mut random = Random(seed);
     let sizes: Vec<f64> = (0..count)
-        .map(|_| 0.01 * random.between(ratio.powi(-3), 1.0).powf(-1.0 / 3.0))
+        .map(|_| 0.01 * ratio.powf(random.unit()))
         .collect();
     let volume: f64 = sizes.iter().map(|s| s.powi(3)).sum();
-    let side = (2.0 * volume).cbrt();
+    let side = (0.5 * volume).cbrt();
     let boxes = (0..).zip(sizes).map(|(group, size)| {
         let min = [(); 3].map(|()| random.between(-0.5, 0.5) * side - 0.5 * size);
         let edges = [(); 3].map(|()| size * random.between(0.5, 1.0));

@@ -21,7 +21,7 @@ fn near(a: f64, b: f64, limit: f64) {
 #[test]
 fn box_on_box_with_partial_overlap() {
     let (below, above) = (DVec3::new(2.0, 1.5, 1.0), DVec3::new(1.0, 1.0, 0.5));
-    for u in [1e-7, 1e-4, 1e-2] {
+    for u in [1e-11, 1e-7, 1e-4, 1e-2] {
         let a = Solid::cuboid(below).at(DVec3::ZERO, DQuat::IDENTITY);
         let centre = DVec3::new(0.8, -0.45, 0.75 - u);
         let b = Solid::cuboid(above).at(centre, DQuat::IDENTITY);
@@ -129,4 +129,29 @@ fn box_on_large_ground() {
     let middle = DVec3::new(3.0, -2.0, -0.5e-4);
     assert!((contact.pressure_centre - middle).length() < 1e-9);
     assert!((contact.normal - DVec3::Z).length() < 1e-9);
+}
+
+/// A pyramid as flat as 4° pressed tip first into a face: four faces share the contact, and none of
+/// them may take it; the force stays on the axis however the block is turned about it.
+#[test]
+fn blunt_tip_in_face() {
+    let rise = 0.5 * 4f64.to_radians().tan();
+    let corner = |k: u32| {
+        let sign = |bit: u32| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
+        DVec3::new(sign(0), sign(1), 0.5 * sign(2))
+    };
+    let mut points: Vec<DVec3> = (0..8).map(corner).collect();
+    points.push(-DVec3::Z * (0.25 + rise));
+    let block = Solid::hull(&points);
+    let ground = Solid::cuboid(DVec3::new(4.0, 4.0, 2.0)).at(-DVec3::Z, DQuat::IDENTITY);
+    for k in 0..20 {
+        let (u, turn) = (1e-4, DQuat::from_rotation_z(0.1 * k as f64));
+        let contact = resolve(&ground, &block.at(DVec3::Z * (0.25 + rise - u), turn));
+        // On the axis, y from the tip: log(u − y) + 4 log y is largest at y = 4u/5.
+        let edge = 0.8 * u / rise;
+        near(contact.area / (edge * edge), 1.0, 0.02);
+        near(contact.overlap / u, 1.0, 0.02);
+        assert!(contact.pressure_centre.truncate().length() < 0.01 * edge);
+        assert!(contact.normal.cross(DVec3::Z).length() < 1e-4);
+    }
 }

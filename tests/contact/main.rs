@@ -8,6 +8,7 @@ mod invariance;
 mod normal;
 mod pairs;
 mod rig;
+mod rock_mass;
 mod separation;
 mod sign;
 mod spheres;

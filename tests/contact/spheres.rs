@@ -1,7 +1,7 @@
 //! Spheres, in closed form.
 
 use crate::rig::{Random, Solid, ball};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use parry3d_f64::{math::Pose, query, shape::Ball};
 use riprap::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
 use std::f64::consts::PI;

@@ -58,7 +58,13 @@ fn the_energy_stays_in_a_band() {
 #[test]
 fn a_free_block_keeps_its_angular_momentum_to_the_last_bit_and_its_energy() {
     // Its principal axes are not its own: a box with a corner cut off.
-    let corner = |k: u32| DVec3::new(f64::from(k & 1), 1.5 * f64::from(k >> 1 & 1), f64::from(k >> 2));
+    let corner = |k: u32| {
+        DVec3::new(
+            f64::from(k & 1),
+            1.5 * f64::from(k >> 1 & 1),
+            f64::from(k >> 2),
+        )
+    };
     let corners: Vec<_> = (0..7).map(corner).collect();
     let (shape, _) = Polyhedron::from_vertices(&corners).expect("a polyhedron");
     let inertia = 2500.0 * shape.inertia();
@@ -80,7 +86,12 @@ fn a_free_block_keeps_its_angular_momentum_to_the_last_bit_and_its_energy() {
     let tensor = r * inertia * r.transpose();
     let error = (tensor * spin - before.0).length() / before.0.length();
     assert!(error < 1e-13, "{error}");
-    assert!(blocks.poses()[0].centre.distance(20.0 * DVec3::new(1.0, 2.0, 3.0)) < 1e-11);
+    assert!(
+        blocks.poses()[0]
+            .centre
+            .distance(20.0 * DVec3::new(1.0, 2.0, 3.0))
+            < 1e-11
+    );
 }
 
 #[test]

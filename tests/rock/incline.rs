@@ -13,7 +13,11 @@ fn on_incline(phi: f64) -> Setup {
     let turn = slope(ALPHA.to_radians());
     let height = 0.4;
     let pressed = 2500.0 * height * G * ALPHA.to_radians().cos() / STIFFNESS;
-    let plate = Block::new("plate", cuboid(12.0, 3.0, 1.0), turn * DVec3::new(4.0, 0.0, -0.5));
+    let plate = Block::new(
+        "plate",
+        cuboid(12.0, 3.0, 1.0),
+        turn * DVec3::new(4.0, 0.0, -0.5),
+    );
     let at = turn * DVec3::Z * (0.5 * height - pressed);
     let block = Block::new("block", cuboid(1.0, 1.0, height), at);
     setup(

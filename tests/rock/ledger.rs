@@ -1,1 +1,73 @@
+//! Energy: what is there and what was taken adds up to what was put in.
 
+use crate::rig::{blocks, cuboid, joint, run, setup, slope};
+use glam::{DQuat, DVec3};
+use riprap::bodies::{Block, Load, Motion};
+
+#[test]
+fn blocks_that_tumble_down_a_slope() {
+    let turn = slope(35f64.to_radians());
+    let plate = Block::new("plate", cuboid(40.0, 10.0, 1.0), turn * DVec3::Z * -0.5);
+    let mut list = vec![plate.fixed().turned(turn)];
+    for i in 0..6 {
+        let k = f64::from(i);
+        let at = turn * DVec3::new(1.3 * k - 8.0, 0.4 * (2.0 * k).sin(), 1.2 + 0.2 * k);
+        let tilt = DQuat::from_scaled_axis(DVec3::new(0.4 * k, 0.3, -0.2 * k));
+        list.push(Block::new(format!("{i}"), cuboid(1.0, 0.8, 0.7), at).turned(tilt));
+    }
+    let mut setup = setup(list, joint(1e9, 30.0));
+    (setup.damping, setup.largest_overlap) = (0.05, 0.3);
+    let mut blocks = blocks(setup);
+    let start = blocks.ledger();
+    run(&mut blocks, 1.5);
+    let end = blocks.ledger();
+    let error = (end.balance() - start.balance()).abs();
+    let fallen = start.potential - end.potential;
+    assert!(error < 0.01 * end.taken(), "{error} J of {end:?}");
+    // Every term takes part, none is negative that only takes.
+    for (name, work) in [
+        ("fallen", fallen),
+        ("friction", end.friction),
+        ("dashpot", end.dashpot),
+        ("mass damping", end.mass_damping),
+        ("kinetic", end.kinetic),
+    ] {
+        assert!(work > 1e-3 * fallen, "{name}: {work} J of {end:?}");
+    }
+    assert!(end.lost.abs() < 0.05 * fallen, "{end:?}");
+}
+
+#[test]
+fn a_driven_block_and_a_load_put_in_what_they_do() {
+    let floor = Block::new("floor", cuboid(20.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
+    let mut ram = Block::new("ram", cuboid(1.0, 1.0, 1.0), DVec3::new(-1.0, 0.0, 0.6));
+    ram.motion = Motion::Driven {
+        velocity: ["0.5*sin(pi*t)", "0", "0"].map(|f| f.parse().expect("a formula")),
+        spin: ["0", "0", "0"].map(|f| f.parse().expect("a formula")),
+    };
+    let pushed = Block::new("pushed", cuboid(1.0, 1.0, 1.0), DVec3::new(0.01, 0.0, 0.5));
+    let pulled = Block::new("pulled", cuboid(1.0, 1.0, 1.0), DVec3::new(5.0, 0.0, 0.5));
+    let mut blocks = blocks(setup(vec![floor, ram, pushed, pulled], joint(1e8, 30.0)));
+    let mut loads = [Load::default(); 4];
+    // More than friction holds: 0.577 of the weight of 24.5 kN.
+    loads[3] = Load::at(DVec3::X * 2e4, DVec3::Z * -0.3);
+    blocks.load(&loads).expect("one load a block");
+    let start = blocks.ledger();
+    run(&mut blocks, 1.0);
+    let end = blocks.ledger();
+    let error = (end.balance() - start.balance()).abs();
+    let given = end.driven + end.loads;
+    assert!(error < 0.01 * given, "{error} J of {end:?}");
+    // The load works along the way of the point that it pulls, here that of the block.
+    let way = blocks.poses()[3].centre.x - 5.0;
+    assert!(
+        (end.loads / (2e4 * way) - 1.0).abs() < 0.01,
+        "{end:?}, {way} m"
+    );
+    // The ram moves the block by what is left of 1/π m after the gap, against its friction.
+    let way = blocks.poses()[2].centre.x - 0.01;
+    assert!(end.driven > 0.9 * 0.577 * 2.45e4 * way, "{end:?}, {way} m");
+    // (1 − cos πt)/2π.
+    let ram = blocks.poses()[1].centre.x + 1.0;
+    assert!((ram * std::f64::consts::PI - 1.0).abs() < 1e-6, "{ram}");
+}

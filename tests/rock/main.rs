@@ -3,6 +3,7 @@
 mod faults;
 mod free_body;
 mod incline;
+mod law;
 mod ledger;
 mod rebound;
 mod repeat;

@@ -1,1 +1,85 @@
+//! The same bits, whatever the threads and wherever a run was cut; and nothing done for nothing.
 
+use crate::rig::{blocks, cuboid, joint, run, setup};
+use glam::{DQuat, DVec3};
+use riprap::bodies::{Block, Blocks, Setup, Snapshot};
+
+/// A wall of five courses of sixteen, laid crookedly: more contacts than one thread takes at a time.
+fn wall() -> Setup {
+    let mut list = vec![Block::new("floor", cuboid(20.0, 20.0, 1.0), DVec3::Z * -0.5).fixed()];
+    for i in 0..80u32 {
+        let [x, y, z] = [i % 4, i / 4 % 4, i / 16].map(f64::from);
+        let turn = DQuat::from_rotation_z(0.1 * (3.0 * x + 2.0 * y + z).sin());
+        let at = DVec3::new(0.85 * x + 0.4 * (z % 2.0), 0.8 * y, 0.249 + 0.499 * z);
+        list.push(Block::new(format!("{i}"), cuboid(0.7, 0.6, 0.5), at).turned(turn));
+    }
+    setup(list, joint(1e7, 30.0))
+}
+
+#[test]
+fn the_bits_do_not_depend_on_the_number_of_threads() {
+    let state = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads").install(|| {
+            let mut blocks = blocks(wall());
+            run(&mut blocks, 0.1);
+            assert!(
+                blocks.contacts().count() > 100,
+                "{}",
+                blocks.contacts().count()
+            );
+            blocks.snapshot()
+        })
+    };
+    let one = state(1);
+    assert_eq!(one, state(2));
+    assert_eq!(one, state(3));
+}
+
+#[test]
+fn a_snapshot_goes_on_with_the_same_bits() {
+    let mut whole = blocks(wall());
+    run(&mut whole, 0.06);
+    let bytes = whole.snapshot().to_bytes();
+    run(&mut whole, 0.12);
+
+    let mut resumed = blocks(wall());
+    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    resumed.restore(&snapshot).expect("the same blocks");
+    assert_eq!(resumed.snapshot(), snapshot);
+    run(&mut resumed, 0.12);
+    assert_eq!(resumed.snapshot(), whole.snapshot());
+    assert_eq!(resumed.ledger(), whole.ledger());
+
+    assert!(Snapshot::from_bytes(&bytes[..bytes.len() - 1]).is_err());
+    assert!(Snapshot::from_bytes(&bytes[1..]).is_err());
+    let mut other = blocks(Setup {
+        blocks: wall().blocks[..7].to_vec(),
+        ..wall()
+    });
+    assert!(other.restore(&snapshot).is_err());
+}
+
+/// A block that slides on the first of `fixed` blocks side by side.
+fn slider(fixed: u32) -> Blocks {
+    let mut list: Vec<_> = (0..fixed)
+        .map(|i| {
+            let at = DVec3::new(4.0 * f64::from(i), 0.0, -0.5);
+            Block::new(format!("fixed {i}"), cuboid(4.0, 4.0, 1.0), at).fixed()
+        })
+        .collect();
+    let mut block = Block::new("moving", cuboid(1.0, 1.0, 1.0), DVec3::Z * 0.5);
+    block.velocity = DVec3::Y;
+    list.push(block);
+    let mut blocks = blocks(setup(list, joint(1e7, 30.0)));
+    run(&mut blocks, 0.1);
+    blocks
+}
+
+#[test]
+fn five_fixed_blocks_and_a_moving_one_cost_what_one_costs() {
+    let (one, five) = (slider(1), slider(5));
+    assert!(one.counts().pairs > 100);
+    assert_eq!(one.counts(), five.counts());
+    assert_eq!(five.candidates(), 1);
+}

@@ -17,9 +17,8 @@ impl Broadphase for AllPairs {
     async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
         let n = items.len();
         let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
-        let near = all.filter(|&[i, j]| {
-            items[i].group != items[j].group && items[i].overlaps(&items[j])
-        });
+        let near =
+            all.filter(|&[i, j]| items[i].group != items[j].group && items[i].overlaps(&items[j]));
         Ok(near.map(|pair| pair.map(|i| i as u32)).collect())
     }
 }

@@ -3,7 +3,8 @@
 //! A case is a function that runs flows on a [`Stand`] and returns [`Record`]s: a number, what it
 //! should be, the error, the limit and the cost. Cases are named `family/case`, one family a file.
 //! The short form fits a CPU adapter of two cores within minutes; `--full` adds the fine grids and
-//! long runs. Everything is in lattice units: cell, step and density of the fluid are 1.
+//! long runs. Flows are in lattice units: cell, step and density of the fluid are 1. Dry blocks, in SI,
+//! run on the host.
 
 pub mod fields;
 pub mod record;
@@ -19,6 +20,14 @@ mod open_channel;
 mod outlet;
 mod plane_walls;
 mod repeatability;
+mod rock;
+mod rock_broadphase;
+mod rock_free_body;
+mod rock_incline;
+mod rock_rebound;
+mod rock_rest;
+mod rock_toppling;
+mod rock_wedge;
 mod shear_wave;
 mod slots;
 mod stability;
@@ -106,6 +115,15 @@ pub const CASES: &[Case] = &[
     short("outlet/pulse", outlet::pulse),
     short("stability/quiescent", stability::quiescent),
     short("stability/taylor-green", stability::taylor_green),
+    short("rock/incline", rock_incline::run),
+    short("rock/toppling", rock_toppling::run),
+    short("rock/rebound", rock_rebound::run),
+    short("rock/free-body", rock_free_body::run),
+    short("rock/wedge", rock_wedge::run),
+    short("rock/stack", rock_rest::stack),
+    short("rock/pyramid", rock_rest::pyramid),
+    short("rock/arch", rock_rest::arch),
+    short("rock/broadphase", rock_broadphase::run),
 ];
 
 /// The cases whose names match.

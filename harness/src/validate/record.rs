@@ -10,11 +10,11 @@ pub struct Record {
     pub case: String,
     /// What was run, in one line.
     pub setup: String,
-    /// Fluid and solid cells of the domain.
+    /// Fluid and solid cells of the domain; of dry rock its blocks.
     pub cells: u64,
     /// Steps done.
     pub steps: u64,
-    /// Time on the device, read-outs included, s.
+    /// Time on the device, read-outs included, or on the host, s.
     pub seconds: f64,
     /// What `value` is, with its unit where it has one.
     pub quantity: String,

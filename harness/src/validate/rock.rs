@@ -1,0 +1,107 @@
+//! Dry blocks that run on the host.
+
+use super::Trial;
+use glam::{DQuat, DVec3};
+use riprap::{
+    block::{Polyhedron, Shape},
+    bodies::{Block, Blocks, Material, Setup, Snapshot},
+    broadphase::HostBroadphase,
+    law::Joint,
+};
+use std::{sync::Arc, time::Instant};
+
+/// Standard gravity, as [`Setup`] has it, m/s².
+pub const G: f64 = 9.81;
+/// Density of all blocks, kg/m³.
+pub const DENSITY: f64 = 2500.0;
+
+/// Blocks that run, with the time that it took.
+#[derive(Debug)]
+pub struct Rock {
+    /// The blocks.
+    pub blocks: Blocks,
+    finder: HostBroadphase,
+    what: String,
+    seconds: f64,
+}
+
+impl Rock {
+    /// Blocks at the start, and what they are, in a line.
+    pub fn new(setup: Setup, what: impl Into<String>) -> anyhow::Result<Self> {
+        Ok(Self {
+            blocks: Blocks::new(setup)?,
+            finder: HostBroadphase::default(),
+            what: what.into(),
+            seconds: 0.0,
+        })
+    }
+
+    /// Blocks that go on from where others of the same shapes settled under the mass damping `damping`
+    /// (1/s) in `time` (s): what a slow hand leaves.
+    pub fn from_rest(
+        held: Setup,
+        damping: f64,
+        time: f64,
+        setup: Setup,
+        what: impl Into<String>,
+    ) -> anyhow::Result<Self> {
+        let mut before = Self::new(Setup { damping, ..held }, "")?;
+        before.run(time)?;
+        let state: Snapshot = before.blocks.snapshot();
+        let mut after = Self::new(setup, what)?;
+        after.blocks.restore(&state)?;
+        after.seconds = before.seconds;
+        Ok(after)
+    }
+
+    /// Runs for `time` s.
+    pub fn run(&mut self, time: f64) -> anyhow::Result<()> {
+        let begin = Instant::now();
+        let until = self.blocks.time() + time;
+        pollster::block_on(self.blocks.advance(&mut self.finder, until))?;
+        self.seconds += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// What has been run so far.
+    pub fn trial(&self) -> Trial {
+        Trial {
+            setup: self.what.clone(),
+            cells: self.blocks.len() as u64,
+            steps: self.blocks.steps(),
+            seconds: self.seconds,
+        }
+    }
+}
+
+/// A box of these edges, m.
+pub fn cuboid(x: f64, y: f64, z: f64) -> anyhow::Result<Arc<Shape>> {
+    Ok(Arc::new(Polyhedron::cuboid(DVec3::new(x, y, z))?.into()))
+}
+
+/// A rotation about y that turns x downwards by `degrees`.
+pub fn slope(degrees: f64) -> DQuat {
+    DQuat::from_rotation_y(degrees.to_radians())
+}
+
+/// A joint of one stiffness in both directions, Pa/m, and the friction angle in degrees.
+pub fn joint(stiffness: f64, degrees: f64) -> Joint {
+    Joint {
+        normal_stiffness: stiffness,
+        shear_stiffness: stiffness,
+        friction_angle: degrees.to_radians(),
+        ..Joint::default()
+    }
+}
+
+/// Blocks of one material.
+pub fn setup(blocks: Vec<Block>, joint: Joint) -> Setup {
+    Setup {
+        blocks,
+        materials: vec![Material {
+            density: DENSITY,
+            joint,
+        }],
+        ..Setup::default()
+    }
+}

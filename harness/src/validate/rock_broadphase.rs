@@ -1,0 +1,92 @@
+//! The pairs of the host's broadphase against every pair tried, and how its cost grows.
+
+use super::{Outcome, Stand, Trial};
+use cpu_time::ProcessTime;
+use riprap::broadphase::{Broadphase, HostBroadphase, Item};
+
+/// Boxes of sizes 1:100 in a cube, of which each meets a few others.
+fn items(count: u32) -> Vec<Item> {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64 ^ u64::from(count);
+    let mut random = move || {
+        // Marsaglia 2003, xorshift64.
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    // Sizes 0.01 to 1 with equal numbers in each octave have a mean volume of 0.07 and meet each other
+    // over some 0.6 volumes of 1: with a cube of N/4 each meets about one.
+    let side = (0.25 * f64::from(count)).cbrt();
+    let item = |group: u32| {
+        let size = 100f64.powf(random() - 1.0);
+        let min = [random(), random(), random()].map(|r| side * r);
+        Item {
+            min,
+            max: min.map(|x| x + size),
+            group,
+        }
+    };
+    (0..count).map(item).collect()
+}
+
+fn every(items: &[Item]) -> Vec<[u32; 2]> {
+    let n = items.len();
+    let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
+    let near = all.filter(|&[i, j]| items[i].overlaps(&items[j]));
+    near.map(|pair| pair.map(|i| i as u32)).collect()
+}
+
+/// 10² to 10⁵ boxes; every pair is tried up to 10⁴, with `--full` up to 10⁵.
+pub fn run(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    let mut costs = Vec::new();
+    for exponent in 2..=5 {
+        let count = 10u32.pow(exponent);
+        let items = items(count);
+        let mut finder = HostBroadphase::default();
+        let mut found = Vec::new();
+        let repeats = 10u32.pow(6 - exponent).min(1000);
+        // The shortest of many: whatever else runs only adds.
+        let mut seconds = f64::INFINITY;
+        let mut total = 0.0;
+        for _ in 0..repeats {
+            let begin = ProcessTime::now();
+            found = pollster::block_on(finder.pairs(&items))?;
+            let took = begin.elapsed().as_secs_f64();
+            seconds = seconds.min(took);
+            total += took;
+        }
+        costs.push(seconds);
+        let trial = Trial {
+            setup: format!("{count} boxes, sizes 1:100"),
+            cells: count.into(),
+            steps: repeats.into(),
+            seconds: total,
+        };
+        let pairs = found.len() as f64;
+        records.push(trial.report("pairs a box", pairs / f64::from(count), None));
+        records.push(trial.report("CPU time a list, s", seconds, None));
+        if exponent <= 4 || stand.full {
+            let brute = every(&items);
+            let off = brute
+                .iter()
+                .filter(|pair| found.binary_search(pair).is_err())
+                .count()
+                + found.len().abs_diff(brute.len());
+            records.push(trial.at_most(
+                "pairs that every pair tried finds otherwise",
+                off as f64,
+                0.0,
+            ));
+        }
+        if exponent == 5 {
+            // The largest two decades: below, what does not grow counts.
+            let order = (costs[3] / costs[1]).log10() / 2.0;
+            let value = order.max(0.0);
+            let mut record = trial.at_most("exponent of the cost, 10³ to 10⁵", value, 1.1);
+            record.reference = Some(1.0);
+            records.push(record);
+        }
+    }
+    Ok(records)
+}

@@ -1,0 +1,45 @@
+// Boxes along the axes, in cells as large as they are.
+
+struct Box {
+    // Corners from the local origin, m.
+    min: vec3<f32>,
+    // Boxes of one group never pair.
+    group: u32,
+    max: vec3<f32>,
+    // Number of the item in the lower 24 bits, its level in the upper 8.
+    tag: u32,
+}
+
+// The cells of the boxes of one size; fine levels come first.
+struct Level {
+    // Cells a metre, a power of two: to multiply by it is exact.
+    scale: f32,
+    // Longest edge of a box of this level, m.
+    extent: f32,
+}
+
+fn number_of(item: Box) -> u32 {
+    return item.tag & 0xffffffu;
+}
+
+fn level_of(item: Box) -> u32 {
+    return item.tag >> 24u;
+}
+
+fn overlap(a: Box, b: Box) -> bool {
+    return all(a.min <= b.max) && all(b.min <= a.max);
+}
+
+fn cell_of(corner: vec3<f32>, scale: f32) -> vec3<i32> {
+    return vec3<i32>(floor(corner * scale));
+}
+
+// Teschner et al. 2003, VMV: spatial hashing; the last steps mix the bits (Appleby's MurmurHash3). `buckets` is a
+// power of two.
+fn bucket_of(cell: vec3<i32>, level: u32, buckets: u32) -> u32 {
+    let u = vec3<u32>(cell);
+    var h = (u.x * 73856093u) ^ (u.y * 19349663u) ^ (u.z * 83492791u) ^ (level * 2654435761u);
+    h = (h ^ (h >> 16u)) * 0x85ebca6bu;
+    h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
+    return (h ^ (h >> 16u)) & (buckets - 1u);
+}

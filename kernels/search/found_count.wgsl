@@ -1,0 +1,32 @@
+// Pairs that are counted.
+
+// One an invocation, and a last one that stays zero.
+@group(0) @binding(5) var<storage, read_write> hits: array<u32>;
+
+struct Header {
+    // Most candidates of a box.
+    candidates: atomic<u32>,
+    // Pairs of all boxes.
+    pairs: u32,
+}
+
+@group(0) @binding(6) var<storage, read_write> header: Header;
+
+var<private> hits_here: u32;
+
+fn begin(n: u32) -> bool {
+    hits_here = 0u;
+    return true;
+}
+
+fn found(i: u32, j: u32) {
+    hits_here++;
+}
+
+fn finish(n: u32, candidates: u32) {
+    hits[n] = hits_here;
+    // Most boxes have few: the atomic is rare.
+    if (candidates > SLICE * search.slices) {
+        atomicMax(&header.candidates, candidates);
+    }
+}

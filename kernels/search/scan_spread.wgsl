@@ -1,0 +1,29 @@
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, the way down: each value
+// becomes the sum of all before it, from the sums before its run.
+// needs invocation, saturate
+
+@group(0) @binding(0) var<storage, read_write> scanned: array<u32>;
+// The sum of all values before each run.
+@group(0) @binding(1) var<storage, read> run_starts: array<u32>;
+
+const RUN = 64u;
+
+@compute @workgroup_size(64)
+fn scan_spread(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let run = invocation(group, groups, local);
+    let length = arrayLength(&scanned);
+    if (run >= (length + RUN - 1u) / RUN) {
+        return;
+    }
+    let end = min((run + 1u) * RUN, length);
+    var sum = run_starts[run];
+    for (var n = run * RUN; n < end; n++) {
+        let value = scanned[n];
+        scanned[n] = sum;
+        sum = saturating_add(sum, value);
+    }
+}

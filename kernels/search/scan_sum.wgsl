@@ -1,0 +1,27 @@
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, the way up: the sum of each
+// run of 64 values. An invocation adds a run by itself: no barriers, and loops as short as on any adapter.
+// needs invocation, saturate
+
+@group(0) @binding(0) var<storage, read> values: array<u32>;
+// One a run.
+@group(0) @binding(1) var<storage, read_write> run_sums: array<u32>;
+
+const RUN = 64u;
+
+@compute @workgroup_size(64)
+fn scan_sum(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let run = invocation(group, groups, local);
+    if (run >= arrayLength(&run_sums)) {
+        return;
+    }
+    let end = min((run + 1u) * RUN, arrayLength(&values));
+    var sum = 0u;
+    for (var n = run * RUN; n < end; n++) {
+        sum = saturating_add(sum, values[n]);
+    }
+    run_sums[run] = sum;
+}

@@ -1,0 +1,50 @@
+//! Boxes along the axes, in cells as large as they are.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Bits of [`DeviceBox::tag`] that hold the number of the item.
+pub(crate) const NUMBER_BITS: u32 = 24;
+
+/// Levels that boxes can be on.
+pub(crate) const MAX_LEVELS: usize = 203;
+
+/// A box on the device.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct DeviceBox {
+    /// Lower corner from the local origin, m.
+    pub min: [f32; 3],
+    /// Group of the item.
+    pub group: u32,
+    /// Upper corner from the local origin, m.
+    pub max: [f32; 3],
+    /// Number of the item in the lower 24 bits, its level in the upper 8.
+    pub tag: u32,
+}
+
+/// The cells of the boxes of one size.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Level {
+    /// Cells a metre, a power of two: to multiply by it is exact.
+    pub scale: f32,
+    /// Longest edge of a box of this level, m; at most that of a cell.
+    pub extent: f32,
+}
+
+impl DeviceBox {
+    /// Number of the item.
+    pub fn number(&self) -> u32 {
+        self.tag & ((1 << NUMBER_BITS) - 1)
+    }
+
+    /// Its level; fine ones come first.
+    pub fn level(&self) -> u32 {
+        self.tag >> NUMBER_BITS
+    }
+
+    /// Whether the two boxes have a point in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+    }
+}

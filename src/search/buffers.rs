@@ -1,0 +1,45 @@
+//! Buffers of a search.
+
+use crate::{Error, Result};
+
+/// A storage buffer of `bytes` that can be written, read back and cleared.
+pub(crate) fn storage(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+/// A uniform buffer of `bytes`.
+pub(crate) fn uniform(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Whether the device binds as many bytes at once.
+///
+/// # Errors
+/// [`Error::Limit`] if not.
+pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64) -> Result<()> {
+    let limits = device.limits();
+    let has = limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size);
+    if bytes <= has {
+        return Ok(());
+    }
+    Err(Error::Limit {
+        name: format!("bytes of one storage binding ({what})"),
+        wants: bytes,
+        has,
+        remedy: "search on the host, in parts of the scene, or on another adapter".into(),
+    })
+}

@@ -1,0 +1,140 @@
+//! The force law on its own.
+
+use glam::{DQuat, DVec3};
+use riprap::law::{Force, History, Joint, Motion, Section, force};
+use std::f64::consts::PI;
+
+const JOINT: Joint = Joint {
+    normal_stiffness: 1e8,
+    shear_stiffness: 5e7,
+    friction_angle: PI / 6.0,
+    cohesion: 0.0,
+    tensile_strength: 0.0,
+    damping: 0.1,
+};
+
+/// Pressed by 1 mm over 2 m²: 200 kN.
+const SECTION: Section = Section {
+    normal: DVec3::Z,
+    overlap: 1e-3,
+    area: 2.0,
+};
+
+const REST: Motion = Motion {
+    way: DVec3::ZERO,
+    velocity: DVec3::ZERO,
+    spin: DVec3::ZERO,
+    frame: DQuat::IDENTITY,
+    time_step: 1e-4,
+    mass: 1000.0,
+};
+
+fn slid(joint: &Joint, way: f64, history: &History) -> Force {
+    let motion = Motion {
+        way: DVec3::X * way,
+        ..REST
+    };
+    force(joint, &SECTION, &motion, history)
+}
+
+#[test]
+fn springs_push_by_stiffness_area_and_way() {
+    let found = slid(&JOINT, 1e-4, &History::default());
+    // k_n A u_n = 200 kN, −k_s A Δu_s = −10 kN.
+    let error = (found.total() - DVec3::new(-1e4, 0.0, 2e5)).length();
+    assert!(error < 1e-9, "{found:?}");
+    assert_eq!(found.friction, 0.0);
+}
+
+#[test]
+fn shear_stops_at_coulombs_cap_and_the_slip_takes_its_work() {
+    // 0.1 m of way would be 10 MN; the cap is cA + f_n tan φ.
+    let joint = Joint {
+        cohesion: 1e4,
+        ..JOINT
+    };
+    let found = slid(&joint, 0.1, &History::default());
+    let cap = 2e4 + 2e5 * (PI / 6.0).tan();
+    assert!((found.total().x / -cap - 1.0).abs() < 1e-12, "{found:?}");
+    let slip = 0.1 - cap / 1e8;
+    assert!(
+        (found.friction / (cap * slip) - 1.0).abs() < 1e-12,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn shear_turns_with_a_pair_that_turns_as_one() {
+    let start = slid(&JOINT, 1e-4, &History::default());
+    let mut history = start.history;
+    // Both blocks turn by 90° about an oblique axis, in steps of 1°.
+    let axis = DVec3::new(1.0, 2.0, 3.0).normalize();
+    let mut frame = DQuat::IDENTITY;
+    for step in 1..=90 {
+        frame = DQuat::from_axis_angle(axis, f64::from(step) * PI / 180.0);
+        let section = Section {
+            normal: frame * DVec3::Z,
+            ..SECTION
+        };
+        history = force(&JOINT, &section, &Motion { frame, ..REST }, &history).history;
+    }
+    let error = (frame * history.shear - frame * start.spring.with_z(0.0)).length();
+    assert!(error < 1e-8, "{error} N of 1e4 N");
+}
+
+#[test]
+fn shear_turns_by_half_the_twist_of_one_block_about_the_normal() {
+    // Only the second block spins: the mean of both is half of it.
+    let mut history = slid(&JOINT, 1e-4, &History::default()).history;
+    let motion = Motion {
+        spin: DVec3::Z * (PI / 2.0),
+        time_step: 1e-2,
+        ..REST
+    };
+    for _ in 0..100 {
+        history = force(&JOINT, &SECTION, &motion, &history).history;
+    }
+    let turned = DQuat::from_rotation_z(PI / 4.0) * DVec3::X * -1e4;
+    assert!((history.shear - turned).length() < 1e-8, "{history:?}");
+}
+
+#[test]
+fn a_dashpot_pulls_only_while_a_bond_holds() {
+    let opening = |speed: f64, bonded: bool| {
+        let joint = Joint {
+            tensile_strength: 1e4,
+            ..JOINT
+        };
+        let motion = Motion {
+            velocity: DVec3::Z * speed,
+            ..REST
+        };
+        let history = History {
+            bonded,
+            ..History::default()
+        };
+        force(&joint, &SECTION, &motion, &history)
+    };
+    // c_n = 2ζ √(m* k_n A) = 89.4 kN s/m: at 2.3 m/s it pulls by 5.7 kN, at 3 m/s by 68 kN.
+    let c = 0.2 * (1000.0f64 * 2e8).sqrt();
+    let held = opening(2.3, true);
+    assert!((held.total().z - (2e5 - 2.3 * c)).abs() < 1e-6 && held.total().z < 0.0);
+    assert!(held.history.bonded);
+    let broken = opening(3.0, true);
+    assert_eq!(broken.total().z, -2e4);
+    assert!(!broken.history.bonded);
+    assert_eq!(opening(2.3, false).total().z, 0.0);
+}
+
+#[test]
+fn the_dashpot_in_shear_stays_under_the_cap() {
+    let motion = Motion {
+        velocity: DVec3::X * 50.0,
+        ..REST
+    };
+    let found = force(&JOINT, &SECTION, &motion, &History::default());
+    let cap = 2e5 * (PI / 6.0).tan();
+    assert!((found.total().x / -cap - 1.0).abs() < 1e-12, "{found:?}");
+    // The spring keeps what it had: nothing.
+    assert_eq!(found.history.shear, DVec3::ZERO);
+}

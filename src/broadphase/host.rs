@@ -144,12 +144,12 @@ impl<'a> Bins<'a> {
         }
         let number = item.number();
         for other in &self.entries[start as usize..self.buckets[place + 1].start as usize] {
-            // Other cells may share the bucket; a pair counts in the cell of the other only.
+            // Other levels may share the bucket. Other cells of this level may too, but their places
+            // differ by multiples of 4, and at most 4 cells in a row are searched.
             if item.overlaps(other)
                 && item.group != other.group
                 && other.level() == level
                 && !(half && other.number() <= number)
-                && cell(other.min, self.levels[level as usize].scale) == at
             {
                 let other = other.number();
                 found.push([number.min(other), number.max(other)]);

@@ -7,13 +7,15 @@ use crate::Result;
 
 mod auto;
 mod boxes;
+mod comparison;
 mod device;
 mod host;
 mod list;
 
 pub use auto::AutoBroadphase;
 pub use boxes::{Boxes, FARTHEST};
-pub use device::{DeviceBroadphase, Header, Search};
+pub use comparison::{Header, Search};
+pub use device::DeviceBroadphase;
 pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.

@@ -35,7 +35,7 @@ impl Finder {
     /// The finder that `scene` asks for where there are `parts`, on the adapter called `adapter` or the
     /// best one.
     fn new(scene: &Scene, parts: usize, adapter: Option<&str>) -> Result<Self> {
-        let many = parts >= AutoBroadphase::CROSSOVER;
+        let many = parts >= AutoBroadphase::GPU_CROSSOVER;
         let adapter = match scene.rock.search {
             Search::Device => gpu::pick(adapter)?,
             Search::Auto if many => match gpu::pick(adapter) {

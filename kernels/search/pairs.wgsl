@@ -67,8 +67,9 @@ fn pairs(
                         if (!overlap(item, other) || other.group == item.group) {
                             continue;
                         }
-                        // Other cells may share the bucket.
-                        let there = level_of(other) == level && all(cell_of(other.min, scale) == at);
+                        // Other levels may share the bucket. Other cells of this level may too, but their places
+                        // differ by multiples of 4, and at most 4 cells in a row are searched.
+                        let there = level_of(other) == level;
                         let later = level > own || beside || number_of(other) > number_of(item);
                         if (there && later) {
                             found(number_of(item), number_of(other));

@@ -4,24 +4,36 @@ use super::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
 use crate::Result;
 
 /// Searches on the host for few items and on the device for many; the list is the same.
+///
+/// The kernels are compiled when the device is first used.
 #[derive(Debug)]
 pub struct AutoBroadphase {
     /// Items from which on the device is used.
     pub crossover: usize,
-    host: HostBroadphase,
-    device: DeviceBroadphase,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    on_device: Option<DeviceBroadphase>,
 }
 
 impl AutoBroadphase {
-    /// Items from which on a device of its own is worth the way there and back.
-    pub const CROSSOVER: usize = 10_000;
+    /// Items from which on a GPU is used. An estimate: the host takes 0.5 to 1 µs of CPU time an
+    /// item, and two submissions that are waited for take some hundred microseconds with a usual driver.
+    /// `cargo bench --bench broadphase` measures it for a device.
+    pub const GPU_CROSSOVER: usize = 1000;
 
-    /// Uses `device` from [`Self::CROSSOVER`] items on.
-    pub fn new(device: DeviceBroadphase) -> Self {
+    /// Uses `device` from [`Self::GPU_CROSSOVER`] items on, and not at all if it computes on the
+    /// CPU: on lavapipe a search takes 5 to 8 times the CPU time of the host's for 10³ to 10⁵ items
+    /// of one size or of sizes 1:100, and more for fewer.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let crossover = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => usize::MAX,
+            _ => Self::GPU_CROSSOVER,
+        };
         Self {
-            crossover: Self::CROSSOVER,
-            host: HostBroadphase,
-            device,
+            crossover,
+            device: device.clone(),
+            queue: queue.clone(),
+            on_device: None,
         }
     }
 }
@@ -29,9 +41,12 @@ impl AutoBroadphase {
 impl Broadphase for AutoBroadphase {
     async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
         if items.len() < self.crossover {
-            self.host.pairs(items).await
-        } else {
-            self.device.pairs(items).await
+            return HostBroadphase.pairs(items).await;
         }
+        let finder = match &mut self.on_device {
+            Some(finder) => finder,
+            empty => empty.insert(DeviceBroadphase::new(&self.device, &self.queue)?),
+        };
+        finder.pairs(items).await
     }
 }

@@ -7,13 +7,15 @@ use crate::Result;
 
 mod auto;
 mod boxes;
+mod comparison;
 mod device;
 mod host;
 mod list;
 
 pub use auto::AutoBroadphase;
 pub use boxes::{Boxes, FARTHEST};
-pub use device::{DeviceBroadphase, Header, Search};
+pub use comparison::{Header, Search};
+pub use device::DeviceBroadphase;
 pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.
@@ -30,12 +32,14 @@ pub struct Item {
 impl Item {
     /// Whether the two boxes have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
-        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+        // Without branches, which nobody could predict.
+        let along = |a: usize| (self.min[a] <= other.max[a]) & (other.min[a] <= self.max[a]);
+        along(0) & along(1) & along(2)
     }
 
     /// Whether the two may touch: their boxes do, and they are of different groups.
     pub fn pairs_with(&self, other: &Self) -> bool {
-        self.group != other.group && self.overlaps(other)
+        (self.group != other.group) & self.overlaps(other)
     }
 }
 

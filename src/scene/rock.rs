@@ -60,7 +60,7 @@ pub struct Sleep {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Search {
-    /// On the host for less than 10 000 parts, else on a GPU if there is one.
+    /// On the host for fewer than 1000 parts, else on a GPU if there is one.
     #[default]
     Auto,
     /// On the host; needs no GPU.

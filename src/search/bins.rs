@@ -13,6 +13,8 @@ pub struct Bins {
 /// The buffers of a number of boxes, ready to be recorded.
 #[derive(Debug)]
 pub struct BinsOf {
+    /// Boxes that it is for.
+    pub items: u32,
     boxes: wgpu::Buffer,
     /// What the boxes are sorted by: scale and longest edge of each level.
     pub levels: wgpu::Buffer,
@@ -25,7 +27,6 @@ pub struct BinsOf {
     scan: ScanOf,
     count: wgpu::BindGroup,
     scatter: wgpu::BindGroup,
-    workgroups: u32,
 }
 
 /// Buckets for a number of items: at least two an item and a block of 64, a power of two.
@@ -73,10 +74,10 @@ impl Bins {
             ("entries_out", &entries),
         ];
         Ok(BinsOf {
+            items,
             scan: scan.of(device, &starts)?,
             count: self.count.bind(device, &buffers)?,
             scatter: self.scatter.bind(device, &buffers)?,
-            workgroups: items.div_ceil(WORKGROUP),
             boxes,
             levels,
             starts,
@@ -90,9 +91,10 @@ impl Bins {
         encoder.clear_buffer(&of.starts, 0, None);
         encoder.clear_buffer(&of.groups, 0, None);
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        self.count.record(&mut pass, &of.count, of.workgroups);
+        let groups = of.items.div_ceil(WORKGROUP);
+        self.count.record(&mut pass, &of.count, groups);
         scan.record(&mut pass, &of.scan);
-        self.scatter.record(&mut pass, &of.scatter, of.workgroups);
+        self.scatter.record(&mut pass, &of.scatter, groups);
     }
 }
 

@@ -43,8 +43,9 @@ impl DeviceBox {
         self.tag >> NUMBER_BITS
     }
 
-    /// Whether the two boxes have a point in common.
+    /// Whether the two boxes have a point in common. Without branches, which nobody could predict.
     pub fn overlaps(&self, other: &Self) -> bool {
-        (0..3).all(|a| self.min[a] <= other.max[a] && other.min[a] <= self.max[a])
+        let along = |a: usize| (self.min[a] <= other.max[a]) & (other.min[a] <= self.max[a]);
+        along(0) & along(1) & along(2)
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     finders::{Finders, on_host},
+    rig::Rig,
     scenes::{brute_force, item, scattered},
 };
 use riprap::{
@@ -100,8 +101,8 @@ fn promised_limits_suffice() {
 fn the_chosen_finder_gives_the_same_list() {
     let items = scattered(499, 10.0, 2);
     let expected = on_host(&items).unwrap();
-    let Finders { rig, device } = Finders::new();
-    let mut auto = AutoBroadphase::new(device);
+    let rig = Rig::new();
+    let mut auto = AutoBroadphase::new(&rig.device, &rig.queue);
     for crossover in [0, 499, 500, usize::MAX] {
         auto.crossover = crossover;
         assert!(rig.wait(auto.pairs(&items)).unwrap() == expected);

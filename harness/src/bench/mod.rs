@@ -1,20 +1,24 @@
-//! `riprap bench`: how fast each form of the kernel is, beside what memory allows.
+//! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
+//! blocks meet and move.
 
 mod clock;
 mod copy;
 mod flow;
 mod group;
 mod report;
+pub mod rock;
 mod subject;
 mod targets;
 mod variant;
 
 pub use copy::copy_bandwidth;
+pub use report::Machine;
 
 use crate::gpu;
 use clock::Clock;
-use report::{Machine, Row};
+use report::Row;
 use riprap::wgpu;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// What to measure, and on what.
@@ -26,9 +30,15 @@ pub struct Args {
     /// Adapter whose description contains NAME [default: the first of `riprap adapters`]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-    /// Only the main kernels, on 64³ cells, for a short time
+    /// Only one part [default: both]
+    #[arg(long, value_name = "PART")]
+    pub only: Option<Part>,
+    /// Only the main kernels, on 64³ cells, and at most 1000 blocks, for a short time
     #[arg(long)]
     pub quick: bool,
+    /// Piles of up to 100 000 blocks; takes many minutes
+    #[arg(long, conflicts_with = "quick")]
+    pub full: bool,
     /// Cells an axis; may be repeated [default: 64, 96, 128 and, where that takes seconds, 256]
     #[arg(long, value_name = "N")]
     pub grid: Vec<u32>,
@@ -38,35 +48,91 @@ pub struct Args {
     pub memory: Option<f64>,
 }
 
+/// What is measured.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The lattice.
+    Fluid,
+    /// The blocks.
+    Rock,
+}
+
+/// A result of either part: one object of the file.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Measured {
+    Fluid(Row),
+    Rock(rock::Row),
+}
+
 /// Measures, prints a table as it goes, and writes the file.
 ///
 /// # Errors
-/// If there is no adapter, the device fails, or the file cannot be written.
+/// If there is no adapter and not only rock is measured, the device fails, or the file cannot be
+/// written.
 pub fn run(args: Args) -> anyhow::Result<()> {
-    let adapter = gpu::pick(args.adapter.as_deref())?;
-    let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
-    let (device, queue) = gpu::open(&adapter, adapter.features() & wanted, adapter.limits())?;
-    let machine = Machine::of(&adapter.get_info());
+    let device = match gpu::pick(args.adapter.as_deref()) {
+        Err(error) if args.only == Some(Part::Rock) && args.adapter.is_none() => {
+            println!("{error}; pairs are found on the host only");
+            None
+        }
+        adapter => {
+            let adapter = adapter?;
+            let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
+            let features = adapter.features() & wanted;
+            let (device, queue) = gpu::open(&adapter, features, adapter.limits())?;
+            Some((Machine::of(&adapter.get_info()), device, queue))
+        }
+    };
+    let machine = match &device {
+        Some((machine, ..)) => machine.clone(),
+        None => Machine::host(),
+    };
     println!("{machine}");
-    let mut clock = Clock::new(&device, &queue, machine.software);
+    let mut measured: Vec<Measured> = Vec::new();
+    if let Some((_, device, queue)) = &device
+        && args.only != Some(Part::Rock)
+    {
+        let rows = fluid(&args, &machine, device, queue)?;
+        measured.extend(rows.into_iter().map(Measured::Fluid));
+    }
+    if args.only != Some(Part::Fluid) {
+        let gpu = device
+            .as_ref()
+            .map(|(_, device, queue)| rock::Gpu { device, queue });
+        let plan = rock::Plan::new(args.quick, args.full);
+        let rows = rock::measure(&plan, gpu.as_ref(), &machine)?;
+        measured.extend(rows.into_iter().map(Measured::Rock));
+    }
+    if let Some(path) = &args.json {
+        let text = serde_json::to_string_pretty(&measured)?;
+        std::fs::write(path, text + "\n").map_err(|e| riprap::Error::file(path, e))?;
+    }
+    Ok(())
+}
+
+/// The kernels of the fluid on each grid.
+fn fluid(
+    args: &Args,
+    machine: &Machine,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+) -> anyhow::Result<Vec<Row>> {
+    let mut clock = Clock::new(device, queue, machine.software);
     let budget = budget(args.memory, machine.software);
     let mut rows: Vec<Row> = Vec::new();
-    for grid in grids(&args) {
-        if let Some(why) = too_slow(&args, grid, &rows) {
+    for grid in grids(args) {
+        if let Some(why) = too_slow(args, grid, &rows) {
             println!("\n{grid}³: left out, {why}");
             continue;
         }
         println!("\n{grid}³ cells\n{}", report::HEAD);
-        for group in variant::groups(grid, &machine, args.quick, budget, &device) {
-            rows.extend(group::measure(&mut clock, &machine, group, args.quick)?);
+        for group in variant::groups(grid, machine, args.quick, budget, device) {
+            rows.extend(group::measure(&mut clock, machine, group, args.quick)?);
         }
         targets::print(grid, &rows, machine.software);
     }
-    if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&rows)?;
-        std::fs::write(path, text + "\n").map_err(|e| riprap::Error::file(path, e))?;
-    }
-    Ok(())
+    Ok(rows)
 }
 
 fn grids(args: &Args) -> Vec<u32> {

@@ -33,11 +33,6 @@ pub struct Machine {
 impl Machine {
     /// This machine with an adapter, now.
     pub fn of(info: &wgpu::AdapterInfo) -> Self {
-        let git = std::process::Command::new("git")
-            .args(["rev-parse", "--short=12", "HEAD"])
-            .output();
-        let commit = git.ok().filter(|out| out.status.success());
-        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
         Self {
             adapter: info.name.clone(),
             backend: format!("{:?}", info.backend),
@@ -45,6 +40,22 @@ impl Machine {
                 .trim()
                 .into(),
             software: gpu::is_software(info),
+            ..Self::host()
+        }
+    }
+
+    /// This machine without an adapter, now.
+    pub fn host() -> Self {
+        let git = std::process::Command::new("git")
+            .args(["rev-parse", "--short=12", "HEAD"])
+            .output();
+        let commit = git.ok().filter(|out| out.status.success());
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+        Self {
+            adapter: "no adapter".into(),
+            backend: "none".into(),
+            driver: String::new(),
+            software: true,
             cores: clock::cores(),
             version: env!("CARGO_PKG_VERSION"),
             commit: commit.map(|out| String::from_utf8_lossy(&out.stdout).trim().into()),

@@ -1,24 +1,45 @@
-//! Which of the aims of the kernel are met.
+//! Which of the aims are met.
 
 use super::{report::Row, variant};
 
 /// An aim: what it says, what was found, and whether that is enough.
-struct Target {
-    says: &'static str,
-    found: f64,
-    met: bool,
+pub struct Target {
+    /// What it says.
+    pub says: &'static str,
+    /// What was found.
+    pub found: f64,
+    /// Whether that is enough.
+    pub met: bool,
 }
 
-/// Prints one line about the aims on a grid.
+impl Target {
+    /// An aim that `found` reaches.
+    pub fn at_least(says: &'static str, found: f64, limit: f64) -> Self {
+        let met = found >= limit;
+        Self { says, found, met }
+    }
+
+    /// An aim that `found` does not exceed.
+    pub fn at_most(says: &'static str, found: f64, limit: f64) -> Self {
+        let met = found <= limit;
+        Self { says, found, met }
+    }
+}
+
+/// Prints one line about the aims of the fluid on a grid.
 pub fn print(grid: u32, rows: &[Row], software: bool) {
-    let all = targets(grid, rows, software);
+    show(&format!("{grid}³"), &targets(grid, rows, software));
+}
+
+/// Prints one line about the aims of something.
+pub fn show(of: &str, all: &[Target]) {
     let (met, missed): (Vec<_>, Vec<_>) = all.iter().partition(|t| t.met);
     let list = |some: &[&Target]| {
         let each = some.iter().map(|t| format!("{} ({:.3})", t.says, t.found));
         each.collect::<Vec<_>>().join(", ")
     };
     println!(
-        "{grid}³ targets: {} of {} met: {}{}{}",
+        "{of} targets: {} of {} met: {}{}{}",
         met.len(),
         all.len(),
         list(&met),
@@ -42,11 +63,7 @@ fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Target> {
     let half = find(variant::PLAIN, "f16");
     let mut all = Vec::new();
     let mut at_least = |says, found: Option<f64>, limit: f64| {
-        all.extend(found.map(|found| Target {
-            says,
-            found,
-            met: found >= limit,
-        }));
+        all.extend(found.map(|found| Target::at_least(says, found, limit)));
     };
     if software {
         let ratio = plain.map(|r| r.ratio_to_stream_only);
@@ -59,11 +76,7 @@ fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Target> {
         at_least("16-bit MRT ≥ 0.65 of the copy", share(half), 0.65);
     }
     let mut at_most = |says, found: Option<f64>, limit: f64| {
-        all.extend(found.map(|found| Target {
-            says,
-            found,
-            met: found <= limit,
-        }));
+        all.extend(found.map(|found| Target::at_most(says, found, limit)));
     };
     at_most("MRT ≤ 1.1 BGK", longer("bgk").map(f64::recip), 1.1);
     at_most("WALE ≤ 1.6 of the plain step", longer("mrt, WALE"), 1.6);

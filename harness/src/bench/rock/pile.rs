@@ -21,8 +21,8 @@ const BEDROCK: f64 = 1.0;
 /// and the pile, sheared too, at half of that: twice its frequency damps it critically.
 const DAMPING: f64 = 150.0;
 
-/// Largest speed of a block at rest, m/s: it moves by less than 1e-7 of its size in a step.
-const REST: f64 = 1e-3;
+/// Largest speed of a block at rest, m/s: at steps of some 1e-5 s it moves by 1e-7 of its size in one.
+const REST: f64 = 3e-3;
 /// Steps after which a pile is taken as it is.
 const MOST_STEPS: u64 = 4000;
 
@@ -144,7 +144,7 @@ fn jointed(count: usize) -> Result<Setup> {
         dip,
         dip_direction,
         spacing: 1.0,
-        scatter: Scatter::Uniform { range: 0.3 },
+        scatter: Scatter::Uniform { range: 0.2 },
         origin: DVec3::splat(0.123),
         seed,
         persistence: None,

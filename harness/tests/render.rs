@@ -251,7 +251,7 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
         let picture = render(&drawing, size);
         let [x, y] = body_in_the_middle_row(&picture);
         let drawn = picture.pixel(x, y).map(linear);
-        let map = Palette::Sequential.colour(value);
+        let map = Palette::FromPale.colour(value);
         let map = [map.0, map.1, map.2].map(linear);
         let light = drawn.iter().sum::<f64>() / map.iter().sum::<f64>();
         assert!(light > 0.3 && light < 1.02, "light {light}");
@@ -263,7 +263,7 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
             );
         }
         // The colour bar has the exact colour, to the right of the body.
-        let exact = Palette::Sequential.colour(0.5);
+        let exact = Palette::FromPale.colour(0.5);
         let exact = [exact.0, exact.1, exact.2];
         let near = |p: [u8; 3]| exact.iter().zip(p).all(|(a, b)| a.abs_diff(b) <= 2);
         let bar =

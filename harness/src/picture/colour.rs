@@ -26,6 +26,8 @@ pub const CURVES: [RGBColor; 8] = [
 pub enum Palette {
     /// Viridis, dark blue to yellow, evenly lighter.
     Sequential,
+    /// Pale over orange to dark red: for bodies under light, whose lowest value must not be black.
+    FromPale,
     /// Blue over light grey to red, the middle being zero.
     Diverging,
 }
@@ -50,6 +52,7 @@ impl Palette {
         let fraction = fraction.clamp(0.0, 1.0);
         match self {
             Self::Sequential => ViridisRGB::get_color(fraction),
+            Self::FromPale => from_pale(fraction),
             Self::Diverging => diverging(fraction),
         }
     }
@@ -58,9 +61,33 @@ impl Palette {
     pub fn line(self) -> RGBColor {
         match self {
             Self::Sequential => RGBColor(255, 255, 255),
+            Self::FromPale => RGBColor(0, 0, 0),
             Self::Diverging => RGBColor(40, 40, 40),
         }
     }
+}
+
+/// Brewer, 2003, ColorBrewer's OrRd in nine classes, straight between them; darker with the value.
+fn from_pale(fraction: f64) -> RGBColor {
+    const CLASSES: [[u8; 3]; 9] = [
+        [255, 247, 236],
+        [254, 232, 200],
+        [253, 212, 158],
+        [253, 187, 132],
+        [252, 141, 89],
+        [239, 101, 72],
+        [215, 48, 31],
+        [179, 0, 0],
+        [127, 0, 0],
+    ];
+    let place = fraction * (CLASSES.len() - 1) as f64;
+    let below = (place as usize).min(CLASSES.len() - 2);
+    let part = place - below as f64;
+    let [r, g, b] = std::array::from_fn(|c| {
+        let [low, high] = [below, below + 1].map(|class| f64::from(CLASSES[class][c]));
+        (low + part * (high - low)).round() as u8
+    });
+    RGBColor(r, g, b)
 }
 
 /// Moreland, 2009, "Diverging color maps for scientific visualization": even steps of lightness

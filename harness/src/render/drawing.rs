@@ -133,11 +133,14 @@ impl Drawing<'_> {
                 ))
             }
             Some([low, high]) if low == -high => Ok((Palette::Diverging, [low, high])),
-            Some(range) => Ok((Palette::Sequential, range)),
+            Some(range) => Ok((Palette::FromPale, range)),
             None => {
                 let free = self.instances.iter().filter(|body| !body.fixed);
                 let range = crate::picture::extremes(free.filter_map(|body| body.value));
-                Ok(Palette::fitting(range))
+                Ok(match Palette::fitting(range) {
+                    (Palette::Sequential, range) => (Palette::FromPale, range),
+                    other => other,
+                })
             }
         }
     }

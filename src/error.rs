@@ -83,7 +83,7 @@ pub enum Error {
     },
     /// Two blocks overlap by more than hard blocks may.
     #[error(
-        "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, a tenth of the way from a face to its centroid; {remedy}"
+        "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, which hard blocks may; {remedy}"
     )]
     DeepOverlap {
         /// One block.
@@ -99,7 +99,7 @@ pub enum Error {
     },
     /// Blocks overlap at the start.
     #[error(
-        "blocks overlap at the start in {} places, deepest first: {}; move them apart, or relax them",
+        "blocks overlap at the start in {} places, deepest first: {}; move them apart, or relax them (`rock.relax = true` in a scene)",
         pairs.len(), Overlap::list(pairs)
     )]
     Overlaps {

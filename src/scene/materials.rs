@@ -18,10 +18,10 @@ pub struct Material {
     pub shear_stiffness: Option<f64>,
     /// Angle of friction φ, degrees, from 0 to below 90.
     pub friction: f64,
-    /// Cohesion c, Pa, lost once a contact has slipped or opened. Default 0.
+    /// Cohesion c, Pa, of every contact. Default 0.
     #[serde(default)]
     pub cohesion: f64,
-    /// Tensile strength σ_t, Pa, lost once a contact has opened. Default 0.
+    /// Tensile strength σ_t, Pa, of the contacts that exist at the start, until they open. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at

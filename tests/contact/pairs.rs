@@ -1,6 +1,6 @@
 //! Random pairs with a wanted gap, by parry's distance.
 
-use crate::rig::{Random, Solid};
+use super::rig::{Random, Solid};
 use glam::{DQuat, DVec3};
 use parry3d_f64::{math::Pose, query};
 use riprap::contact::Placed;

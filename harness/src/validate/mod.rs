@@ -22,6 +22,7 @@ mod plane_walls;
 mod repeatability;
 mod rock;
 mod rock_broadphase;
+mod rock_contact;
 mod rock_free_body;
 mod rock_incline;
 mod rock_rebound;
@@ -123,6 +124,7 @@ pub const CASES: &[Case] = &[
     short("rock/stack", rock_rest::stack),
     short("rock/pyramid", rock_rest::pyramid),
     short("rock/arch", rock_rest::arch),
+    short("rock/contact-sign", rock_contact::sign),
     short("rock/broadphase", rock_broadphase::run),
 ];
 

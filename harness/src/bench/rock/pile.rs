@@ -96,15 +96,14 @@ impl Pile {
     pub fn placed(&self) -> Vec<Placed> {
         let both = self.setup.blocks.iter().zip(self.blocks.poses());
         let placed = both.flat_map(|(block, pose)| {
-            let parts = block.shape.parts().iter().map(move |part| {
+            block.shape.parts().iter().map(move |part| {
                 let mut placed = Placed::default();
                 match &part.form {
                     Form::Convex(shape) => placed.update(shape, part.offset, &pose),
                     Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, &pose),
                 }
                 placed
-            });
-            parts
+            })
         });
         placed.collect()
     }

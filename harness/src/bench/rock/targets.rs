@@ -21,7 +21,7 @@ pub fn targets(rows: &[Row]) -> Vec<Target> {
         of(kernel, variant).filter_map(f).reduce(f64::max)
     };
     // That over all counts.
-    let last = |kernel, variant| of(kernel, variant).last().and_then(|row| row.exponent);
+    let last = |kernel, variant| of(kernel, variant).next_back().and_then(|row| row.exponent);
     let mut all = Vec::new();
     for (says, found, limit) in [
         (

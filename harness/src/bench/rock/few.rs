@@ -30,7 +30,9 @@ const TURNS: usize = 500;
 /// If a step fails.
 pub fn measure(plan: &Plan, core: &Core, machine: &Machine, rows: &mut Vec<Row>) -> Result<()> {
     let mut scenes = [scene(&[])?, scene(&WALLS)?];
-    let before = scenes.each_ref().map(|blocks| blocks.counts().pairs);
+    let before = scenes
+        .each_ref()
+        .map(|blocks| (blocks.counts().pairs, blocks.steps()));
     let mut costs = [Cost::NONE; 2];
     for _ in 0..4 * plan.rounds {
         for (blocks, cost) in scenes.iter_mut().zip(&mut costs) {
@@ -38,9 +40,9 @@ pub fn measure(plan: &Plan, core: &Core, machine: &Machine, rows: &mut Vec<Row>)
             *cost = cost.lower(took.of_each(TURNS));
         }
     }
-    let steps = (4 * plan.rounds * TURNS) as u64;
     for (k, variant) in [ON_A_PLANE, AMONG_FIVE].into_iter().enumerate() {
-        let calls = scenes[k].counts().pairs - before[k];
+        let calls = scenes[k].counts().pairs - before[k].0;
+        let steps = scenes[k].steps() - before[k].1;
         let done = Done {
             kernel: "step",
             variant: variant.into(),

@@ -35,8 +35,10 @@ use glam::DVec3;
 ///     time_step: Some(1e-3),
 ///     ..Setup::default()
 /// })?;
-/// blocks.set_pairs(Vec::new())?;
 /// for _ in 0..100 {
+///     if blocks.wants_pairs() {
+///         blocks.set_pairs(Vec::new())?; // It is alone.
+///     }
 ///     blocks.step()?;
 /// }
 /// assert!((blocks.poses()[0].centre.z - (1.0 - 0.5 * 9.81 * 0.01)).abs() < 1e-12);

@@ -1,7 +1,7 @@
 //! A bitmap with text, drawn three times as large as it is saved: strokes and fills have no soft
 //! edges of their own, the averaging on saving gives them theirs.
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, register_font};
@@ -153,16 +153,7 @@ impl Canvas {
 
     /// Writes the picture as PNG, replacing an older file only when done.
     pub fn save(&self, path: &Path) -> Result<()> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder
-            .write_header()
-            .and_then(|mut writer| writer.write_image_data(&self.rgb()))
-            .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
-        Ok(riprap::output::replace(path, |writer| {
-            writer.write_all(&bytes)
-        })?)
+        super::png_file::write(path, [self.width, self.height], &self.rgb())
     }
 
     /// Red, green and blue of the saved pixels.

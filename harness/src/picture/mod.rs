@@ -9,6 +9,7 @@ pub(crate) mod colour_bar;
 mod curve;
 pub(crate) mod frame;
 mod history;
+pub(crate) mod png_file;
 mod section;
 mod slice;
 mod streamlines;

@@ -29,16 +29,7 @@ impl Picture {
     /// # Errors
     /// If the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder
-            .write_header()
-            .and_then(|mut writer| writer.write_image_data(&self.rgb()))
-            .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
-        Ok(riprap::output::replace(path, |writer| {
-            writer.write_all(&bytes)
-        })?)
+        crate::picture::png_file::write(path, [self.width, self.height], &self.rgb())
     }
 
     /// Reads what [`Self::save`] has written.

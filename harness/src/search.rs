@@ -5,7 +5,7 @@ use riprap::{
     Result,
     broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
     scene::{Scene, Search},
-    simulation::{Dry, block_setup},
+    simulation::{Dry, LeftOut, block_setup},
     wgpu,
 };
 use std::{path::Path, time::Duration};
@@ -87,7 +87,11 @@ impl Broadphase for Finder {
 /// Those of [`Dry::new`], with their line in the file, and of the device.
 pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Dry<Finder>> {
     let made = block_setup(scene).and_then(|setup| {
-        let parts = setup.blocks.iter().map(|block| block.shape.parts().len());
+        let parts = setup
+            .setup
+            .blocks
+            .iter()
+            .map(|block| block.shape.parts().len());
         let finder = Finder::new(scene, parts.sum(), adapter)?;
         pollster::block_on(Dry::of(scene, setup, finder))
     });
@@ -95,6 +99,20 @@ pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Dry<Fin
         Ok(text) => Scene::locate(error, &text, &file.display().to_string()),
         Err(_) => error,
     })
+}
+
+/// What is missing of rock masses, a line for each.
+pub fn left_out(all: &[LeftOut]) -> impl Iterator<Item = String> {
+    let line = |lost: &LeftOut| {
+        format!(
+            "{} pieces of {}, {:.1} % of it: smaller or thinner than its smallest_volume and \
+             smallest_thickness",
+            lost.pieces,
+            lost.mass,
+            100.0 * lost.share
+        )
+    };
+    all.iter().map(line)
 }
 
 /// Takes `steps` steps.

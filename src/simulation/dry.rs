@@ -1,6 +1,6 @@
 //! Blocks alone: the loop of a scene without fluid.
 
-use super::block_setup;
+use super::{BlockSetup, LeftOut, block_setup};
 use crate::{
     Error, Result,
     bodies::{self, Blocks},
@@ -22,7 +22,7 @@ const SWEEPS: usize = 1000;
 #[derive(Debug)]
 pub struct Dry<F> {
     scene: Scene,
-    setup: bodies::Setup,
+    setup: BlockSetup,
     blocks: Blocks,
     finder: F,
     time_step: f64,
@@ -44,9 +44,9 @@ impl<F: Broadphase> Dry<F> {
     ///
     /// # Errors
     /// Those of [`Dry::new`].
-    pub async fn of(scene: &Scene, setup: bodies::Setup, finder: F) -> Result<Self> {
+    pub async fn of(scene: &Scene, setup: BlockSetup, finder: F) -> Result<Self> {
         super::uncoupled(scene)?;
-        let blocks = Blocks::new(setup.clone())?;
+        let blocks = Blocks::new(setup.setup.clone())?;
         if !blocks.time_step().is_finite() {
             return Err(Error::scene(
                 "rock.time_step",
@@ -126,7 +126,12 @@ impl<F: Broadphase> Dry<F> {
 
     /// The blocks as they were made: names, shapes, materials.
     pub fn setup(&self) -> &bodies::Setup {
-        &self.setup
+        &self.setup.setup
+    }
+
+    /// The rock masses of which pieces are missing.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.setup.left_out
     }
 
     /// The blocks as they are.

@@ -9,7 +9,7 @@ mod lattice_setup;
 mod needs;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
-pub use block_setup::block_setup;
+pub use block_setup::{BlockSetup, LeftOut, block_setup};
 pub use dry::Dry;
 pub use fields::Totals;
 pub use lattice_setup::{face_velocity, lattice_setup};

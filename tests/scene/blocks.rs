@@ -30,7 +30,7 @@ fn changed(from: &str, to: &str) -> riprap::Result<Scene> {
 }
 
 fn setup(text: &str) -> riprap::Result<bodies::Setup> {
-    block_setup(&read(text)?)
+    Ok(block_setup(&read(text)?)?.setup)
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn a_dry_scene_needs_neither_fluid_nor_domain() {
     assert_eq!((material.shear_stiffness(), material.damping), (0.8e9, 0.1));
     let block = &scene.blocks[0];
     assert_eq!((block.motion, block.position), (Motion::Free, [0.0; 3]));
-    let setup = block_setup(&scene).unwrap();
+    let setup = block_setup(&scene).unwrap().setup;
     assert_eq!(setup.blocks[0].name, "block_1");
     assert_eq!(setup.blocks[0].shape.volume(), 6.0);
     assert_eq!(setup.gravity.z, -9.81);
@@ -175,7 +175,7 @@ animation = false
     .unwrap();
     assert_eq!(scene.rock.search, Search::Device);
     assert_eq!(scene.views[0].size, [640, 480]);
-    let setup = block_setup(&scene).unwrap();
+    let setup = block_setup(&scene).unwrap().setup;
     let names: Vec<_> = setup.blocks.iter().map(|b| b.name.as_str()).collect();
     assert_eq!(
         &names[..7],
@@ -449,4 +449,28 @@ fn rock_masses_and_views_agree_with_themselves() {
         cube("[[views]]\nname = \"v\"\nsize = [10, 10]\n"),
         &["views[0].size[0]", "64 to 8192"],
     );
+}
+
+/// A cube of 2 m cut at a height of 0.5 m, into 2 and 6 m³.
+#[test]
+fn pieces_that_are_left_out_are_told() {
+    let scene = |least: f64| {
+        read(&format!(
+            "[[materials]]\nname = \"rock\"\ndensity = 2700\nnormal_stiffness = 1e9\nfriction = 30\n\
+             [[rock_masses]]\nname = \"mass\"\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [2, 2, 2]\n\
+             smallest_volume = {least}\n\
+             joints = [{{ dip = 0, dip_direction = 0, spacing = 1.5, distribution = \"none\", \
+             origin = [0, 0, 0.5] }}]\n[run]\nduration = 1\n"
+        ))
+        .unwrap()
+    };
+    let whole = block_setup(&scene(0.1)).unwrap();
+    assert_eq!((whole.setup.blocks.len(), whole.left_out.len()), (2, 0));
+    let trimmed = block_setup(&scene(3.0)).unwrap();
+    assert_eq!(trimmed.setup.blocks.len(), 1);
+    let [lost] = &trimmed.left_out[..] else {
+        panic!("{:?}", trimmed.left_out);
+    };
+    assert_eq!((lost.mass.as_str(), lost.pieces), ("mass", 1));
+    assert!((lost.share - 0.25).abs() < 1e-12, "{}", lost.share);
 }

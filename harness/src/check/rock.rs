@@ -2,7 +2,7 @@
 
 use crate::{
     print::{bytes, duration},
-    search::{self, Finder},
+    search::{self, Finder, left_out},
 };
 use anyhow::Result;
 use riprap::{
@@ -44,6 +44,8 @@ pub struct RockReport {
     pub spheres: usize,
     /// Faces of the others.
     pub faces: usize,
+    /// Pieces of rock masses that are too small for a block, a line for each mass.
+    pub left_out: Vec<String>,
     /// Mass of the free blocks, kg.
     pub mass: f64,
     /// Lightest free block: its name and mass, kg.
@@ -119,6 +121,7 @@ pub fn report(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<RockR
             .filter(|part| matches!(part.form, Form::Sphere { .. }))
             .count(),
         faces: parts().map(|part| faces(&part.form)).sum(),
+        left_out: left_out(simulation.left_out()).collect(),
         mass: free.iter().map(mass).sum(),
         lightest: lightest.map(|block| (blocks.name(*block).into(), mass(block))),
         pairs: blocks.candidates(),
@@ -192,6 +195,9 @@ impl RockReport {
                 self.shapes, self.parts, self.spheres, self.faces
             ),
         );
+        for left_out in &self.left_out {
+            line("left out", left_out.clone());
+        }
         let lightest = self.lightest.as_ref();
         line(
             "mass",

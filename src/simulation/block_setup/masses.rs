@@ -1,6 +1,6 @@
 //! Rock masses, cut.
 
-use super::{meshes, shapes::half_spaces, solids::holds};
+use super::{LeftOut, meshes, shapes::half_spaces, solids::holds};
 use crate::{
     Result,
     block::{Compass, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter},
@@ -9,8 +9,12 @@ use crate::{
 };
 use glam::DVec3;
 
-/// The blocks of the rock mass `index`.
-pub(super) fn blocks(scene: &Scene, index: usize, mass: &scene::RockMass) -> Result<Vec<Block>> {
+/// The blocks of the rock mass `index`, and what of it is too small for one.
+pub(super) fn blocks(
+    scene: &Scene,
+    index: usize,
+    mass: &scene::RockMass,
+) -> Result<(Vec<Block>, LeftOut)> {
     let key = format!("rock_masses[{index}]");
     let name = match &mass.name {
         Some(name) => name.clone(),
@@ -31,6 +35,11 @@ pub(super) fn blocks(scene: &Scene, index: usize, mass: &scene::RockMass) -> Res
         ..RockMass::new(vec![volume(scene, &key, &mass.volume)?])
     };
     let fragments = rock.cut().map_err(|error| error.within(&key))?;
+    let left_out = LeftOut {
+        mass: name.clone(),
+        pieces: fragments.slivers.len(),
+        share: fragments.slivers.iter().map(|s| s.volume).sum::<f64>() / fragments.volume,
+    };
     let removed = holds(scene, &mass.removed)?;
     let fixed = holds(scene, &mass.fixed)?;
     let kept = fragments.blocks.into_iter();
@@ -48,7 +57,7 @@ pub(super) fn blocks(scene: &Scene, index: usize, mass: &scene::RockMass) -> Res
             fragment.centre,
         )
     });
-    Ok(blocks.collect())
+    Ok((blocks.collect(), left_out))
 }
 
 /// The set `number` of a mass.

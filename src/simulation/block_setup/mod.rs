@@ -15,13 +15,33 @@ use crate::{
 use glam::DVec3;
 use std::collections::HashSet;
 
+/// The blocks of a scene, ready to be run.
+#[derive(Clone, Debug)]
+pub struct BlockSetup {
+    /// The blocks.
+    pub setup: Setup,
+    /// The rock masses of which pieces are missing.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Pieces of a rock mass that are smaller or thinner than the scene lets a block be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftOut {
+    /// Name of the rock mass.
+    pub mass: String,
+    /// How many.
+    pub pieces: usize,
+    /// Their volume, as a share of the mass's.
+    pub share: f64,
+}
+
 /// The blocks of a scene: those of `blocks` in their order, then those of `rock_masses`, then the
 /// `solids`, which are fixed.
 ///
 /// # Errors
 /// [`Error::Scene`] naming the table and key from which no block can be made; [`Error::File`] for a
 /// mesh.
-pub fn block_setup(scene: &Scene) -> Result<Setup> {
+pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     let rock = &scene.rock;
     let mut setup = Setup {
         materials: materials::materials(scene),
@@ -38,18 +58,23 @@ pub fn block_setup(scene: &Scene) -> Result<Setup> {
         }),
         ..Setup::default()
     };
+    let mut left_out = Vec::new();
     for (index, block) in scene.blocks.iter().enumerate() {
         setup.blocks.extend(rows::blocks(scene, index, block)?);
     }
     for (index, mass) in scene.rock_masses.iter().enumerate() {
-        setup.blocks.extend(masses::blocks(scene, index, mass)?);
+        let (blocks, lost) = masses::blocks(scene, index, mass)?;
+        setup.blocks.extend(blocks);
+        if lost.pieces > 0 {
+            left_out.push(lost);
+        }
     }
     for (index, solid) in scene.solids.iter().enumerate() {
         setup.blocks.push(solids::block(scene, index, solid)?);
     }
     check_names(scene, &setup)?;
     check_domain(scene, &setup)?;
-    Ok(setup)
+    Ok(BlockSetup { setup, left_out })
 }
 
 /// Names differ, and those that probes name exist.

@@ -1,6 +1,7 @@
 //! What a run of blocks says before it starts.
 
 use super::{Dry, Engine};
+use crate::search::left_out;
 use riprap::bodies::Motion;
 use std::path::Path;
 
@@ -21,6 +22,9 @@ pub fn announce(engine: &Dry, folder: &Path, last: u64) {
         count(|motion| matches!(motion, Motion::Driven { .. })),
         count(|motion| *motion == Motion::Fixed),
     );
+    for line in left_out(simulation.left_out()) {
+        eprintln!("  left out  {line}");
+    }
     eprintln!(
         "  search    {}, skin {:.3e} m",
         simulation.finder().describe(),

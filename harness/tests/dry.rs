@@ -235,6 +235,21 @@ fn a_restart_of_blocks_goes_on_to_the_same_bits() {
 }
 
 #[test]
+fn a_run_that_searches_pairs_on_a_device_is_the_same() {
+    let folder = folder("device");
+    let on_host = args(&folder, PILE, "host");
+    go(&on_host);
+    let title = "title = \"pile\"\n";
+    let text = PILE.replace(title, &format!("{title}[rock]\nsearch = \"device\"\n"));
+    let on_device = args(&folder, &text, "device");
+    go(&on_device);
+    for table in ["history.csv", "top.csv"] {
+        let read = |args: &Args| fs::read(args.out.as_ref().unwrap().join(table)).unwrap();
+        assert!(read(&on_host) == read(&on_device), "{table}");
+    }
+}
+
+#[test]
 fn a_stopped_run_of_blocks_leaves_its_state() {
     let folder = folder("stop");
     let summary = run(&args(&folder, PILE, "out"), &AtomicBool::new(true)).unwrap();

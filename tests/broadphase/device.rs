@@ -26,16 +26,6 @@ fn finds_what_brute_force_finds() {
     }
 }
 
-#[test]
-#[ignore = "takes a minute: 5·10⁹ pairs are tried"]
-fn finds_what_brute_force_finds_among_many() {
-    let mut finders = Finders::new();
-    for ratio in [1.0, 100.0] {
-        let items = scattered(100_003, ratio, 5);
-        assert!(finders.pairs(&items) == brute_force(&items), "1:{ratio}");
-    }
-}
-
 /// Buckets are filled in an order that nobody promises; the list is the same.
 #[test]
 fn the_list_is_the_same_each_time() {

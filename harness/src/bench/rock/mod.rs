@@ -1,7 +1,8 @@
-//! The rock part: contacts, the search for pairs, the step of all blocks.
+//! The rock part: cutting, contacts, the search for pairs, the step of all blocks.
 
 mod contact;
 mod core;
+mod cut;
 mod exponent;
 mod few;
 mod pile;
@@ -67,6 +68,7 @@ pub fn measure(plan: &Plan, device: Option<&Gpu<'_>>, machine: &Machine) -> Resu
     );
     let core = Core::new()?;
     let mut rows = Vec::new();
+    cut::measure(plan, machine, &mut rows)?;
     search::measure(plan, &core, device, machine, &mut rows)?;
     few::measure(plan, &core, machine, &mut rows)?;
     step::measure(plan, &core, machine, &mut rows)?;

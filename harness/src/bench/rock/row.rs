@@ -8,11 +8,11 @@ use std::fmt;
 /// What one kernel takes for one number of blocks or boxes.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// `broadphase`, `contact` or `step`.
+    /// `cut`, `broadphase`, `contact` or `step`.
     pub kernel: &'static str,
     /// What it is done on, and by what.
     pub variant: String,
-    /// Boxes of the broadphase, free blocks otherwise.
+    /// Boxes of the broadphase, blocks that a cut makes, free blocks otherwise.
     pub count: usize,
     /// Pairs that a call finds or looks at.
     pub pairs: usize,

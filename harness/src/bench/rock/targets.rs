@@ -1,6 +1,6 @@
 //! Which of the aims of the rock part are met.
 
-use super::{few, row::Row, step};
+use super::{cut, few, row::Row, step};
 use crate::bench::targets::{Target, show};
 
 /// Prints one line about the aims.
@@ -65,6 +65,13 @@ pub fn targets(rows: &[Row]) -> Vec<Target> {
             "1:100 ≤ 1.1",
             last("broadphase", "device, sizes 1:100"),
             1.1,
+        ),
+        (
+            "10⁵ blocks cut in ≤ 10 s",
+            of("cut", cut::CUBE)
+                .find(|row| row.count >= 100_000)
+                .map(|row| 1e-3 * row.ms),
+            10.0,
         ),
         (
             "five fixed blocks cost ≤ 1.2 of one",

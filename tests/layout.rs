@@ -51,11 +51,7 @@ fn face_cells() {
 #[test]
 fn the_guard() {
     let setup = Setup::periodic([4; 3], 0.1);
-    let reach = riprap::lattice::Reach {
-        listed: false,
-        flagged: false,
-    };
-    let linked = riprap::lattice::collide_stream(&setup, 1, reach)
+    let linked = riprap::lattice::collide_stream(&setup, 1, riprap::lattice::Reach::All)
         .link()
         .unwrap();
     let fields = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];

@@ -1,24 +1,8 @@
-// Suga et al. 2015, section 3: fluid cells away from walls, the odd moments at the published rates.
+// Fluid cells whose neighbours are fluid.
 // needs $lanes, velocity, grid
-
-override S10: f32;
-override S13: f32;
-override S23: f32;
-override S26: f32;
-
-struct OddRates {
-    s10: f32,
-    s13: f32,
-    s23: f32,
-    s26: f32,
-}
 
 fn cell_class(p: Place) -> u32 {
     return 0u;
-}
-
-fn odd_rates(cell: u32) -> OddRates {
-    return OddRates(S10, S13, S23, S26);
 }
 
 fn solid(cell: u32) -> Mask {

@@ -1,7 +1,7 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
 // One step of the fluid, fused: load, moments, collide, back, store. In moments h the step adds
 // R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
-// needs moments, stream, velocity, $where, $cells, $equilibrium, $eddy, $force, $relax, $keep, $guard, workgroup
+// needs moments, stream, velocity, $where, $cells, $saturation, $equilibrium, $eddy, $force, $relax, $keep, $guard, workgroup
 
 @compute @workgroup_size(WORKGROUP)
 fn collide_stream(
@@ -10,7 +10,7 @@ fn collide_stream(
     @builtin(local_invocation_index) local: u32,
 ) {
     let turn = group.x + group.y * groups.x;
-    if (turn >= BRICKS) {
+    if (turn >= brick_count()) {
         return;
     }
     let p = place(brick_of(turn), local);
@@ -19,14 +19,15 @@ fn collide_stream(
     }
     let cell = cell_class(p);
     // First, while few values are held.
-    let shear_rate = 1.0 / relaxation_time(p, cell);
+    let saturation = saturation_of(turn, local);
+    let shear_rate = 1.0 / relaxation_time(p, cell, saturation);
     var f = load(p);
     var h = f;
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
     let bad = out_of_range(cell, rho, u);
-    keep_velocity(p, cell, u);
+    keep_velocity(p, cell, mean_velocity(saturation, u));
     var d = equilibrium(rho, u);
     for (var k = 1u; k < 27u; k++) { // unroll
         d[k] -= h[k];
@@ -35,8 +36,9 @@ fn collide_stream(
     // Only the change goes back from moments: its round-off is a share of the change, not of f, and
     // weak forces are not lost beside it.
     var change: array<Real, 27>;
-    relax(cell, shear_rate, &d, &change);
+    relax(cell, saturation, shear_rate, &d, &change);
     add_source(p, u, &change);
+    saturate(turn, local, cell, saturation, shear_rate, rho, u, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];

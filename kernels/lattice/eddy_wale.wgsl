@@ -1,20 +1,20 @@
 // Gardner & Sitar 2018, eq. 7: tau = 1/2 + 3 (nu + nu_t), nu_t by WALE from central differences of the
 // velocity of the previous step.
-// needs grid, velocity, wale, $cells, $reals
+// needs grid, velocity, wale, $cells, $saturation, $reals
 
 @group(0) @binding(30) var<storage, read> velocity_before: array<Reals>;
 
 override TAU: f32;
 override C_WALE: f32;
 
-fn relaxation_time(p: Place, cell: u32) -> Real {
+fn relaxation_time(p: Place, cell: u32, saturation: Saturation) -> Real {
     let elements = NX * NY * SLICES;
     let g = Gradient(
         component_gradient(p, cell, 0u),
         component_gradient(p, cell, elements),
         component_gradient(p, cell, 2u * elements),
     );
-    let nu_t = wale(g, C_WALE);
+    let nu_t = outside_solids(saturation, wale(g, C_WALE));
     return select(TAU + 3.0 * nu_t, Real(TAU), solid(cell));
 }
 

@@ -8,8 +8,6 @@ override SLICES: u32;
 override BRICK_X: u32;
 override BRICK_Y: u32;
 override BRICK_Z: u32;
-// Bricks to run: all of the grid, or the length of a list.
-override BRICKS: u32;
 
 // An element with its neighbours: index of (x + a, y + b, z + c) is x[1 + a] + y[1 + b] + z[1 + c].
 struct Place {

@@ -9,7 +9,7 @@ fn stream_only(
     @builtin(local_invocation_index) local: u32,
 ) {
     let turn = group.x + group.y * groups.x;
-    if (turn >= BRICKS) {
+    if (turn >= brick_count()) {
         return;
     }
     let p = place(brick_of(turn), local);

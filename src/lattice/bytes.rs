@@ -12,6 +12,7 @@ impl Lattice {
         let geometry = &self.geometry;
         // The kernels of even and odd steps keep a list each.
         let list = |bytes: usize| 2 * bytes as u64;
+        let [lists, saturation] = self.streams.bytes();
         let kinds = [
             (
                 "populations",
@@ -34,10 +35,8 @@ impl Lattice {
                 open.map(|(cells, carried)| cells.size() + carried.size())
                     .sum(),
             ),
-            (
-                "lists of bricks",
-                list(size_of_val(&geometry.plain[..])) + list(size_of_val(&geometry.mixed[..])),
-            ),
+            ("lists of bricks", lists),
+            ("saturation of bricks with blocks", saturation),
             ("guard", size(&buffers.guard)),
         ];
         kinds.into_iter().filter(|(_, bytes)| *bytes > 0).collect()

@@ -3,8 +3,8 @@
 use super::{
     Face, Force, Geometry, Grid, Setup, Storage,
     geometry::{FaceCell, MovingCell},
-    populations,
-    program::{self, Reach},
+    populations, program,
+    streams::Streams,
 };
 use crate::{Error, Result, kernel::Kernel, link::Program};
 use wgpu::util::DeviceExt;
@@ -46,8 +46,8 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
-    /// Collision and streaming of even and odd steps.
-    stream: [Vec<Dispatch>; 2],
+    /// Collision and streaming.
+    pub(super) streams: Streams,
     /// Steps recorded.
     pub(super) step: u64,
     /// Whether the boundary passes of the coming step have been recorded.
@@ -119,10 +119,11 @@ impl Lattice {
         let memory = super::memory(&setup, &grid, &device.limits())?;
         let geometry = Geometry::new(&setup, &grid);
         let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings);
+        let streams = Streams::new(device, &setup, &grid, &geometry, memory.bindings, &buffers)?;
         let mut lattice = Self {
             bindings: memory.bindings,
             boundary: [Vec::new(), Vec::new()],
-            stream: [Vec::new(), Vec::new()],
+            streams,
             setup,
             grid,
             geometry,
@@ -132,7 +133,6 @@ impl Lattice {
         };
         for odd in [false, true] {
             lattice.boundary[usize::from(odd)] = lattice.boundary_passes(device, odd)?;
-            lattice.stream[usize::from(odd)] = lattice.stream_passes(device, odd)?;
         }
         Ok(lattice)
     }
@@ -165,21 +165,69 @@ impl Lattice {
 
     /// The kernels of an even or odd step in their order, each with its workgroups.
     pub fn kernels(&self, odd: bool) -> impl Iterator<Item = (&Kernel, u32)> {
-        let [boundary, stream] =
-            [&self.boundary, &self.stream].map(|passes| passes[usize::from(odd)].iter());
+        let parity = usize::from(odd);
+        let boundary = self.boundary[parity].iter();
         boundary
-            .chain(stream)
             .map(|dispatch| (&dispatch.kernel, dispatch.groups))
+            .chain(self.streams.kernels(parity))
     }
 
     /// Records one step into the caller's pass.
     pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.record_saturated(pass);
+        self.record_rest(pass);
+    }
+
+    /// Records the first part of a step: the boundaries, and the bricks that blocks reach. What the
+    /// blocks feel is known after it.
+    pub fn record_saturated(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
-        for dispatch in &self.stream[self.parity()] {
-            dispatch.record(pass);
-        }
+        self.streams.record(pass, self.parity(), true);
+    }
+
+    /// Records the rest of a step after [`Lattice::record_saturated`]: all other bricks. Streaming is in
+    /// place and every population has one owner a step, so that the bits do not depend on this split.
+    pub fn record_rest(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.streams.record(pass, self.parity(), false);
         self.step += 1;
         self.closed = false;
+    }
+
+    /// Has these bricks, numbered as in [`Grid::bricks`] with x fastest, run by the kernel for blocks;
+    /// none are at the start. Only of a setup with a `solid_operator`.
+    ///
+    /// # Errors
+    /// If the setup has no blocks, or a brick does not exist, is solid or is listed twice.
+    pub fn set_saturated(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        bricks: &[u32],
+    ) -> Result<()> {
+        if self.setup.solid_operator.is_none() {
+            let message = "the setup has no solid operator, so that no block may be in the fluid";
+            return Err(Error::scene("numerics.solid_operator", message));
+        }
+        let Self {
+            streams,
+            setup,
+            grid,
+            geometry,
+            buffers,
+            ..
+        } = self;
+        if let Some(bad) = bricks.iter().find(|&&brick| !geometry.runs(brick)) {
+            let message = format!("brick {bad} has no fluid cell, or does not exist");
+            return Err(Error::scene("bricks", message));
+        }
+        streams.set(device, queue, (setup, grid, geometry, buffers), bricks)
+    }
+
+    /// What blocks leave of the cells of the bricks that they reach, in the order of
+    /// [`Lattice::set_saturated`], laid out as `kernels/lattice/saturation_cells.wgsl` says. Another
+    /// buffer after that call, if it had to grow.
+    pub fn saturation(&self) -> Option<&wgpu::Buffer> {
+        self.streams.saturation()
     }
 
     /// Records the boundary passes of the coming step, unless that is done: after it the
@@ -254,48 +302,6 @@ impl Lattice {
             Storage::F32 => &[0.0],
             Storage::F16 => &[0.0, 1.0],
         }
-    }
-
-    fn stream_passes(&self, device: &wgpu::Device, odd: bool) -> Result<Vec<Dispatch>> {
-        let geometry = &self.geometry;
-        let plain = Reach {
-            listed: true,
-            flagged: false,
-        };
-        let mixed = Reach {
-            listed: true,
-            flagged: true,
-        };
-        let everywhere = Reach {
-            listed: false,
-            flagged: false,
-        };
-        let all: u32 = self.grid.bricks().iter().product();
-        let wanted: Vec<(Reach, &[u32], u32)> = if self.setup.is_all_fluid() {
-            vec![(everywhere, &[], all)]
-        } else {
-            let lists = [(mixed, &geometry.mixed), (plain, &geometry.plain)];
-            let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
-            lists
-                .map(|(reach, list)| (reach, list.as_slice(), list.len() as u32))
-                .collect()
-        };
-        // One dispatch of a step counts it for the guard: the first.
-        let mut passes = Vec::new();
-        for (n, (reach, list, groups)) in wanted.into_iter().enumerate() {
-            let linked = program::collide_stream(&self.setup, self.bindings, reach).link()?;
-            let mut constants = program::constants(&self.setup, &self.grid, odd);
-            let counts = f64::from(u8::from(n == 0));
-            constants.extend([("BRICKS", f64::from(groups)), ("GUARD_COUNTS", counts)]);
-            let kernel = Kernel::new(device, &linked, "collide_stream", &constants)?;
-            let list =
-                (!list.is_empty()).then(|| storage(device, "bricks", bytemuck::cast_slice(list)));
-            let mut buffers = self.buffers.named(odd);
-            buffers.extend(list.iter().map(|list| ("bricks", list)));
-            let bind = kernel.bind(device, &buffers)?;
-            passes.push(Dispatch::new(kernel, bind, groups));
-        }
-        Ok(passes)
     }
 }
 

@@ -171,6 +171,11 @@ impl Geometry {
         geometry
     }
 
+    /// Whether a brick has a fluid cell.
+    pub fn runs(&self, brick: u32) -> bool {
+        self.mixed.binary_search(&brick).is_ok() || self.plain.binary_search(&brick).is_ok()
+    }
+
     /// Adds the links of a cell and returns its flags.
     fn survey_cell(&mut self, survey: &Survey<'_>, cell: [u32; 3]) -> u8 {
         let grid = survey.grid;

@@ -45,8 +45,11 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
     // Bindings beside the populations: of collide_stream, of a boundary pass, of macroscopic.
     let field = u32::from(matches!(setup.force, Force::Field(_)));
     let flags = u32::from(!fluid);
-    let step =
-        field + 2 * flags + 2 * u32::from(setup.wale.is_some()) + u32::from(setup.max_speed > 0.0);
+    let step = field
+        + 2 * flags
+        + 2 * u32::from(setup.wale.is_some())
+        + u32::from(setup.max_speed > 0.0)
+        + u32::from(setup.solid_operator.is_some());
     let boundary = if moving { 2 } else { flags };
     let beside = step.max(boundary).max(4 + flags + field);
     let free = limits

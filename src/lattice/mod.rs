@@ -15,6 +15,7 @@ mod setup;
 mod stages;
 mod start;
 mod stream_only;
+mod streams;
 mod traffic;
 
 pub use exchange::Populations;
@@ -24,7 +25,7 @@ pub use grid::Grid;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
 pub use program::{Reach, collide_stream, constants, single_cells, stream_only};
-pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, Storage};
+pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
 pub use stages::Stages;
 pub use start::State;
 pub use stream_only::StreamOnly;

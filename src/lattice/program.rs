@@ -1,15 +1,19 @@
 //! Which files and numbers make the kernels of a setup.
 
-use super::{Collision, Equilibrium, Force, Grid, Setup, Storage, populations};
+use super::{Collision, Equilibrium, Force, Grid, Setup, SolidOperator, Storage, populations};
 use crate::link::Program;
 
 /// Which cells a collide–stream kernel is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reach {
-    /// Only listed bricks, or all.
-    pub listed: bool,
-    /// With the flags of each cell, or all plain fluid.
-    pub flagged: bool,
+pub enum Reach {
+    /// All bricks, and all cells are plain fluid.
+    All,
+    /// Listed bricks of plain fluid.
+    Plain,
+    /// Listed bricks with the flags of each cell.
+    Flagged,
+    /// Listed bricks with flags and with what blocks leave of each cell.
+    Saturated,
 }
 
 /// A kernel over elements, with the storage, lanes and bindings of the setup.
@@ -44,12 +48,31 @@ fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
 /// The fused collision and streaming of a setup.
 pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
     let either = |condition, yes, no| if condition { yes } else { no };
-    base("collide_stream", setup, bindings)
-        .slot("where", either(reach.listed, "where_listed", "where_all"))
+    let flagged = matches!(reach, Reach::Flagged | Reach::Saturated);
+    let operator = setup
+        .solid_operator
+        .filter(|_| reach == Reach::Saturated)
+        .map(|operator| match operator {
+            SolidOperator::Holdych => "operator_holdych",
+            SolidOperator::Noble => "operator_noble",
+            SolidOperator::Superposition => "operator_superposition",
+        });
+    let program = base("collide_stream", setup, bindings);
+    let program = match operator {
+        Some(operator) => program
+            .slot("saturation", "saturation_cells")
+            .slot("operator", operator)
+            .slot("odd", "odd_solids"),
+        None => program
+            .slot("saturation", "saturation_none")
+            .slot("odd", either(flagged, "odd_walls", "odd_bulk")),
+    };
+    program
         .slot(
-            "cells",
-            either(reach.flagged, "cells_flagged", "cells_plain"),
+            "where",
+            either(reach == Reach::All, "where_all", "where_listed"),
         )
+        .slot("cells", either(flagged, "cells_flagged", "cells_plain"))
         .slot("equilibrium", equilibrium(setup.equilibrium))
         .slot(
             "relax",
@@ -143,6 +166,14 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("W13", wall(rates.s13)),
         ("W23", wall(rates.s23)),
         ("W26", wall(rates.s26)),
+    ]);
+    let beside_blocks = everywhere.or(setup.solid_lambda.map(floored));
+    let near = |rate| beside_blocks.unwrap_or(rate);
+    all.extend([
+        ("N10", near(rates.s10)),
+        ("N13", near(rates.s13)),
+        ("N23", near(rates.s23)),
+        ("N26", near(rates.s26)),
     ]);
     if let Some(constant) = setup.wale {
         all.push(("C_WALE", constant));

@@ -20,6 +20,17 @@ pub enum Equilibrium {
     SecondOrder,
 }
 
+/// How the populations of a partially saturated cell are drawn to the solid in it (Gardner & Sitar 2018, eqs. 8–10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidOperator {
+    /// Holdych 2003: the default, with the least error of the drag.
+    Holdych,
+    /// Noble & Torczynski 1998, what the paper prints.
+    Noble,
+    /// The second form of Noble & Torczynski 1998.
+    Superposition,
+}
+
 /// How populations lie in memory; arithmetic is f32 in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -135,6 +146,11 @@ pub struct Setup {
     pub lambda: Option<f64>,
     /// Lower bound of the odd rates that `wall_lambda` gives: low ones are unstable in fast flow.
     pub odd_rate_floor: f64,
+    /// Blocks may be in the fluid, with this operator; `None` has no code for them.
+    pub solid_operator: Option<SolidOperator>,
+    /// Magic parameter of the odd rates in cells with a block and beside them, floored as beside walls;
+    /// `None` keeps `rates` there too.
+    pub solid_lambda: Option<f64>,
     /// Equilibrium.
     pub equilibrium: Equilibrium,
     /// WALE constant; `None` is laminar.
@@ -173,6 +189,8 @@ impl Setup {
             wall_lambda: Some(3.0 / 16.0),
             lambda: None,
             odd_rate_floor: 0.8,
+            solid_operator: None,
+            solid_lambda: Some(0.1),
             equilibrium: Equilibrium::Product,
             wale: None,
             force: Force::None,
@@ -227,8 +245,8 @@ impl Setup {
         [0, 1, 2].map(|a| self.faces[a][0] == Face::Periodic)
     }
 
-    /// Whether every cell is a fluid cell without a wall beside it.
+    /// Whether every cell is and stays a fluid cell without a wall beside it.
     pub fn is_all_fluid(&self) -> bool {
-        self.periodic_axes() == [true; 3] && self.solid.is_empty()
+        self.periodic_axes() == [true; 3] && self.solid.is_empty() && self.solid_operator.is_none()
     }
 }

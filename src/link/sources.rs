@@ -16,9 +16,10 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
         "guard_on", "guo", "incoming", "initialise", "keep_none", "keep_velocity", "lanes_1",
         "lanes_2", "lanes_4", "lattice", "links", "macroscopic", "moments", "moving_wall",
+        "odd_bulk", "odd_solids", "odd_walls", "operator_holdych", "operator_noble", "operator_superposition",
         "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
-        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "scalar_grid", "store_f16", "store_f32",
-        "stream", "sums", "velocity", "wale", "weights", "where_all", "where_listed",
+        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "saturation_cells", "saturation_none", "scalar_grid", "store_f16", "store_f32",
+        "stream", "sums", "velocity", "wale", "wall_rates", "weights", "where_all", "where_listed",
         "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "measure":
         "copy_four_vectors", "copy_scalar", "copy_vector", "stream_only";

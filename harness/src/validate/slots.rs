@@ -4,7 +4,9 @@ use super::{Outcome, Record, Stand, Trial};
 use anyhow::Context;
 use riprap::{
     kernel,
-    lattice::{Collision, Equilibrium, Force, Reach, Setup, Storage, collide_stream},
+    lattice::{
+        Collision, Equilibrium, Force, Reach, Setup, SolidOperator, Storage, collide_stream,
+    },
 };
 use std::time::Instant;
 
@@ -14,10 +16,9 @@ pub fn run(_: &Stand) -> Outcome {
     let mut linked = 0;
     let mut wrong: Vec<String> = Vec::new();
     for setup in setups() {
-        for (listed, flagged) in [(false, false), (true, false), (true, true)] {
+        for reach in [Reach::All, Reach::Plain, Reach::Flagged, Reach::Saturated] {
             // One binding as on most devices, and four as large grids need.
             for bindings in [1, 4] {
-                let reach = Reach { listed, flagged };
                 let program = collide_stream(&setup, bindings, reach);
                 let shader = program
                     .link()
@@ -84,6 +85,11 @@ fn setups() -> Vec<Setup> {
         &|s| (s.storage, s.lanes) = (Storage::F16, 2),
         &|s| (s.storage, s.lanes) = (Storage::F16, 4),
     ]);
+    vary(&[
+        &|s| s.solid_operator = Some(SolidOperator::Holdych),
+        &|s| s.solid_operator = Some(SolidOperator::Noble),
+        &|s| s.solid_operator = Some(SolidOperator::Superposition),
+    ]);
     vary(&[&|s| s.max_speed = 0.0, &|s| s.max_speed = 0.3]);
     all
 }
@@ -97,8 +103,9 @@ fn expected(setup: &Setup, bindings: u32, reach: Reach) -> Vec<String> {
         (wale, "velocity_after"),
         (matches!(setup.force, Force::Field(_)), "force_field"),
         (setup.max_speed > 0.0, "guard_state"),
-        (reach.listed, "bricks"),
-        (reach.flagged, "flags"),
+        (reach != Reach::All, "bricks"),
+        (matches!(reach, Reach::Flagged | Reach::Saturated), "flags"),
+        (reach == Reach::Saturated, "saturation_planes"),
     ];
     names.extend(
         optional

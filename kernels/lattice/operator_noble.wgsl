@@ -1,0 +1,25 @@
+// Noble & Torczynski 1998, Int. J. Mod. Phys. C 9:1189: f_opposite - f_eq_opposite(rho, u) - f + f_eq(rho, u_s):
+// in moments (f_eq(u_s) - f) + (f_eq(u) - f) where odd, the difference where even.
+// needs velocity, $equilibrium
+
+// Makes the moments of the operator of those of f_eq(rho, u_s) - f; returns how often rho u_s is in its momentum.
+// Deep in a block the equilibrium replaces all: noise there would be reflected for ever.
+fn solid_operator(
+    shear_rate: Real,
+    rho: Real,
+    u: Vector,
+    h: ptr<function, array<Real, 27>>,
+    deep: Mask,
+    s: ptr<function, array<Real, 27>>,
+) -> Real {
+    let q = equilibrium(rho, u);
+    let share = select(Real(1.0), Real(0.0), deep);
+    for (var k = 1u; k < 27u; k++) { // unroll
+        if ((k % 3u + (k / 3u) % 3u + k / 9u) % 2u == 1u) {
+            (*s)[k] += share * (q[k] - (*h)[k]);
+        } else {
+            (*s)[k] -= share * (q[k] - (*h)[k]);
+        }
+    }
+    return Real(1.0);
+}

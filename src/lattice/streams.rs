@@ -1,0 +1,212 @@
+//! Collision and streaming by kinds of brick.
+
+use super::{
+    Geometry, Grid, Setup,
+    fluid::{Buffers, result_buffer, storage},
+    program::{self, Reach},
+};
+use crate::{Result, kernel::Kernel};
+use std::collections::HashSet;
+
+/// Planes of values that a brick with blocks has: see `kernels/lattice/saturation_cells.wgsl`.
+const PLANES: u64 = 9;
+
+/// The dispatches of one kind of brick.
+#[derive(Debug)]
+struct Stream {
+    reach: Reach,
+    /// Of even and odd steps.
+    kernels: [Kernel; 2],
+    binds: [wgpu::BindGroup; 2],
+    /// Its length and the bricks.
+    list: Option<wgpu::Buffer>,
+    groups: u32,
+}
+
+/// All kinds of brick that a setup has, those with blocks first: what they leave behind is waited for.
+#[derive(Debug)]
+pub(super) struct Streams {
+    streams: Vec<Stream>,
+    /// What blocks leave of the cells of the bricks that they reach.
+    saturation: Option<wgpu::Buffer>,
+}
+
+impl Streams {
+    pub fn new(
+        device: &wgpu::Device,
+        setup: &Setup,
+        grid: &Grid,
+        geometry: &Geometry,
+        bindings: u32,
+        buffers: &Buffers,
+    ) -> Result<Self> {
+        let all: u32 = grid.bricks().iter().product();
+        let saturation = setup
+            .solid_operator
+            .map(|_| saturation_buffer(device, grid, 1));
+        let mut streams = Vec::new();
+        for (n, (reach, bricks)) in sorted(setup, geometry, &[]).into_iter().enumerate() {
+            let linked = program::collide_stream(setup, bindings, reach).link()?;
+            let kernel = |odd| {
+                let mut constants = program::constants(setup, grid, odd);
+                // One dispatch of a step counts it for the guard: the first, which always runs.
+                let counts = f64::from(u8::from(n == 0));
+                constants.extend([("BRICKS", f64::from(all)), ("GUARD_COUNTS", counts)]);
+                Kernel::new(device, &linked, "collide_stream", &constants)
+            };
+            let kernels = [kernel(false)?, kernel(true)?];
+            let groups = bricks.len() as u32;
+            let list = (reach != Reach::All).then(|| {
+                let mut list = counted(&bricks);
+                if saturation.is_some() {
+                    list.resize(all as usize + 1, 0);
+                }
+                storage(device, "bricks", bytemuck::cast_slice(&list))
+            });
+            let kept = saturation.as_ref();
+            let binds = bind(device, &kernels, buffers, list.as_ref(), kept)?;
+            streams.push(Stream {
+                reach,
+                kernels,
+                binds,
+                list,
+                groups: if reach == Reach::All { all } else { groups },
+            });
+        }
+        Ok(Self {
+            streams,
+            saturation,
+        })
+    }
+
+    /// What blocks leave of the cells of the bricks that they reach.
+    pub fn saturation(&self) -> Option<&wgpu::Buffer> {
+        self.saturation.as_ref()
+    }
+
+    /// Has these bricks run by the kernel for blocks, and the others by those of their kind.
+    pub fn set(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        (setup, grid, geometry, buffers): (&Setup, &Grid, &Geometry, &Buffers),
+        saturated: &[u32],
+    ) -> Result<()> {
+        let slots = saturated.len().max(1);
+        if let Some(kept) = &mut self.saturation {
+            if kept.size() < saturation_bytes(grid, slots) {
+                // Half as much again, so that a block that turns does not ask again and again.
+                *kept = saturation_buffer(device, grid, slots + slots / 2);
+                for stream in &mut self.streams {
+                    let list = stream.list.as_ref();
+                    stream.binds = bind(device, &stream.kernels, buffers, list, Some(kept))?;
+                }
+            }
+            if saturated.is_empty() {
+                queue.write_buffer(kept, 0, &vec![0; saturation_bytes(grid, 1) as usize]);
+            }
+        }
+        for (stream, (_, bricks)) in self
+            .streams
+            .iter_mut()
+            .zip(sorted(setup, geometry, saturated))
+        {
+            stream.groups = bricks.len() as u32;
+            if let Some(list) = &stream.list {
+                queue.write_buffer(list, 0, bytemuck::cast_slice(&counted(&bricks)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Records those with blocks, or the others.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, parity: usize, saturated: bool) {
+        let these = |stream: &&Stream| (stream.reach == Reach::Saturated) == saturated;
+        for stream in self.streams.iter().filter(these) {
+            if stream.groups > 0 {
+                stream.kernels[parity].record(pass, &stream.binds[parity], stream.groups);
+            }
+        }
+    }
+
+    /// The kernels of a step in their order, each with its workgroups.
+    pub fn kernels(&self, parity: usize) -> impl Iterator<Item = (&Kernel, u32)> {
+        let streams = self.streams.iter();
+        streams.map(move |stream| (&stream.kernels[parity], stream.groups))
+    }
+
+    /// Bytes of the lists, and of what blocks leave of cells.
+    pub fn bytes(&self) -> [u64; 2] {
+        let lists = self
+            .streams
+            .iter()
+            .filter_map(|stream| stream.list.as_ref());
+        [
+            lists.map(wgpu::Buffer::size).sum(),
+            self.saturation.as_ref().map_or(0, wgpu::Buffer::size),
+        ]
+    }
+}
+
+/// The kinds of brick that a setup has, each with its bricks.
+fn sorted(setup: &Setup, geometry: &Geometry, saturated: &[u32]) -> Vec<(Reach, Vec<u32>)> {
+    if setup.is_all_fluid() {
+        return vec![(Reach::All, Vec::new())];
+    }
+    let fixed = [
+        (Reach::Flagged, &geometry.mixed),
+        (Reach::Plain, &geometry.plain),
+    ];
+    if setup.solid_operator.is_none() {
+        let fixed = fixed.into_iter().filter(|(_, list)| !list.is_empty());
+        return fixed.map(|(reach, list)| (reach, list.clone())).collect();
+    }
+    // The guard counts steps in the first dispatch, which needs a brick: without a block in it the
+    // kernel for blocks gives the bits of its own.
+    let spare = geometry.mixed.first().or(geometry.plain.first());
+    let first: Vec<u32> = match saturated {
+        [] => spare.into_iter().copied().collect(),
+        _ => saturated.to_vec(),
+    };
+    let taken: HashSet<u32> = first.iter().copied().collect();
+    let others = |list: &[u32]| -> Vec<u32> {
+        let others = list.iter().filter(|brick| !taken.contains(brick));
+        others.copied().collect()
+    };
+    let fixed = fixed.map(|(reach, list)| (reach, others(list)));
+    std::iter::once((Reach::Saturated, first))
+        .chain(fixed)
+        .collect()
+}
+
+/// A list with its length before it.
+fn counted(bricks: &[u32]) -> Vec<u32> {
+    let mut list = vec![bricks.len() as u32];
+    list.extend(bricks);
+    list
+}
+
+fn bind(
+    device: &wgpu::Device,
+    kernels: &[Kernel; 2],
+    buffers: &Buffers,
+    list: Option<&wgpu::Buffer>,
+    saturation: Option<&wgpu::Buffer>,
+) -> Result<[wgpu::BindGroup; 2]> {
+    let bind = |parity: usize| {
+        let mut named = buffers.named(parity == 1);
+        named.extend(list.map(|list| ("bricks", list)));
+        named.extend(saturation.map(|kept| ("saturation_planes", kept)));
+        kernels[parity].bind(device, &named)
+    };
+    Ok([bind(0)?, bind(1)?])
+}
+
+fn saturation_bytes(grid: &Grid, slots: usize) -> u64 {
+    let brick: u64 = grid.brick.iter().map(|&n| u64::from(n)).product();
+    4 * PLANES * brick * u64::from(grid.lanes) * slots as u64
+}
+
+fn saturation_buffer(device: &wgpu::Device, grid: &Grid, slots: usize) -> wgpu::Buffer {
+    result_buffer(device, "saturation", saturation_bytes(grid, slots))
+}

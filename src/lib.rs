@@ -8,7 +8,7 @@
 //! Rock goes its own way through the host: [`block`] (shapes, and masses cut by joints) →
 //! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
 //! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
-//! [`bodies`] (all of it, a step).
+//! [`bodies`] (all of it, a step). What water does to it and it to water is [`immersed`].
 //!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
 //! adapter, reads no environment, never blocks and does not panic on input.
@@ -50,6 +50,7 @@ pub mod checkpoint;
 pub mod contact;
 pub mod error;
 pub mod formula;
+pub mod immersed;
 pub mod integrate;
 pub mod kernel;
 pub mod lattice;

@@ -26,6 +26,8 @@ pub const SOURCES: &[(&str, &str)] = sources! {
     "search":
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";
+    "solid":
+        "tables";
 };
 
 /// The text of the file `name`.

@@ -1,0 +1,15 @@
+//! Blocks in the fluid as partially saturated cells (Noble & Torczynski 1998; Gardner & Sitar 2018).
+//!
+//! Every cell that a block reaches knows which share of it is solid and how the solid moves there; the
+//! fluid kernel weighs its collision with that, and the reaction, summed over the cells, is the load on
+//! the block. The device works on tiles: the part of one convex part of a block in one lane of one brick,
+//! which is what a workgroup of the fluid kernel runs.
+//!
+//! 1. `voxelise` writes the solid fraction of one part in each cell of a tile,
+//! 2. `saturate_cells` adds the parts that share a cell,
+//! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
+//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
+
+mod tables;
+
+pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};

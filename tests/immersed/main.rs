@@ -1,0 +1,3 @@
+//! The kernels of immersed blocks against the formulas in f64.
+
+mod layout;

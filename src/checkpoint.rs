@@ -4,7 +4,7 @@ mod blocks;
 
 pub use blocks::BlockCheckpoint;
 
-use crate::{Error, Result, lattice::Populations, output::replace};
+use crate::{Error, Result, coupling::CoupledState, lattice::Populations, output::replace};
 use std::path::Path;
 
 /// The state of a simulation between two steps.
@@ -16,12 +16,14 @@ pub struct Checkpoint {
     pub cell: f64,
     /// The fluid.
     pub populations: Populations,
+    /// The blocks in it.
+    pub blocks: Option<CoupledState>,
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap state  1\n";
-/// Magic, step, three cell counts, three lengths, time step, cell.
-const HEADER: usize = 16 + 8 + 3 * 4 + 3 * 8 + 2 * 8;
+const MAGIC: &[u8; 16] = b"riprap state  2\n";
+/// Magic, step, three cell counts, three lengths, time step, cell, bytes of the blocks.
+const HEADER: usize = 16 + 8 + 3 * 4 + 3 * 8 + 2 * 8 + 8;
 
 impl Checkpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
@@ -47,12 +49,15 @@ impl Checkpoint {
             }
             file.write_all(&self.time_step.to_le_bytes())?;
             file.write_all(&self.cell.to_le_bytes())?;
+            let blocks = self.blocks.as_ref().map(CoupledState::to_bytes);
+            let blocks = blocks.unwrap_or_default();
+            file.write_all(&(blocks.len() as u64).to_le_bytes())?;
             for list in [values, velocity, carried] {
                 let mut bytes = Vec::with_capacity(4 * list.len());
                 bytes.extend(list.iter().flat_map(|value| value.to_le_bytes()));
                 file.write_all(&bytes)?;
             }
-            Ok(())
+            file.write_all(&blocks)
         })
     }
 
@@ -79,16 +84,28 @@ impl Checkpoint {
         let expected = lengths
             .iter()
             .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
-        if expected != (bytes.len() - HEADER) as u64 {
+        let rest = (bytes.len() - HEADER) as u64;
+        if expected.saturating_add(long(76)?) != rest {
             return Err(broken(CUT));
         }
-        let mut values = bytes[HEADER..]
+        let (values, blocks) = bytes[HEADER..].split_at(expected as usize);
+        let blocks = match blocks {
+            [] => None,
+            _ => Some(
+                CoupledState::from_bytes(blocks).map_err(|error| match error {
+                    Error::Scene { message, .. } => broken(&message),
+                    other => other,
+                })?,
+            ),
+        };
+        let mut values = values
             .chunks_exact(4)
             .map(|part| f32::from_le_bytes(std::array::from_fn(|k| part[k])));
         let mut list = |n: u64| values.by_ref().take(n as usize).collect();
         Ok(Self {
             time_step: f64::from_bits(long(60)?),
             cell: f64::from_bits(long(68)?),
+            blocks,
             populations: Populations {
                 step: long(16)?,
                 cells,

@@ -48,6 +48,7 @@ pub mod bodies;
 pub mod broadphase;
 pub mod checkpoint;
 pub mod contact;
+pub mod coupling;
 pub mod error;
 pub mod formula;
 pub mod immersed;

@@ -38,43 +38,54 @@ impl Readback {
         }
         let staging = match self.staging.take() {
             Some(kept) if kept.size() >= bytes => kept,
-            _ => device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("staging"),
-                size: bytes,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            _ => staging(device, bytes),
         };
         let mut encoder = device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, bytes);
         queue.submit([encoder.finish()]);
-        let mapped = Arc::new(Mutex::new(Mapped::default()));
-        let done = Arc::clone(&mapped);
-        staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
-            if let Ok(mut mapped) = done.lock() {
-                mapped.result = Some(result);
-                if let Some(waker) = mapped.waker.take() {
-                    waker.wake();
-                }
-            }
-        });
-        let lost = |e: &dyn std::fmt::Display| Error::DeviceLost(format!("reading back: {e}"));
-        poll_fn(|context| match mapped.lock() {
-            Ok(mut mapped) => match mapped.result.take() {
-                Some(result) => Poll::Ready(result.map_err(|e| lost(&e))),
-                None => {
-                    mapped.waker = Some(context.waker().clone());
-                    Poll::Pending
-                }
-            },
-            Err(e) => Poll::Ready(Err(lost(&e))),
-        })
-        .await?;
-        let view = staging.get_mapped_range(0..bytes).map_err(|e| lost(&e))?;
-        let values = bytemuck::pod_collect_to_vec(&view);
-        drop(view);
-        staging.unmap();
+        let values = map(&staging, bytes).await?;
         self.staging = Some(staging);
         Ok(values)
     }
+}
+
+/// A buffer that the host can map.
+pub(crate) fn staging(device: &wgpu::Device, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("staging"),
+        size: bytes,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// The first `bytes` of a staging buffer, after all that was submitted before.
+pub(crate) async fn map<T: bytemuck::Pod>(staging: &wgpu::Buffer, bytes: u64) -> Result<Vec<T>> {
+    let mapped = Arc::new(Mutex::new(Mapped::default()));
+    let done = Arc::clone(&mapped);
+    staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
+        if let Ok(mut mapped) = done.lock() {
+            mapped.result = Some(result);
+            if let Some(waker) = mapped.waker.take() {
+                waker.wake();
+            }
+        }
+    });
+    let lost = |e: &dyn std::fmt::Display| Error::DeviceLost(format!("reading back: {e}"));
+    poll_fn(|context| match mapped.lock() {
+        Ok(mut mapped) => match mapped.result.take() {
+            Some(result) => Poll::Ready(result.map_err(|e| lost(&e))),
+            None => {
+                mapped.waker = Some(context.waker().clone());
+                Poll::Pending
+            }
+        },
+        Err(e) => Poll::Ready(Err(lost(&e))),
+    })
+    .await?;
+    let view = staging.get_mapped_range(0..bytes).map_err(|e| lost(&e))?;
+    let values = bytemuck::pod_collect_to_vec(&view);
+    drop(view);
+    staging.unmap();
+    Ok(values)
 }

@@ -126,6 +126,7 @@ fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
                 time_step: 1e-3,
                 cell: 1e-2,
                 populations: run(&rig, setup.clone(), stop).1,
+                blocks: None,
             };
             saved.write(&file).unwrap();
             let read = Checkpoint::read(&file).unwrap();
@@ -169,6 +170,7 @@ fn broken_checkpoints_are_refused() {
         time_step: 1.0,
         cell: 1.0,
         populations: run(&rig, setup(), 2).1,
+        blocks: None,
     };
     saved.write(&file).unwrap();
     let bytes = std::fs::read(&file).unwrap();

@@ -13,3 +13,16 @@
 mod tables;
 
 pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
+
+mod frame;
+#[expect(clippy::module_inception, reason = "the type that the module is about")]
+mod immersed;
+mod kernels;
+mod outline;
+mod plan;
+mod tiles;
+
+pub use frame::{Frame, spin};
+pub use immersed::{Immersed, Submerged, Work};
+
+use plan::Plan;

@@ -8,6 +8,7 @@ mod block_shape;
 mod blocks;
 mod boundaries;
 mod check;
+mod coupling;
 mod domain;
 mod face;
 mod fluid;
@@ -35,12 +36,13 @@ pub use advice::{Advice, SUGA_EXCESS, Warning};
 pub use block_shape::{BlockShape, PlaneFace};
 pub use blocks::{Block, Motion, Part, Repeat, Rotation};
 pub use boundaries::{Boundaries, Boundary};
+pub use coupling::Coupling;
 pub use domain::Domain;
 pub use face::{Axis, Direction, Face};
 pub use fluid::Fluid;
 pub use initial::{Initial, InitialPressure};
 pub use materials::{Material, MaterialPair};
-pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, Storage};
+pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, Storage};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use probes::{Probe, ProbePlace};
 pub use rock::{Rock, Search, Sleep};
@@ -76,6 +78,9 @@ pub struct Scene {
     /// What holds for all blocks together. Default: see each key.
     #[serde(default)]
     pub rock: Rock,
+    /// How fluid and blocks meet. Default: see each key.
+    #[serde(default)]
+    pub coupling: Coupling,
     /// What blocks and solids are made of. Needed where there are blocks.
     #[serde(default)]
     pub materials: Vec<Material>,

@@ -36,6 +36,11 @@ pub struct Numerics {
     /// Smallest relaxation rate that Λ may give to the odd moments, for stability at low
     /// viscosity; not applied to `lambda`. No unit, default 0.8.
     pub odd_rate_floor: f64,
+    /// How partially saturated cells are drawn to the block in them. Default `holdych`.
+    pub solid_operator: SolidOperator,
+    /// Magic parameter Λ in cells with a block and beside them, no unit. Default 1/10, with which the
+    /// drag depends least on the viscosity.
+    pub solid_lambda: f64,
 }
 
 impl Default for Numerics {
@@ -53,6 +58,8 @@ impl Default for Numerics {
             wall_lambda: 3.0 / 16.0,
             lambda: None,
             odd_rate_floor: 0.8,
+            solid_operator: SolidOperator::default(),
+            solid_lambda: 0.1,
         }
     }
 }
@@ -73,6 +80,19 @@ pub enum Collision {
     Suga,
     /// One relaxation time.
     Bgk,
+}
+
+/// Operator of the solid in partially saturated cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SolidOperator {
+    /// Holdych (2003): the least error of the drag.
+    #[default]
+    Holdych,
+    /// Noble & Torczynski (1998), as Gardner & Sitar (2018) print it.
+    Noble,
+    /// The second form of Noble & Torczynski (1998).
+    Superposition,
 }
 
 /// Equilibrium distribution.

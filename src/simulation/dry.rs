@@ -16,6 +16,30 @@ const SUB_STEPS: f64 = 10.0;
 /// a pile, so this is enough for any that a scene lays by hand.
 const SWEEPS: usize = 1000;
 
+/// The blocks of a scene at the time 0, pushed apart if it says so. They take a sub-step and go back, so
+/// that overlaps and a step that is too long show before the run.
+///
+/// # Errors
+/// Those of [`Dry::new`].
+pub(crate) async fn begin(
+    scene: &Scene,
+    setup: &BlockSetup,
+    finder: &mut impl Broadphase,
+) -> Result<Blocks> {
+    let mut blocks = Blocks::new(setup.setup.clone())?;
+    if scene.rock.relax {
+        blocks.relax(finder, SWEEPS).await?;
+    }
+    if blocks.time_step().is_finite() {
+        let start = blocks.snapshot();
+        let pairs = finder.pairs(&blocks.items()).await?;
+        blocks.set_pairs(pairs)?;
+        blocks.step()?;
+        blocks.restore(&start)?;
+    }
+    Ok(blocks)
+}
+
 /// Blocks of a scene that run.
 ///
 /// Nothing here blocks or needs a device, unless the finder of pairs does.
@@ -45,8 +69,8 @@ impl<F: Broadphase> Dry<F> {
     /// # Errors
     /// Those of [`Dry::new`].
     pub async fn of(scene: &Scene, setup: BlockSetup, finder: F) -> Result<Self> {
-        super::uncoupled(scene)?;
-        let blocks = Blocks::new(setup.setup.clone())?;
+        let mut finder = finder;
+        let blocks = begin(scene, &setup, &mut finder).await?;
         if !blocks.time_step().is_finite() {
             return Err(Error::scene(
                 "rock.time_step",
@@ -61,28 +85,14 @@ impl<F: Broadphase> Dry<F> {
             // A whole number of steps, so that the run ends when it is said to.
             (None, Some(duration)) => duration / (duration / usual).ceil(),
         };
-        let mut dry = Self {
+        Ok(Self {
             scene: scene.clone(),
             time_step,
             setup,
             blocks,
             finder,
             step: 0,
-        };
-        if scene.rock.relax {
-            dry.blocks.relax(&mut dry.finder, SWEEPS).await?;
-        }
-        dry.try_out().await?;
-        Ok(dry)
-    }
-
-    /// Takes a sub-step and goes back: overlaps and a step that is too long show before the run.
-    async fn try_out(&mut self) -> Result<()> {
-        let start = self.blocks.snapshot();
-        let pairs = self.finder.pairs(&self.blocks.items()).await?;
-        self.blocks.set_pairs(pairs)?;
-        self.blocks.step()?;
-        self.blocks.restore(&start)
+        })
     }
 
     /// Takes `steps` steps, each of as many sub-steps as the contacts want.

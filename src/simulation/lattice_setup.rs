@@ -2,7 +2,7 @@
 
 use crate::{
     Result,
-    lattice::{Collision, Equilibrium, Face, Force, Setup, Storage},
+    lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, Storage},
     scene::{self, BodyForce, Boundary, Scene},
     units::Units,
 };
@@ -48,6 +48,16 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     setup.wall_lambda = (setup.collision == Collision::Hermite).then_some(numerics.wall_lambda);
     setup.lambda = numerics.lambda;
     setup.odd_rate_floor = numerics.odd_rate_floor;
+    if scene.has_blocks() {
+        setup.solid_operator = Some(match numerics.solid_operator {
+            scene::SolidOperator::Holdych => SolidOperator::Holdych,
+            scene::SolidOperator::Noble => SolidOperator::Noble,
+            scene::SolidOperator::Superposition => SolidOperator::Superposition,
+        });
+        // The published operator keeps its rates beside blocks too.
+        setup.solid_lambda =
+            (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
+    }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
     let force = |a: f64| units.acceleration_to_lattice(a);

@@ -11,6 +11,7 @@ mod needs;
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
 pub use dry::Dry;
+pub(crate) use dry::begin;
 pub use fields::Totals;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
@@ -18,6 +19,7 @@ pub use needs::Needs;
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
+    coupling::Coupled,
     lattice::{self, Collision, Derived, Lattice, Observer, State},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
@@ -38,6 +40,8 @@ pub struct Simulation {
     observer: Observer,
     /// Velocity faces whose formulas contain the time.
     changing: Vec<Face>,
+    /// The blocks in the fluid.
+    coupled: Option<Coupled>,
 }
 
 impl Simulation {
@@ -46,7 +50,6 @@ impl Simulation {
     /// # Errors
     /// What the scene lacks, or what the device cannot hold.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
-        uncoupled(scene)?;
         let units = Units::of(scene)?;
         let advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
@@ -71,9 +74,23 @@ impl Simulation {
                 lattice.grid().cell_count()
             )));
         }
+        let coupled = match scene.has_blocks() {
+            true => Some(
+                Coupled::new(
+                    device,
+                    queue,
+                    &lattice,
+                    (scene, &units),
+                    block_setup(scene)?,
+                )
+                .await?,
+            ),
+            false => None,
+        };
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),
+            coupled,
             scene: scene.clone(),
             units,
             advice,
@@ -86,32 +103,75 @@ impl Simulation {
     /// Takes `steps` steps and looks at the guard.
     ///
     /// # Errors
-    /// [`Error::Diverged`] if the flow left the range of the method; a lost device.
+    /// [`Error::Diverged`] if the flow left the range of the method; those of the blocks; a lost device.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
-        let mut left = steps;
-        while left > 0 {
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            let mut coming = Vec::new();
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                // A velocity that changes is written between two submissions.
-                while left > 0 && coming.is_empty() {
-                    self.lattice.record(&mut pass);
-                    left -= 1;
-                    coming = self.changed_faces()?;
-                }
-            }
-            self.queue.submit([encoder.finish()]);
-            self.set_faces(coming)?;
+        let last = self.step() + steps;
+        let mut done = Ok(());
+        while self.step() < last && done.is_ok() {
+            done = self.stretch(last).await;
         }
         let fault = self
             .observer
             .fault(&self.device, &self.queue, &self.lattice)
             .await?;
+        // What the flow did wrong reaches the blocks: it is the cause of what they complain of.
         if let Some(fault) = fault {
             return Err(self.diverged(fault));
         }
+        done?;
         self.check_suga().await
+    }
+
+    /// Steps in one go until `last`, or until the host has something to do: blocks to move, or a velocity
+    /// that changes to write.
+    async fn stretch(&mut self, last: u64) -> Result<()> {
+        let (device, queue) = (self.device.clone(), self.queue.clone());
+        let mut encoder = device.create_command_encoder(&Default::default());
+        if let Some(coupled) = &mut self.coupled {
+            coupled.place(&device, &queue, &mut self.lattice, &mut encoder)?;
+        }
+        loop {
+            let next = self.step() + 1;
+            let coupled = self.coupled.as_ref();
+            if coupled.is_some_and(|coupled| coupled.meets(next)) {
+                self.exchange(encoder).await?;
+                let coming = self.changed_faces()?;
+                return self.set_faces(coming);
+            }
+            self.lattice
+                .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next)) {
+                coupled.record_loads(&device, &mut encoder, true);
+            }
+            self.lattice
+                .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
+            let coming = self.changed_faces()?;
+            if self.step() == last || !coming.is_empty() {
+                queue.submit([encoder.finish()]);
+                // A velocity that changes is written between two submissions.
+                return self.set_faces(coming);
+            }
+        }
+    }
+
+    /// The last step of a stretch, at whose end the blocks move: the fluid around them runs first, and the
+    /// rest of it while their loads are read.
+    async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
+        let (device, queue) = (&self.device, &self.queue);
+        let Some(coupled) = &mut self.coupled else {
+            return Ok(());
+        };
+        self.lattice
+            .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+        coupled.record_loads(device, &mut encoder, false);
+        queue.submit([encoder.finish()]);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.lattice
+            .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
+        queue.submit([encoder.finish()]);
+        coupled.read_loads().await?;
+        let until = self.lattice.step() as f64 * self.units.time_step;
+        coupled.advance(until).await
     }
 
     /// The published operator is unstable where WALE lifts the relaxation time over its bound.
@@ -196,6 +256,11 @@ impl Simulation {
         &self.lattice
     }
 
+    /// The blocks in it, if there are any.
+    pub fn coupled(&self) -> Option<&Coupled> {
+        self.coupled.as_ref()
+    }
+
     /// Which cells are solid, x fastest; empty where there are none.
     pub fn solid(&self) -> &[bool] {
         &self.lattice.setup().solid
@@ -210,6 +275,7 @@ impl Simulation {
             time_step: self.units.time_step,
             cell: self.units.cell,
             populations: self.lattice.populations(&self.device, &self.queue).await?,
+            blocks: self.coupled.as_ref().map(Coupled::state),
         })
     }
 
@@ -232,26 +298,26 @@ impl Simulation {
                 ),
             ));
         }
+        match (&mut self.coupled, &checkpoint.blocks) {
+            (Some(coupled), Some(state)) => coupled.restore(state)?,
+            (None, None) => {}
+            (coupled, _) => {
+                let has = |some: bool| if some { "has blocks" } else { "has none" };
+                return Err(Error::scene(
+                    "restart",
+                    format!(
+                        "the checkpoint {} and the scene {}; restart with the scene that wrote it",
+                        has(checkpoint.blocks.is_some()),
+                        has(coupled.is_some())
+                    ),
+                ));
+            }
+        }
         self.lattice
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
         let changed = self.changed_faces()?;
         self.set_faces(changed)
     }
-}
-
-/// Refuses a scene of a fluid and blocks, which have a loop each and none together.
-///
-/// # Errors
-/// If there are both.
-fn uncoupled(scene: &Scene) -> Result<()> {
-    if scene.has_fluid() && scene.has_blocks() {
-        return Err(Error::scene(
-            "blocks",
-            "blocks and a fluid do not feel each other in this version; remove [fluid] to run the \
-             blocks dry, or the blocks to run the flow",
-        ));
-    }
-    Ok(())
 }
 
 /// The initial state in lattice units; cells of static solids are at rest.

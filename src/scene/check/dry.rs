@@ -2,7 +2,9 @@
 
 use super::rules::refuse;
 use crate::error::Result;
-use crate::scene::{Boundaries, Initial, Numerics, Output, ProbePlace, Quantity, Scene, Shape};
+use crate::scene::{
+    Boundaries, Coupling, Initial, Numerics, Output, ProbePlace, Quantity, Scene, Shape,
+};
 
 impl Scene {
     /// What a scene without fluid must not have.
@@ -11,6 +13,7 @@ impl Scene {
             ("numerics", self.numerics != Numerics::default()),
             ("boundaries", self.boundaries != Boundaries::default()),
             ("initial", self.initial != Initial::default()),
+            ("coupling", self.coupling != Coupling::default()),
             (
                 "output.fields",
                 self.output.fields != Output::default().fields,
@@ -26,13 +29,6 @@ impl Scene {
             }
         }
         for (index, solid) in self.solids.iter().enumerate() {
-            if solid.void {
-                return refuse(
-                    format!("solids[{index}].void"),
-                    "blocks meet solids one by one, so none can have a hole; give a mesh with the \
-                     hole, or several solids around it",
-                );
-            }
             if matches!(solid.shape, Shape::HalfSpace { .. }) && !self.domain.is_given() {
                 return refuse(
                     format!("solids[{index}]"),

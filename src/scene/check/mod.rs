@@ -38,6 +38,12 @@ impl Scene {
         } else {
             self.check_dry()?;
         }
+        if self.coupling.interval == 0 {
+            return refuse(
+                "coupling.interval",
+                "fluid and blocks would never meet; give a whole number of time steps, at least 1",
+            );
+        }
         self.check_solids()?;
         self.check_initial()?;
         self.check_run()?;

@@ -19,6 +19,7 @@ impl Scene {
             ("velocity_scale", n.velocity_scale, "m/s"),
             ("lambda", n.lambda, ""),
             ("wall_lambda", Some(n.wall_lambda), ""),
+            ("solid_lambda", Some(n.solid_lambda), ""),
         ];
         for (key, value, unit) in optional {
             if let Some(value) = value {

@@ -14,6 +14,13 @@ impl Scene {
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
             self.check_region(&key, &solid.shape)?;
+            if solid.void && self.has_blocks() {
+                return refuse(
+                    format!("{key}.void"),
+                    "blocks meet solids one by one, so none can have a hole; give a mesh with the \
+                     hole, or several solids around it",
+                );
+            }
             if self.has_fluid() {
                 self.check_place(&key, &solid.shape)?;
             }

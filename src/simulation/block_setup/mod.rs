@@ -6,6 +6,7 @@ mod meshes;
 mod rows;
 mod shapes;
 mod solids;
+mod walls;
 
 use crate::{
     Error, Result,
@@ -22,6 +23,9 @@ pub struct BlockSetup {
     pub setup: Setup,
     /// The rock masses of which pieces are missing.
     pub left_out: Vec<LeftOut>,
+    /// Number of those that a fluid flows around, the first ones. The cells of a lattice know its solids
+    /// and walls already.
+    pub in_fluid: usize,
 }
 
 /// Pieces of a rock mass that are smaller or thinner than the scene lets a block be.
@@ -36,7 +40,7 @@ pub struct LeftOut {
 }
 
 /// The blocks of a scene: those of `blocks` in their order, then those of `rock_masses`, then the
-/// `solids`, which are fixed.
+/// `solids`, which are fixed, and with a fluid the faces of the domain through which nothing flows.
 ///
 /// # Errors
 /// [`Error::Scene`] naming the table and key from which no block can be made; [`Error::File`] for a
@@ -69,12 +73,20 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
             left_out.push(lost);
         }
     }
+    let in_fluid = setup.blocks.len();
     for (index, solid) in scene.solids.iter().enumerate() {
         setup.blocks.push(solids::block(scene, index, solid)?);
     }
+    if scene.has_fluid() {
+        setup.blocks.extend(walls::blocks(scene)?);
+    }
     check_names(scene, &setup)?;
     check_domain(scene, &setup)?;
-    Ok(BlockSetup { setup, left_out })
+    Ok(BlockSetup {
+        setup,
+        left_out,
+        in_fluid,
+    })
 }
 
 /// Names differ, and those that probes name exist.

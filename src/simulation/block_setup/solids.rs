@@ -5,7 +5,7 @@ use crate::{
     Result,
     block::{HalfSpace, Polyhedron, Shape},
     bodies::Block,
-    scene::{self, Domain, Scene, Solid},
+    scene::{self, Boundary, Scene, Solid},
 };
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
         }
         scene::Shape::HalfSpace { point, normal } => {
             let plane = HalfSpace::through(DVec3::from(*point), DVec3::from(*normal));
-            let mut faces = beyond(&scene.domain).to_vec();
+            let mut faces = beyond(scene).to_vec();
             faces.push(plane);
             let (made, centroid) =
                 Polyhedron::from_half_spaces(&faces).map_err(|error| error.within(key))?;
@@ -55,8 +55,18 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
 }
 
 /// The box that reaches as far beyond the domain on each side as its longest edge.
-fn beyond(domain: &Domain) -> [HalfSpace; 6] {
-    let margin = domain.size.into_iter().fold(0.0, f64::max);
+///
+/// Along a periodic axis a hundred times as far: blocks that the flow carries through the border go on in
+/// the coordinates of the world.
+pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
+    let domain = &scene.domain;
+    let longest = domain.size.into_iter().fold(0.0, f64::max);
+    let faces = [
+        &scene.boundaries.x_min,
+        &scene.boundaries.y_min,
+        &scene.boundaries.z_min,
+    ];
+    let periodic = faces.map(|face| scene.has_fluid() && *face == Boundary::Periodic);
     let end = domain.end();
     std::array::from_fn(|face| {
         let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
@@ -67,6 +77,7 @@ fn beyond(domain: &Domain) -> [HalfSpace; 6] {
         } else {
             end[axis]
         };
+        let margin = longest * if periodic[axis] { 100.0 } else { 1.0 };
         HalfSpace {
             normal,
             distance: sign * at + margin,

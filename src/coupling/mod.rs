@@ -1,0 +1,15 @@
+//! Blocks and a fluid together (Gardner & Sitar 2018, section 4): poses in, loads out.
+//!
+//! [`Coupled`] holds the blocks of a scene and their cells in the lattice. A step puts the blocks where they
+//! are, has the fluid run the bricks that they reach, reads the loads back while the rest of the fluid runs,
+//! and moves the blocks to the end of the step in as many sub-steps as their contacts want.
+
+mod coupled;
+mod loads;
+mod reading;
+mod state;
+
+pub use coupled::{Coupled, Exchanges, Felt};
+pub use loads::{Ambient, Follower};
+pub use reading::Reading;
+pub use state::CoupledState;

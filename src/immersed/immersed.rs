@@ -1,0 +1,321 @@
+//! Blocks in a fluid on the device.
+
+use super::{
+    Frame, Motion, Part, Plan, WRENCH,
+    kernels::Kernels,
+    outline::{outline, rows},
+    tiles::{Outline, Tiling},
+};
+use crate::{
+    Error, Result,
+    block::Shape,
+    bodies::{Load, Pose},
+    lattice::Lattice,
+};
+use std::sync::Arc;
+
+/// A block that is put into a fluid.
+#[derive(Clone, Debug)]
+pub struct Submerged {
+    /// Its shape, m.
+    pub shape: Arc<Shape>,
+    /// Whether somebody wants to know what the fluid does to it.
+    pub loaded: bool,
+}
+
+/// What was computed anew since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Tiles whose solid fractions were.
+    pub tiles: u64,
+    /// Bricks whose saturation was.
+    pub bricks: u64,
+    /// Times that the tiles of blocks were looked for.
+    pub searches: u64,
+}
+
+/// Blocks in a fluid, as partially saturated cells.
+///
+/// A step is [`Immersed::place`] with the poses of the blocks, [`Immersed::record_cells`],
+/// [`Lattice::record_saturated`], [`Immersed::record_loads`], [`Lattice::record_rest`]; then
+/// [`Immersed::wrenches`] holds what [`Immersed::loads`] makes loads of. Poses, motions and loads are SI.
+#[derive(Debug)]
+pub struct Immersed {
+    frame: Frame,
+    tiling: Tiling,
+    /// In the order of the device: those with loads first.
+    blocks: Vec<Submerged>,
+    /// Place of each block in that order.
+    number: Vec<usize>,
+    loaded: usize,
+    /// First part of each block, and first face of each part.
+    first_part: Vec<u32>,
+    first_face: Vec<u32>,
+    faces: usize,
+    poses: Vec<Pose>,
+    outlines: Vec<Vec<Outline>>,
+    plan: Plan,
+    kernels: Kernels,
+    work: Work,
+}
+
+impl Immersed {
+    /// Puts blocks into the lattice, which must have a solid operator; they are nowhere until
+    /// [`Immersed::place`].
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the lattice has no solid operator; [`Error::Limit`] of the device.
+    pub fn new(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        frame: Frame,
+        blocks: Vec<Submerged>,
+    ) -> Result<Self> {
+        let mut order: Vec<usize> = (0..blocks.len()).collect();
+        order.sort_by_key(|&block| !blocks[block].loaded);
+        let mut number = vec![0; blocks.len()];
+        for (place, &block) in order.iter().enumerate() {
+            number[block] = place;
+        }
+        let blocks: Vec<_> = order.iter().map(|&block| blocks[block].clone()).collect();
+        let (mut first_part, mut first_face) = (vec![0], vec![0]);
+        let mut faces = 0;
+        for block in &blocks {
+            for part in block.shape.parts() {
+                if let crate::block::Form::Convex(shape) = &part.form {
+                    faces += shape.faces().len() as u32;
+                }
+                first_face.push(faces);
+            }
+            first_part.push(first_face.len() as u32 - 1);
+        }
+        Ok(Self {
+            tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
+            loaded: blocks.iter().filter(|block| block.loaded).count(),
+            plan: Plan::new(blocks.len()),
+            kernels: Kernels::new(device, lattice)?,
+            frame,
+            number,
+            first_part,
+            first_face,
+            faces: faces as usize,
+            poses: Vec::new(),
+            outlines: vec![Vec::new(); blocks.len()],
+            blocks,
+            work: Work::default(),
+        })
+    }
+
+    /// Puts the blocks where they are now, one pose each, for the coming steps: uploads what has changed
+    /// and lays down what is to be computed anew.
+    ///
+    /// # Errors
+    /// If the number of poses differs, one is not finite, or the device does not hold the cells.
+    pub fn place(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        poses: &[Pose],
+    ) -> Result<()> {
+        if poses.len() != self.blocks.len() {
+            let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
+            return Err(Error::scene("poses", message));
+        }
+        if let Some(bad) = poses.iter().position(|pose| !finite(pose)) {
+            return Err(Error::NotFinite {
+                block: format!("{bad}"),
+                time: lattice.step() as f64 * self.frame.units.time_step,
+                remedy: "look at its load and its drive; a shorter time step may help".into(),
+            });
+        }
+        let mut ordered = vec![poses[..].first().copied(); poses.len()];
+        for (pose, &place) in poses.iter().zip(&self.number) {
+            ordered[place] = Some(*pose);
+        }
+        let poses: Vec<Pose> = ordered.into_iter().flatten().collect();
+        let start = self.poses.is_empty();
+        let differs = |block: usize, what: fn(&Pose, &Pose) -> bool| {
+            start || what(&poses[block], &self.poses[block])
+        };
+        let moved: Vec<usize> = (0..poses.len())
+            .filter(|&block| {
+                differs(block, |a, b| {
+                    (a.centre, a.deformation) != (b.centre, b.deformation)
+                })
+            })
+            .collect();
+        let changed: Vec<usize> = (0..poses.len())
+            .filter(|&block| differs(block, |a, b| a != b))
+            .collect();
+        if changed.is_empty() {
+            self.set_work(queue, &[], &[]);
+            return Ok(());
+        }
+        for &block in &moved {
+            let parts = self.blocks[block].shape.parts().iter();
+            let outline = |part| outline(&self.frame, part, &poses[block]);
+            self.outlines[block] = parts.map(outline).collect();
+        }
+        let cell = self.frame.units.cell;
+        let strayed = moved.iter().any(|&block| {
+            let radius = self.blocks[block].shape.radius();
+            self.plan.has_strayed(block, &poses[block], radius, cell)
+        });
+        if strayed {
+            for &block in &moved {
+                let radius = self.blocks[block].shape.radius();
+                let at = (&poses[block], radius, cell);
+                let first = self.first_part[block];
+                self.plan
+                    .find(&self.tiling, block, at, &self.outlines[block], first);
+            }
+            let bricks = lattice.grid().bricks().iter().product::<u32>() as usize;
+            self.plan.assemble(lattice.geometry(), bricks);
+            lattice.set_saturated(device, queue, &self.plan.bricks)?;
+            let counts = [
+                self.first_face.len() - 1,
+                self.faces,
+                self.blocks.len(),
+                self.loaded,
+            ];
+            self.kernels.hold(device, lattice, &self.plan, counts)?;
+            self.upload_plan(queue);
+            self.work.searches += 1;
+        }
+        self.poses = poses;
+        self.upload_tables(queue);
+        if strayed {
+            let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
+            let slots: Vec<u32> = (0..self.plan.bricks.len() as u32).collect();
+            self.set_work(queue, &tiles, &slots);
+        } else {
+            let tiles = moved.iter().flat_map(|&block| self.plan.tiles_of(block));
+            let tiles: Vec<u32> = tiles.collect();
+            let slots = self.plan.slots_of(changed.iter().copied());
+            self.set_work(queue, &tiles, &slots);
+        }
+        Ok(())
+    }
+
+    fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
+        self.kernels.set_work(queue, [tiles, slots]);
+        self.work.tiles += tiles.len() as u64;
+        self.work.bricks += slots.len() as u64;
+    }
+
+    fn upload_plan(&mut self, queue: &wgpu::Queue) {
+        let plan = &self.plan;
+        let lists = [
+            ("tiles", bytemuck::cast_slice(&plan.tiles)),
+            ("slot_first", bytemuck::cast_slice(&plan.slot_first)),
+            ("slot_tiles", bytemuck::cast_slice(&plan.slot_tiles)),
+            (
+                "block_first",
+                bytemuck::cast_slice(&plan.block_first[..=self.loaded]),
+            ),
+        ];
+        for (name, bytes) in lists {
+            queue.write_buffer(self.kernels.buffer(name), 0, bytes);
+        }
+        let tiles = plan.block_first[self.loaded];
+        self.kernels.set_sums(tiles, self.loaded);
+    }
+
+    fn upload_tables(&mut self, queue: &wgpu::Queue) {
+        let mut parts: Vec<Part> = Vec::with_capacity(self.first_face.len());
+        let mut faces: Vec<[f32; 4]> = Vec::with_capacity(self.faces);
+        for (block, outlines) in (0..).zip(&self.outlines) {
+            for outline in outlines {
+                let (part, its) = rows(outline, block, self.first_face[parts.len()]);
+                parts.push(part);
+                faces.extend(its);
+            }
+        }
+        let motions: Vec<Motion> = self
+            .poses
+            .iter()
+            .map(|pose| self.frame.motion(pose))
+            .collect();
+        let tables = [
+            ("parts", bytemuck::cast_slice(&parts)),
+            ("faces", bytemuck::cast_slice(&faces)),
+            ("motions", bytemuck::cast_slice(&motions)),
+        ];
+        for (name, bytes) in tables {
+            queue.write_buffer(self.kernels.buffer(name), 0, bytes);
+        }
+    }
+
+    /// Records what the solid is in each cell, after [`Immersed::place`]; nothing where no block has
+    /// changed since the last time.
+    pub fn record_cells(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernels.record(pass, 0..2);
+    }
+
+    /// Records the sums of what the fluid did to the blocks, after [`Lattice::record_saturated`].
+    pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernels.record(pass, 2..4);
+    }
+
+    /// The sums, [`WRENCH`] f32 for each block with loads: see [`Immersed::loads`]. Another buffer after
+    /// [`Immersed::place`], if it had to grow.
+    pub fn wrenches(&self) -> &wgpu::Buffer {
+        self.kernels.buffer("wrenches")
+    }
+
+    /// How many numbers of [`Immersed::wrenches`] hold sums.
+    pub fn wrench_count(&self) -> usize {
+        WRENCH * self.loaded
+    }
+
+    /// The loads on all blocks from the numbers of [`Immersed::wrenches`]: what the fluid did to the solid
+    /// in its cells, without what a body force in these cells and the weight of the water add. Blocks
+    /// without loads have none.
+    ///
+    /// # Errors
+    /// If there are too few numbers.
+    pub fn loads(&self, wrenches: &[f32]) -> Result<Vec<Load>> {
+        if wrenches.len() < self.wrench_count() {
+            let message = format!("{} numbers, not {}", wrenches.len(), self.wrench_count());
+            return Err(Error::scene("wrenches", message));
+        }
+        let load = |&place: &usize| match wrenches.get(WRENCH * place..WRENCH * (place + 1)) {
+            Some(wrench) if place < self.loaded => self.frame.load(wrench),
+            _ => Load::default(),
+        };
+        Ok(self.number.iter().map(load).collect())
+    }
+
+    /// Bricks that blocks reach.
+    pub fn bricks(&self) -> &[u32] {
+        &self.plan.bricks
+    }
+
+    /// Tiles: parts of blocks in a lane of a brick.
+    pub fn tiles(&self) -> usize {
+        self.plan.tiles.len()
+    }
+
+    /// What was computed anew since the start.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.kernels.bytes()
+    }
+
+    /// Where the lattice is, and its units.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+}
+
+fn finite(pose: &Pose) -> bool {
+    pose.centre.is_finite()
+        && pose.deformation.is_finite()
+        && pose.velocity.is_finite()
+        && pose.deformation_rate.is_finite()
+}

@@ -1,0 +1,246 @@
+//! The kernels of blocks in the fluid, and the memory that they share.
+
+use super::{PLANES, Plan, Tile, WRENCH};
+use crate::{
+    Error, Result,
+    kernel::{Kernel, MAX_GROUPS, fold},
+    lattice::Lattice,
+    link::Program,
+};
+
+/// A buffer that is made anew when it must hold more.
+#[derive(Debug)]
+struct Growing {
+    buffer: wgpu::Buffer,
+    label: &'static str,
+}
+
+impl Growing {
+    fn new(device: &wgpu::Device, label: &'static str) -> Self {
+        Self {
+            buffer: made(device, label, 256),
+            label,
+        }
+    }
+
+    /// Makes room, and half as much again where there is none; says whether the buffer is another one.
+    fn hold(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool> {
+        if bytes <= self.buffer.size() {
+            return Ok(false);
+        }
+        let limits = device.limits();
+        let most = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size);
+        if bytes > most {
+            return Err(Error::Limit {
+                name: format!("bytes of one storage binding ({})", self.label),
+                wants: bytes,
+                has: most,
+                remedy:
+                    "use fewer or smaller blocks in the fluid, a larger cell, or another adapter"
+                        .into(),
+            });
+        }
+        self.buffer = made(device, self.label, (bytes + bytes / 2).min(most) / 4 * 4);
+        Ok(true)
+    }
+}
+
+fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+/// Names of the buffers in WGSL.
+const NAMES: [&str; 12] = [
+    "tiles",
+    "parts",
+    "faces",
+    "motions",
+    "shares",
+    "slot_first",
+    "slot_tiles",
+    "block_first",
+    "partials",
+    "wrenches",
+    "tile_work",
+    "slot_work",
+];
+
+/// The kernels in the order in which they run, with the list that the first two go through.
+const KERNELS: [(&str, Option<&str>); 4] = [
+    ("voxelise", Some("tile_work")),
+    ("saturate_cells", Some("slot_work")),
+    ("reduce_tiles", None),
+    ("reduce_blocks", None),
+];
+/// A place in a list that is not used.
+const NOTHING: u32 = u32::MAX;
+/// Tiles that a workgroup of the serial form of `reduce_tiles` sums.
+const TILES_A_GROUP: u32 = 64;
+/// Most workgroups that folding a dispatch of 2³² adds.
+const SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
+
+/// Kernels with their memory.
+#[derive(Debug)]
+pub(super) struct Kernels {
+    kernels: Vec<Kernel>,
+    binds: Vec<wgpu::BindGroup>,
+    buffers: Vec<Growing>,
+    workgroup: u64,
+    /// Workgroups of the coming dispatches, in the order of `KERNELS`.
+    groups: [u32; 4],
+    serial: bool,
+}
+
+impl Kernels {
+    pub fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
+        let grid = lattice.grid();
+        let [x, y, z] = grid.brick;
+        let workgroup = x * y * z;
+        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+        let constants = [
+            ("BRICK_X", f64::from(x)),
+            ("BRICK_Y", f64::from(y)),
+            ("BRICK_Z", f64::from(z)),
+            ("LANES_OF_ELEMENT", f64::from(grid.lanes)),
+        ];
+        let kernel = |(entry, _): &(&str, Option<&str>)| {
+            // Barriers are slow where a CPU walks through the invocations of a workgroup.
+            let form = if software { "serial" } else { "parallel" };
+            let program = Program::new(entry)
+                .text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
+                .slot("tile_sum", &format!("tile_sum_{form}"));
+            Kernel::new(device, &program.link()?, entry, &constants)
+        };
+        let mut kernels = Self {
+            kernels: KERNELS.iter().map(kernel).collect::<Result<_>>()?,
+            binds: Vec::new(),
+            buffers: NAMES.map(|name| Growing::new(device, name)).into(),
+            workgroup: workgroup.into(),
+            groups: [0; 4],
+            serial: software,
+        };
+        kernels.bind(device, lattice)?;
+        Ok(kernels)
+    }
+
+    /// Buffers by their names.
+    pub fn buffer(&self, name: &str) -> &wgpu::Buffer {
+        let at = NAMES
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or_default();
+        &self.buffers[at].buffer
+    }
+
+    /// Makes room for a plan of `loaded` blocks with loads.
+    pub fn hold(
+        &mut self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        plan: &Plan,
+        [parts, faces, blocks, loaded]: [usize; 4],
+    ) -> Result<()> {
+        let words = |n: usize| 4 * n as u64;
+        let tiles = plan.tiles.len();
+        let bytes = [
+            (size_of::<Tile>() * tiles) as u64,
+            (size_of::<super::Part>() * parts) as u64,
+            (16 * faces) as u64,
+            (size_of::<super::Motion>() * blocks) as u64,
+            words(tiles) * self.workgroup,
+            words(plan.slot_first.len()),
+            words(tiles),
+            words(loaded + 1),
+            words(WRENCH * tiles),
+            words(WRENCH * loaded),
+            words(tiles + SURPLUS),
+            words(plan.bricks.len() + SURPLUS),
+        ];
+        for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
+            buffer.hold(device, bytes)?;
+        }
+        // Its length says how many blocks there are.
+        let first = &mut self.buffers[7];
+        if first.buffer.size() != words(loaded + 1) {
+            first.buffer = made(device, first.label, words(loaded + 1));
+        }
+        self.bind(device, lattice)
+    }
+
+    /// The saturation belongs to the lattice, which may have made another one.
+    fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
+        let Some(saturation) = lattice.saturation() else {
+            let message = "the lattice has no solid operator, so that no block may be in it";
+            return Err(Error::scene("numerics.solid_operator", message));
+        };
+        let named: Vec<_> = NAMES
+            .iter()
+            .zip(&self.buffers)
+            .map(|(name, growing)| (*name, &growing.buffer))
+            .chain([("saturation", saturation)])
+            .collect();
+        let bind = |(kernel, (_, work)): (&Kernel, &(&str, Option<&str>))| {
+            let mut named = named.clone();
+            named.extend(work.map(|work| ("work", self.buffer(work))));
+            kernel.bind(device, &named)
+        };
+        self.binds = self
+            .kernels
+            .iter()
+            .zip(&KERNELS)
+            .map(bind)
+            .collect::<Result<_>>()?;
+        Ok(())
+    }
+
+    /// Gives the first two kernels their work: numbers of tiles and of slots.
+    pub fn set_work(&mut self, queue: &wgpu::Queue, lists: [&[u32]; 2]) {
+        for (n, list) in lists.into_iter().enumerate() {
+            self.groups[n] = list.len() as u32;
+            if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
+                // A folded dispatch has a few workgroups too many, which find nothing to do.
+                let [x, y] = fold(list.len() as u32);
+                let mut list = list.to_vec();
+                list.resize(x as usize * y as usize, NOTHING);
+                queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
+            }
+        }
+    }
+
+    /// Gives the sums their work: the first tiles and blocks.
+    pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
+        self.groups[2] = match self.serial {
+            true => tiles.div_ceil(TILES_A_GROUP),
+            false => tiles,
+        };
+        self.groups[3] = blocks as u32;
+    }
+
+    /// Records the kernels `which`, those of them that have work.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, which: std::ops::Range<usize>) {
+        for n in which {
+            if self.groups[n] > 0 {
+                self.kernels[n].record(pass, &self.binds[n], self.groups[n]);
+            }
+        }
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.buffers
+            .iter()
+            .map(|growing| growing.buffer.size())
+            .sum()
+    }
+}
+
+const _: () = assert!(PLANES == 9, "src/lattice/streams.rs makes room for as many");

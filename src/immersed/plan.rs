@@ -1,0 +1,147 @@
+//! Which tiles there are, and which of them are to be computed again.
+
+use super::{Tile, tiles::Outline, tiles::Tiling};
+use crate::{bodies::Pose, lattice::Geometry};
+use std::ops::Range;
+
+/// Distance that a point of a block may go before its tiles are looked for anew, cells. Tiles reach as far
+/// beyond the block, so that a larger one costs tiles that hold nothing, a smaller one searches.
+pub const SKIN: f64 = 1.0;
+/// A block changes how its direct neighbours relax: a cell beyond the block.
+const NEIGHBOURS: f64 = 1.0;
+
+/// Tiles by block, brick and part.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    /// Tiles of each block with their bricks, at the pose for which they were found.
+    found: Vec<(Option<Pose>, Vec<(u32, Tile)>)>,
+    /// All of them, by block.
+    pub tiles: Vec<Tile>,
+    /// Saturated bricks.
+    pub bricks: Vec<u32>,
+    /// Tiles of each block.
+    pub block_first: Vec<u32>,
+    /// Tiles of each slot: where they begin in `slot_tiles`.
+    pub slot_first: Vec<u32>,
+    /// Tiles by slot.
+    pub slot_tiles: Vec<u32>,
+}
+
+impl Plan {
+    /// For some blocks.
+    pub fn new(blocks: usize) -> Self {
+        Self {
+            found: vec![(None, Vec::new()); blocks],
+            ..Self::default()
+        }
+    }
+
+    /// Whether a block that was found at another pose may have left its tiles.
+    pub fn has_strayed(&self, block: usize, pose: &Pose, radius: f64, cell: f64) -> bool {
+        self.stray(block, pose, radius, cell) > SKIN
+    }
+
+    /// How far a point of the block may have gone since its tiles were found, cells.
+    fn stray(&self, block: usize, pose: &Pose, radius: f64, cell: f64) -> f64 {
+        let Some(then) = &self.found[block].0 else {
+            return f64::INFINITY;
+        };
+        let turned = pose.deformation - then.deformation;
+        let columns = [turned.x_axis, turned.y_axis, turned.z_axis];
+        let square: f64 = columns.iter().map(|c| c.length_squared()).sum();
+        ((pose.centre - then.centre).length() + square.sqrt() * radius) / cell
+    }
+
+    /// Finds the tiles of a block anew if it has gone far enough for that to be due soon.
+    pub fn find(
+        &mut self,
+        tiling: &Tiling,
+        block: usize,
+        (pose, radius, cell): (&Pose, f64, f64),
+        outlines: &[Outline],
+        first_part: u32,
+    ) {
+        if self.stray(block, pose, radius, cell) < 0.5 * SKIN {
+            return;
+        }
+        let mut tiles = Vec::new();
+        for (part, outline) in (first_part..).zip(outlines) {
+            for (brick, tile) in tiling.tiles(outline, NEIGHBOURS + SKIN) {
+                let block = block as u32;
+                tiles.push((
+                    brick,
+                    Tile {
+                        part,
+                        block,
+                        ..tile
+                    },
+                ));
+            }
+        }
+        self.found[block] = (Some(*pose), tiles);
+    }
+
+    /// Puts the tiles of all blocks together; those in bricks without fluid are left out.
+    pub fn assemble(&mut self, geometry: &Geometry, bricks: usize) {
+        const NONE: u32 = u32::MAX;
+        let mut slot_of = vec![NONE; bricks];
+        let all = self.found.iter().flat_map(|(_, tiles)| tiles);
+        self.bricks.clear();
+        for (brick, _) in all {
+            let slot = &mut slot_of[*brick as usize];
+            if *slot == NONE && geometry.runs(*brick) {
+                *slot = 0;
+                self.bricks.push(*brick);
+            }
+        }
+        self.bricks.sort_unstable();
+        for (slot, brick) in (0..).zip(&self.bricks) {
+            slot_of[*brick as usize] = slot;
+        }
+        self.tiles.clear();
+        self.block_first.clear();
+        self.slot_first.clear();
+        self.slot_first.resize(self.bricks.len() + 1, 0);
+        for (_, tiles) in &self.found {
+            self.block_first.push(self.tiles.len() as u32);
+            for (brick, tile) in tiles {
+                let slot = slot_of[*brick as usize];
+                if slot != NONE {
+                    self.tiles.push(Tile { slot, ..*tile });
+                    self.slot_first[slot as usize + 1] += 1;
+                }
+            }
+        }
+        self.block_first.push(self.tiles.len() as u32);
+        for slot in 0..self.bricks.len() {
+            self.slot_first[slot + 1] += self.slot_first[slot];
+        }
+        let mut next = self.slot_first.clone();
+        self.slot_tiles.clear();
+        self.slot_tiles.resize(self.tiles.len(), 0);
+        for (number, tile) in (0..).zip(&self.tiles) {
+            let at = &mut next[tile.slot as usize];
+            self.slot_tiles[*at as usize] = number;
+            *at += 1;
+        }
+    }
+
+    /// Tiles of a block.
+    pub fn tiles_of(&self, block: usize) -> Range<u32> {
+        self.block_first[block]..self.block_first[block + 1]
+    }
+
+    /// Slots in which the blocks have tiles, ascending.
+    pub fn slots_of(&self, blocks: impl Iterator<Item = usize>) -> Vec<u32> {
+        let mut taken = vec![false; self.bricks.len()];
+        for block in blocks {
+            for tile in self.tiles_of(block) {
+                taken[self.tiles[tile as usize].slot as usize] = true;
+            }
+        }
+        (0..)
+            .zip(taken)
+            .filter_map(|(slot, taken)| taken.then_some(slot))
+            .collect()
+    }
+}

@@ -1,0 +1,133 @@
+//! Which bricks a convex part reaches.
+
+use super::Tile;
+use crate::lattice::Grid;
+use glam::DVec3;
+
+/// A convex part where it is, cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Centroid, from the lower corner of the domain.
+    pub centre: DVec3,
+    /// Corners of the box around it, from the centroid.
+    pub low: DVec3,
+    /// See `low`.
+    pub high: DVec3,
+    /// Outward unit normal and distance from the centroid; none: a sphere.
+    pub faces: Vec<(DVec3, f64)>,
+    /// Radius of a sphere.
+    pub radius: f64,
+}
+
+impl Outline {
+    /// Whether a box of half extents `half` around `middle` (from the centroid) lies off it for sure.
+    fn is_off(&self, middle: DVec3, half: DVec3) -> bool {
+        if self.faces.is_empty() {
+            let gap = (middle.abs() - half).max(DVec3::ZERO);
+            return gap.length_squared() > self.radius * self.radius;
+        }
+        let faces = self.faces.iter();
+        faces
+            .map(|(normal, distance)| normal.dot(middle) - distance - normal.abs().dot(half))
+            .any(|gap| gap > 0.0)
+    }
+}
+
+/// The bricks of an axis that an interval reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Span {
+    brick: u32,
+    lane: u32,
+    /// Lowest cell, shifted by whole periods.
+    cell: i32,
+    /// Its cells that lie in the domain.
+    inside: u32,
+}
+
+/// Where the tiles of a grid are.
+#[derive(Clone, Copy, Debug)]
+pub struct Tiling {
+    grid: Grid,
+    periodic: [bool; 3],
+}
+
+impl Tiling {
+    /// Of a grid with periodic axes.
+    pub fn new(grid: Grid, periodic: [bool; 3]) -> Self {
+        Self { grid, periodic }
+    }
+
+    /// The tiles of a part grown by `margin` cells, without their slots, each with its brick; in the order
+    /// of bricks and lanes.
+    pub fn tiles(&self, outline: &Outline, margin: f64) -> Vec<(u32, Tile)> {
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let low = outline.centre[axis] + outline.low[axis] - margin;
+            let high = outline.centre[axis] + outline.high[axis] + margin;
+            self.spans(axis, low, high)
+        });
+        let [bx, by, _] = self.grid.bricks();
+        let mut tiles = Vec::new();
+        for z in &z {
+            for y in &y {
+                for x in &x {
+                    let cell = [x.cell, y.cell, z.cell];
+                    let inside = [x.inside, y.inside, z.inside];
+                    let low = DVec3::from_array(cell.map(f64::from));
+                    let half = 0.5 * DVec3::from_array(inside.map(f64::from));
+                    let middle = low + half - outline.centre;
+                    if outline.is_off(middle, half + DVec3::splat(margin)) {
+                        continue;
+                    }
+                    let tile = Tile {
+                        cell,
+                        lane: z.lane,
+                        inside: Tile::pack(inside),
+                        ..Tile::default()
+                    };
+                    tiles.push((x.brick + bx * (y.brick + by * z.brick), tile));
+                }
+            }
+        }
+        tiles.sort_by_key(|(brick, tile)| (*brick, tile.lane, tile.cell));
+        tiles
+    }
+
+    /// Spans of bricks between `low` and `high` on an axis.
+    fn spans(&self, axis: usize, low: f64, high: f64) -> Vec<Span> {
+        let cells = i64::from(self.grid.cells[axis]);
+        let (first, last) = if self.periodic[axis] {
+            let period = cells as f64;
+            (
+                (low / period).floor() as i64,
+                (high / period).floor() as i64,
+            )
+        } else {
+            (0, 0)
+        };
+        let size = self.grid.brick[axis];
+        let lanes = if axis == 2 { self.grid.lanes } else { 1 };
+        let slab = self.grid.elements[axis];
+        let mut spans = Vec::new();
+        for image in first..=last {
+            for lane in 0..lanes {
+                for brick in 0..slab.div_ceil(size) {
+                    let start = lane * slab + brick * size;
+                    let end =
+                        (lane * slab + ((brick + 1) * size).min(slab)).min(self.grid.cells[axis]);
+                    let shift = image * cells;
+                    let reaches = (i64::from(start) + shift) as f64 <= high
+                        && (i64::from(end) + shift) as f64 >= low;
+                    if start < end && reaches {
+                        spans.push(Span {
+                            brick,
+                            lane,
+                            cell: (i64::from(start) + shift) as i32,
+                            inside: end - start,
+                        });
+                    }
+                }
+            }
+        }
+        spans
+    }
+}

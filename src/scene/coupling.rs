@@ -1,0 +1,26 @@
+//! How fluid and blocks meet.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// How often fluid and blocks exchange poses and loads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Coupling {
+    /// Time steps of the fluid from one exchange to the next, at least 1: between two the blocks stand
+    /// still for the fluid and feel the loads of the last one. Default 1.
+    pub interval: u32,
+    /// Whether blocks feel the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
+    /// Cells that a block fills reflect what is in them from step to step, so that single loads swing with
+    /// a period of two steps, which the mean takes out. Default true.
+    pub average: bool,
+}
+
+impl Default for Coupling {
+    fn default() -> Self {
+        Self {
+            interval: 1,
+            average: true,
+        }
+    }
+}

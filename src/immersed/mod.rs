@@ -10,8 +10,12 @@
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
 
+mod program;
 mod tables;
 
+pub use program::{
+    MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells, voxelise,
+};
 pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
 
 mod frame;

@@ -1,0 +1,20 @@
+// Bricks of elements, and lists of jobs for their workgroups.
+// needs turn
+
+override BRICK_X: u32;
+override BRICK_Y: u32;
+// Jobs of a dispatch; no more than the list holds anyway.
+override TILES: u32 = 0xffffffff;
+
+// A place in a list of jobs that is not used.
+const NOTHING = 0xffffffffu;
+
+// Where an invocation's element lies in the brick.
+fn place_in_brick(local: u32) -> vec3<u32> {
+    return vec3(local % BRICK_X, (local / BRICK_X) % BRICK_Y, local / (BRICK_X * BRICK_Y));
+}
+
+// Whether that is a cell of the domain, in the tile whose packed number of cells is `inside`.
+fn in_domain(place: vec3<u32>, inside: u32) -> bool {
+    return all(place < (vec3(inside) >> vec3(0u, 8u, 16u) & vec3(255u)));
+}

@@ -1,0 +1,16 @@
+// An invocation a tile: no barriers, which cost a CPU more than the sum.
+// needs cell_load
+
+fn sum_tile(turn: u32, local: u32) {
+    let number = turn * 64u + local;
+    if (number >= tile_count()) {
+        return;
+    }
+    let tile = tiles[number];
+    for (var l = 0u; l < WORKGROUP; l++) {
+        add_cell(tile, number, l);
+    }
+    for (var k = 0u; k < 20u; k++) { // unroll
+        partials[number * WRENCH + k] = wrench[k];
+    }
+}

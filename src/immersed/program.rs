@@ -1,0 +1,66 @@
+//! Which files and numbers make the kernels of immersed blocks.
+
+use crate::{lattice::Grid, link::Program};
+
+/// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
+/// cell that many faces cut takes four columns through all of them.
+pub const MOST_FACES: u32 = 8192;
+
+/// Who adds up a tile. Both give the same numbers up to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TileSum {
+    /// One invocation, without barriers: for CPU adapters.
+    Serial,
+    /// A workgroup of 64: for GPUs.
+    Parallel,
+}
+
+impl TileSum {
+    /// Workgroups of `reduce_tiles` for a number of tiles.
+    pub fn groups(self, tiles: u32) -> u32 {
+        match self {
+            Self::Serial => tiles.div_ceil(64),
+            Self::Parallel => tiles,
+        }
+    }
+}
+
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`.
+pub fn voxelise(grid: &Grid) -> Program {
+    base("voxelise", grid)
+}
+
+/// `saturate_cells`: a workgroup a slot of `work`. Binds `work`, `tiles`, `motions`, `slot_first`,
+/// `slot_tiles`, `shares`, `saturation`.
+pub fn saturate_cells(grid: &Grid) -> Program {
+    base("saturate_cells", grid)
+}
+
+/// `reduce_tiles`: [`TileSum::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
+/// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
+pub fn reduce_tiles(grid: &Grid, sum: TileSum) -> Program {
+    let file = match sum {
+        TileSum::Serial => "tile_sum_serial",
+        TileSum::Parallel => "tile_sum_parallel",
+    };
+    base("reduce_tiles", grid).slot("tile_sum", file)
+}
+
+/// `reduce_blocks`: a workgroup a block. Binds `block_first`, `partials`, `wrenches`.
+pub fn reduce_blocks() -> Program {
+    Program::new("reduce_blocks")
+}
+
+/// The numbers that all of them take from the grid.
+pub fn constants(grid: &Grid) -> Vec<(&'static str, f64)> {
+    vec![
+        ("BRICK_X", grid.brick[0].into()),
+        ("BRICK_Y", grid.brick[1].into()),
+        ("LANES_OF_ELEMENT", grid.lanes.into()),
+    ]
+}
+
+fn base(entry: &str, grid: &Grid) -> Program {
+    let workgroup: u32 = grid.brick.iter().product();
+    Program::new(entry).text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
+}

@@ -1,0 +1,58 @@
+//! The kernels are valid in all variants, and bind what they need and nothing else.
+
+use riprap::{
+    immersed::{TileSum, reduce_blocks, reduce_tiles, saturate_cells, voxelise},
+    kernel::bindings,
+    lattice::Grid,
+    link::Program,
+};
+
+fn names(program: &Program, entry: &str) -> Vec<String> {
+    let linked = program.link().unwrap();
+    let bindings = bindings(&linked, entry).unwrap();
+    bindings.into_iter().map(|b| b.name).collect()
+}
+
+/// WebGPU promises 8 storage buffers.
+#[test]
+fn bindings_by_name() {
+    let grid = Grid {
+        cells: [8; 3],
+        elements: [8, 8, 4],
+        lanes: 2,
+        brick: [4; 3],
+    };
+    assert_eq!(
+        names(&voxelise(&grid), "voxelise"),
+        ["work", "tiles", "parts", "faces", "shares"]
+    );
+    assert_eq!(
+        names(&saturate_cells(&grid), "saturate_cells"),
+        [
+            "work",
+            "tiles",
+            "motions",
+            "slot_first",
+            "slot_tiles",
+            "shares",
+            "saturation"
+        ]
+    );
+    for sum in [TileSum::Serial, TileSum::Parallel] {
+        assert_eq!(
+            names(&reduce_tiles(&grid, sum), "reduce_tiles"),
+            [
+                "tiles",
+                "motions",
+                "shares",
+                "saturation",
+                "block_first",
+                "partials"
+            ]
+        );
+    }
+    assert_eq!(
+        names(&reduce_blocks(), "reduce_blocks"),
+        ["block_first", "partials", "wrenches"]
+    );
+}

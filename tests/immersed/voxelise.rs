@@ -1,0 +1,334 @@
+//! Solid fractions against exact volumes.
+
+use crate::{
+    exact::{ball_share, hull_share},
+    shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
+    tiling::{Noise, Placed, Tiling, centre, grid},
+    workbench::{POISON, Workbench},
+};
+use glam::{DQuat, DVec3};
+use riprap::immersed::{DEEP, NEAR, Tile, constants, voxelise};
+
+/// The shares of the listed tiles; what is not listed stays poison.
+fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> Vec<f32> {
+    let shares = bench.poisoned(tiling.tiles.len() * tiling.workgroup());
+    let buffers = [
+        ("work", &bench.buffer(work)),
+        ("tiles", &bench.buffer(&tiling.tiles)),
+        ("parts", &bench.buffer(&tiling.parts)),
+        ("faces", &bench.buffer(&tiling.faces)),
+        ("shares", &shares),
+    ];
+    let mut numbers = constants(&tiling.grid);
+    numbers.extend(jobs.map(|n| ("TILES", f64::from(n))));
+    let groups = jobs.unwrap_or(work.len() as u32) as usize;
+    let program = voxelise(&tiling.grid);
+    bench.run(&program, "voxelise", &numbers, &buffers, 64 * groups);
+    bench.read(&shares)
+}
+
+fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
+    let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
+    run(bench, tiling, &work, None)
+}
+
+/// 0..1 from a share and its marks.
+fn fraction(share: f32) -> f64 {
+    f64::from(share.clamp(0.0, 1.0))
+}
+
+fn sum(shares: &[f32]) -> f64 {
+    shares.iter().map(|s| fraction(*s)).sum()
+}
+
+/// Height over a hull's highest face in half widths of a cell, and that half width.
+fn highest(placed: &Placed, r: DVec3) -> (f64, f64) {
+    let heights = placed.faces.iter().map(|face| {
+        let w = face.normal.abs().element_sum() / 2.0;
+        (face.height(r) / w, w)
+    });
+    heights.fold((f64::MIN, 0.0), |a, b| if b.0 > a.0 { b } else { a })
+}
+
+/// What the marks of a cell must be; `exact` is its solid fraction.
+fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
+    // Within rounding of a limit either is right.
+    const EDGE: f64 = 1e-4;
+    let around = |layers: f64| r.abs() + layers + 0.5;
+    let beside = |layers: f64| (r.abs() - layers - 0.5).max(DVec3::ZERO).length();
+    let (inside, far) = if placed.faces.is_empty() {
+        let inside = placed.radius - around(2.0).length();
+        (inside, beside(1.0) - placed.radius)
+    } else {
+        let (height, w) = highest(placed, r);
+        let box_gap = (placed.low - r).max(r - placed.high).max_element();
+        // Five half widths below every face: two more layers of cells are below it.
+        ((-5.0 - height) * w, ((height - 3.0) * w).max(box_gap - 1.5))
+    };
+    if inside > EDGE {
+        assert_eq!(share, DEEP, "{r} is deep");
+    } else if inside < -EDGE {
+        assert_ne!(share, DEEP, "{r} is not deep");
+    }
+    if far > EDGE {
+        assert_eq!(share, 0.0, "{r} is far");
+    } else if far < -EDGE {
+        assert_ne!(share, 0.0, "{r} is near");
+    }
+    if exact < 1e-8 {
+        assert!(share <= 2e-6, "{r} is empty: {share}");
+    }
+}
+
+/// f32, over the few dozen terms of a cell's volume.
+const ROUNDING: f64 = 2e-6;
+/// The same where a face of the part is almost parallel to one of the cell: what the kernel neglects.
+const ALMOST_PARALLEL: f64 = 1e-4;
+
+/// Every cell of every tile; `most` is the largest error of a fraction.
+fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
+    let mut worst = 0f64;
+    for (tile, shares) in tiling.tiles.iter().zip(shares.chunks(tiling.workgroup())) {
+        let placed = &tiling.placed[tile.part as usize];
+        for (local, &share) in shares.iter().enumerate() {
+            let Some(cell) = tiling.cell(tile, local) else {
+                assert_eq!(share, 0.0, "beyond the domain");
+                continue;
+            };
+            let r = centre(cell) - placed.centre;
+            let outside = (placed.low - r).max(r - placed.high).max_element() > 0.5;
+            let exact = match placed.faces.is_empty() {
+                _ if outside => 0.0,
+                true if (r.abs() + 0.5).length() <= placed.radius => 1.0,
+                true => ball_share(placed.radius, r),
+                false => hull_share(&placed.faces, r),
+            };
+            check_marks(placed, r, share, exact);
+            let known = share == DEEP || share == NEAR || (0.0..=1.0).contains(&share);
+            assert!(known, "{share}");
+            worst = worst.max((fraction(share) - exact).abs());
+        }
+    }
+    assert!(worst < most, "{worst} of a cell");
+    worst
+}
+
+/// Grids whose bricks, lanes and ends fit in no way, about `size` cells an axis.
+fn grids(size: u32) -> [riprap::lattice::Grid; 4] {
+    [
+        grid([size; 3], 1, [4, 4, 4]),
+        grid([size, size + 1, size + 2], 2, [5, 3, 7]),
+        grid([size + 3, size, size + 1], 4, [8, 2, 4]),
+        grid([size + 1, size + 2, size + 3], 4, [7, 6, 1]),
+    ]
+}
+
+#[test]
+fn each_cell_of_polyhedra() {
+    let mut noise = Noise(1);
+    let shapes = [
+        cuboid(9.0, 7.0, 8.0),
+        tetrahedron(11.0),
+        icosahedron(8.0),
+        // Thinner than a cell.
+        cuboid(9.0, 6.0, 0.3),
+        // Smaller than a cell.
+        tetrahedron(0.7),
+    ];
+    let bench = Workbench::new(None);
+    let mut worst = 0f64;
+    for shape in &shapes {
+        for (n, rotation) in rotations(4, &mut noise).into_iter().enumerate() {
+            // Whole, half and any offsets.
+            let offset = match n % 3 {
+                0 => DVec3::ZERO,
+                1 => DVec3::new(0.5, 0.0, 0.5),
+                _ => noise.point(),
+            };
+            let at = DVec3::splat(9.0) + offset;
+            let placed = vec![Placed::hull(0, shape, at, rotation)];
+            let tiling = Tiling::new(grids(18)[n % 4], [0; 3], placed);
+            let shares = all(&bench, &tiling);
+            let most = if [4, 5].contains(&n) {
+                ALMOST_PARALLEL
+            } else {
+                ROUNDING
+            };
+            worst = worst.max(check_cells(&tiling, &shares, most));
+        }
+    }
+    assert!(worst > 0.0);
+}
+
+/// Far from the origin of the coordinates, as blocks beside a periodic face are, nothing is lost.
+#[test]
+fn each_cell_far_from_the_origin() {
+    let bench = Workbench::new(None);
+    let origin = [-3, 1_000_000, -70_000];
+    let at = centre(origin) + DVec3::new(6.25, 7.5, 6.125);
+    let rotation = Noise(5).rotation();
+    let placed = vec![Placed::hull(0, &icosahedron(6.0), at, rotation)];
+    let tiling = Tiling::new(grid([13; 3], 2, [4; 3]), origin, placed);
+    check_cells(&tiling, &all(&bench, &tiling), ROUNDING);
+}
+
+#[test]
+fn sums_are_the_volume_at_any_rotation() {
+    let bench = Workbench::new(None);
+    let mut noise = Noise(2);
+    let shapes = [
+        ("cube", cuboid(16.0, 16.0, 16.0)),
+        ("tetrahedron", tetrahedron(16.0)),
+        ("icosahedron", icosahedron(16.0)),
+    ];
+    for (name, shape) in &shapes {
+        for rotation in rotations(12, &mut noise) {
+            let at = DVec3::splat(16.0) + noise.point();
+            let placed = vec![Placed::hull(0, shape, at, rotation)];
+            let volume = placed[0].volume;
+            let tiling = Tiling::new(grid([33; 3], 1, [8, 4, 4]), [0; 3], placed);
+            let error = sum(&all(&bench, &tiling)) / volume - 1.0;
+            // Every cell is exact; f32 leaves some 1e-7 of each, and as much of the faces.
+            assert!(error.abs() < ROUNDING, "{name}, {rotation}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn balls() {
+    let bench = Workbench::new(None);
+    let mut noise = Noise(3);
+    // The smallest one is a cap in each of six cells, at whose rim columns err by half a hundredth.
+    for (n, offset) in [DVec3::ZERO, DVec3::splat(0.5), noise.point(), noise.point()]
+        .into_iter()
+        .enumerate()
+    {
+        for (radius, most_sum) in [(5.0, 1e-4), (8.0, 1e-4), (1.3, 2e-3), (0.7, 3e-2)] {
+            let placed = vec![Placed::ball(0, radius, DVec3::splat(9.0) + offset)];
+            let volume = placed[0].volume;
+            let tiling = Tiling::new(grids(19)[n], [0; 3], placed);
+            let shares = all(&bench, &tiling);
+            let error = sum(&shares) / volume - 1.0;
+            assert!(error.abs() < most_sum, "radius {radius}: {error:e}");
+            check_cells(&tiling, &shares, if radius < 2.0 { 1e-2 } else { 4e-3 });
+        }
+    }
+}
+
+/// Cells that more faces cut than the exact rule takes.
+#[test]
+fn a_part_with_sixty_faces() {
+    let bench = Workbench::new(None);
+    let mut noise = Noise(4);
+    // At 1.2 cells most cells have dozens of cuts, at 8 none has.
+    for (radius, most, most_sum) in [
+        (1.2, 1e-2, 2e-3),
+        (3.0, 1e-2, 5e-4),
+        (8.0, ROUNDING, ROUNDING),
+    ] {
+        let shape = pebble(60, radius);
+        assert_eq!(shape.faces().len(), 60);
+        let at = DVec3::splat(10.0) + noise.point();
+        let placed = vec![Placed::hull(0, &shape, at, noise.rotation())];
+        let volume = placed[0].volume;
+        let tiling = Tiling::new(grid([21; 3], 1, [4; 3]), [0; 3], placed);
+        let shares = all(&bench, &tiling);
+        let error = sum(&shares) / volume - 1.0;
+        assert!(error.abs() < most_sum, "radius {radius}: {error:e}");
+        check_cells(&tiling, &shares, most);
+    }
+}
+
+/// The corner of eight cubes in the middle of a cell, in any orientation: together they fill each cell.
+#[test]
+fn eight_cubes_fill_what_they_share() {
+    let bench = Workbench::new(None);
+    let mut noise = Noise(6);
+    for rotation in rotations(4, &mut noise) {
+        let middle = DVec3::splat(8.0) + noise.point();
+        let cube = cuboid(6.0, 6.0, 6.0);
+        let corner = |k: u32| {
+            let side = |bit: u32| if k >> bit & 1 == 1 { 3.0 } else { -3.0 };
+            let at = middle + rotation * DVec3::new(side(0), side(1), side(2));
+            Placed::hull(k, &cube, at, rotation)
+        };
+        let placed: Vec<_> = (0..8).map(corner).collect();
+        let tiling = Tiling::new(grid([17; 3], 1, [4; 3]), [0; 3], placed);
+        let shares = all(&bench, &tiling);
+        let mut sums = std::collections::HashMap::new();
+        for (tile, shares) in tiling.tiles.iter().zip(shares.chunks(64)) {
+            for (local, share) in shares.iter().enumerate() {
+                if let Some(cell) = tiling.cell(tile, local) {
+                    let (sum, parts) = sums.entry(cell).or_insert((0.0, 0));
+                    *sum += fraction(*share);
+                    *parts += u32::from(*share > 0.0);
+                }
+            }
+        }
+        // All cells that lie in the cube of the eight.
+        let mut shared = 0;
+        for (cell, (sum, parts)) in sums {
+            let r: DVec3 = rotation.inverse() * (centre(cell) - middle);
+            if r.abs().max_element() < 5.0 {
+                assert!((sum - 1.0).abs() < 1e-5, "{cell:?}: {sum}");
+                shared = shared.max(parts);
+            }
+        }
+        // The cell of the corner, unless its boundary is there.
+        assert!(shared >= 4, "{shared}");
+    }
+}
+
+#[test]
+fn lists_of_any_length_and_fold() {
+    let placed = vec![Placed::hull(
+        0,
+        &cuboid(7.0, 5.0, 6.0),
+        DVec3::splat(8.3),
+        DQuat::from_rotation_y(0.4),
+    )];
+    let tiling = Tiling::new(grid([17; 3], 2, [4; 3]), [0; 3], placed);
+    let count = tiling.tiles.len() as u32;
+    assert!(count > 30);
+    let whole = all(&Workbench::new(None), &tiling);
+    let listed = |shares: &[f32], tile: u32| {
+        let range = 64 * tile as usize..64 * (tile as usize + 1);
+        let written = shares[range.clone()] == whole[range.clone()];
+        let poison = shares[range].iter().all(|s| s.to_bits() == POISON);
+        assert!(written != poison, "tile {tile} is half written");
+        written
+    };
+    // In rows of 7 with surplus groups.
+    let folded = all(&Workbench::new(Some(7)), &tiling);
+    assert!(folded == whole);
+    let bench = Workbench::new(None);
+    // Some, in any order, with places that are not used; more groups than jobs; nothing.
+    let odd: Vec<u32> = (0..count).rev().filter(|n| n % 2 == 1).collect();
+    let mut sparse = odd.clone();
+    sparse.splice(3..3, [u32::MAX, u32::MAX]);
+    let some = run(&bench, &tiling, &sparse, None);
+    let first = run(&bench, &tiling, &odd, Some(5));
+    let none = run(&bench, &tiling, &[u32::MAX], None);
+    for tile in 0..count {
+        assert_eq!(listed(&some, tile), tile % 2 == 1);
+        assert_eq!(listed(&first, tile), odd[..5].contains(&tile));
+        assert!(!listed(&none, tile));
+    }
+    let unused = run(&bench, &tiling, &odd, Some(0));
+    assert!(unused.iter().all(|s| s.to_bits() == POISON));
+}
+
+/// A tile without a cell in the domain is all zero wherever the part is.
+#[test]
+fn tiles_beyond_the_domain() {
+    let placed = vec![Placed::ball(0, 6.0, DVec3::splat(4.0))];
+    let mut tiling = Tiling::new(grid([8; 3], 1, [4; 3]), [0; 3], placed);
+    for tile in &mut tiling.tiles {
+        *tile = Tile {
+            inside: Tile::pack([4, 0, 4]),
+            ..*tile
+        };
+    }
+    let shares = all(&Workbench::new(None), &tiling);
+    assert!(shares.iter().all(|s| *s == 0.0));
+}

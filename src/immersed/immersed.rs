@@ -1,14 +1,14 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Frame, Motion, Part, Plan, WRENCH,
+    Frame, MOST_FACES, Motion, Part, Plan, WRENCH,
     kernels::Kernels,
     outline::{outline, rows},
     tiles::{Outline, Tiling},
 };
 use crate::{
     Error, Result,
-    block::Shape,
+    block::{Form, Shape},
     bodies::{Load, Pose},
     lattice::Lattice,
 };
@@ -82,8 +82,17 @@ impl Immersed {
         let mut faces = 0;
         for block in &blocks {
             for part in block.shape.parts() {
-                if let crate::block::Form::Convex(shape) = &part.form {
-                    faces += shape.faces().len() as u32;
+                if let Form::Convex(shape) = &part.form {
+                    let count = shape.faces().len() as u32;
+                    if count > MOST_FACES {
+                        return Err(Error::Limit {
+                            name: "faces of a convex part in a fluid".into(),
+                            wants: count.into(),
+                            has: MOST_FACES.into(),
+                            remedy: "simplify its mesh".into(),
+                        });
+                    }
+                    faces += count;
                 }
                 first_face.push(faces);
             }

@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and the memory that they share.
 
-use super::{PLANES, Plan, Tile, WRENCH};
+use super::{PLANES, Plan, Tile, TileSum, WRENCH, program};
 use crate::{
     Error, Result,
     kernel::{Kernel, MAX_GROUPS, fold},
@@ -83,8 +83,6 @@ const KERNELS: [(&str, Option<&str>); 4] = [
 ];
 /// A place in a list that is not used.
 const NOTHING: u32 = u32::MAX;
-/// Tiles that a workgroup of the serial form of `reduce_tiles` sums.
-const TILES_A_GROUP: u32 = 64;
 /// Most workgroups that folding a dispatch of 2³² adds.
 const SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
 
@@ -97,36 +95,35 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 4],
-    serial: bool,
+    sum: TileSum,
 }
 
 impl Kernels {
     pub fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
         let grid = lattice.grid();
-        let [x, y, z] = grid.brick;
-        let workgroup = x * y * z;
-        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-        let constants = [
-            ("BRICK_X", f64::from(x)),
-            ("BRICK_Y", f64::from(y)),
-            ("BRICK_Z", f64::from(z)),
-            ("LANES_OF_ELEMENT", f64::from(grid.lanes)),
+        // Barriers are slow where a CPU walks through the invocations of a workgroup.
+        let sum = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => TileSum::Serial,
+            _ => TileSum::Parallel,
+        };
+        let programs = [
+            program::voxelise(grid),
+            program::saturate_cells(grid),
+            program::reduce_tiles(grid, sum),
+            program::reduce_blocks(),
         ];
-        let kernel = |(entry, _): &(&str, Option<&str>)| {
-            // Barriers are slow where a CPU walks through the invocations of a workgroup.
-            let form = if software { "serial" } else { "parallel" };
-            let program = Program::new(entry)
-                .text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
-                .slot("tile_sum", &format!("tile_sum_{form}"));
+        let constants = program::constants(grid);
+        let kernel = |((entry, _), program): (&(&str, Option<&str>), Program)| {
             Kernel::new(device, &program.link()?, entry, &constants)
         };
+        let kernels = KERNELS.iter().zip(programs).map(kernel);
         let mut kernels = Self {
-            kernels: KERNELS.iter().map(kernel).collect::<Result<_>>()?,
+            kernels: kernels.collect::<Result<_>>()?,
             binds: Vec::new(),
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
-            workgroup: workgroup.into(),
+            workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 4],
-            serial: software,
+            sum,
         };
         kernels.bind(device, lattice)?;
         Ok(kernels)
@@ -218,10 +215,7 @@ impl Kernels {
 
     /// Gives the sums their work: the first tiles and blocks.
     pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
-        self.groups[2] = match self.serial {
-            true => tiles.div_ceil(TILES_A_GROUP),
-            false => tiles,
-        };
+        self.groups[2] = self.sum.groups(tiles);
         self.groups[3] = blocks as u32;
     }
 

@@ -10,23 +10,21 @@
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
 
-mod program;
-mod tables;
-
-pub use program::{
-    MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells, voxelise,
-};
-pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
-
 mod frame;
 #[expect(clippy::module_inception, reason = "the type that the module is about")]
 mod immersed;
 mod kernels;
 mod outline;
 mod plan;
+mod program;
+mod tables;
 mod tiles;
 
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
+pub use program::{
+    MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells, voxelise,
+};
+pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
 
 use plan::Plan;

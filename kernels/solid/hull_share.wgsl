@@ -18,7 +18,8 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
     var reached = all(r + 0.5 > part.low) && all(r - 0.5 < part.high);
     var deep = true;
     var cuts = 0u;
-    var cut: vec4<f32>;
+    var last: vec4<f32>;
+    var planes = NO_CUTS;
     for (var k = 0u; k < part.faces; k++) {
         let face = faces[part.first_face + k];
         let s = dot(face.xyz, r) - face.w;
@@ -30,10 +31,8 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
         reached = reached && s < w - TOUCH;
         deep = deep && s <= -5.0 * w;
         if (s > TOUCH - w) {
-            cut = vec4(face.xyz, s);
-            if (cuts < CUTS) {
-                planes[6u + cuts] = vec4(face.xyz, dot(face.xyz, vec3(0.5)) - s);
-            }
+            last = vec4(face.xyz, s);
+            planes = with_cut(planes, cuts, vec4(face.xyz, dot(face.xyz, vec3(0.5)) - s));
             cuts++;
         }
     }
@@ -45,10 +44,9 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
     }
     var share: f32;
     if (cuts == 1u) {
-        share = one_plane_volume(cut.xyz, cut.w, half_width(cut.xyz));
+        share = one_plane_volume(last.xyz, last.w, half_width(last.xyz));
     } else if (cuts <= CUTS) {
-        begin_planes();
-        share = several_planes_volume(cuts);
+        share = several_planes_volume(planes, cuts);
     } else {
         share = many_planes_volume(part, r);
     }

@@ -323,6 +323,11 @@ impl Blocks {
         Ok(())
     }
 
+    /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
+    pub fn wait(&mut self, until: f64) {
+        self.time = self.time.max(until);
+    }
+
     /// By how much the boxes of a block are grown, m.
     fn room(&self, block: usize) -> f64 {
         let (body, state) = (&self.bodies[block], &self.states[block]);

@@ -16,10 +16,10 @@ use glam::{DMat3, DVec3};
 /// Exchanges that are left out between two looks at the loads while every block rests.
 const REST: u64 = 16;
 
-/// How often fluid and blocks met since the start.
+/// How often fluid and blocks met since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exchanges {
-    /// Loads read back.
+    /// Loads read back: those of the steps after which blocks moved, and of the steps before these.
     pub readings: u64,
     /// What was computed of the blocks' cells.
     pub cells: Work,
@@ -52,7 +52,9 @@ pub struct Coupled {
     pub(super) last: Vec<Load>,
     pub(super) felt: Vec<Felt>,
     pub(super) followers: Vec<Follower>,
-    pub(super) read: u64,
+    /// Whether loads have been read, so that `last` is of the step before.
+    pub(super) begun: bool,
+    read: u64,
     /// Whether the cells have been computed for the present poses.
     pub(super) placed: bool,
 }
@@ -112,6 +114,7 @@ impl Coupled {
             last: vec![Load::default(); in_fluid],
             felt: vec![Felt::default(); setup.setup.blocks.len()],
             followers: vec![Follower::default(); setup.setup.blocks.len()],
+            begun: false,
             read: 0,
             placed: false,
             setup,
@@ -143,10 +146,11 @@ impl Coupled {
         Ok(())
     }
 
-    /// Whether fluid and blocks meet at the end of the step `step`, counted from 1.
-    pub fn meets(&self, step: u64) -> bool {
+    /// Whether fluid and blocks meet at the end of the step `step`, counted from 1, of those until `last`.
+    pub fn meets(&self, step: u64, last: u64) -> bool {
         let interval = match (self.moves(), self.rests()) {
-            (false, _) => return false,
+            // The loads change nothing; those who ask about them look after the last step.
+            (false, _) => return step == last && self.immersed.wrench_count() > 0,
             (true, false) => self.interval,
             (true, true) => self.interval * REST,
         };
@@ -155,12 +159,12 @@ impl Coupled {
 
     /// Whether the loads of the step `step`, counted from 1, are wanted beside those of the next one, for
     /// their mean.
-    pub fn prepares(&self, step: u64) -> bool {
-        self.average && !self.meets(step) && self.meets(step + 1)
+    pub fn prepares(&self, step: u64, last: u64) -> bool {
+        self.average && !self.meets(step, last) && self.meets(step + 1, last)
     }
 
     /// Whether a block can move at all.
-    fn moves(&self) -> bool {
+    pub fn moves(&self) -> bool {
         (0..self.blocks.len()).any(|block| self.blocks.moves(block))
     }
 
@@ -193,12 +197,13 @@ impl Coupled {
         let [last, early] = &mut self.readings;
         if early.is_pending() {
             self.last = self.immersed.loads(&early.finish().await?)?;
+            self.begun = true;
             self.read += 1;
         }
         let loads = self.immersed.loads(&last.finish().await?)?;
         let poses = self.blocks.poses();
         for (block, load) in loads.iter().enumerate() {
-            let single = self.read == 0 || !self.average;
+            let single = !self.begun || !self.average;
             let load = if single {
                 *load
             } else {
@@ -210,6 +215,7 @@ impl Coupled {
             };
         }
         self.last = loads;
+        self.begun = true;
         self.read += 1;
         Ok(())
     }

@@ -6,10 +6,12 @@
 
 mod coupled;
 mod loads;
+mod near;
 mod reading;
 mod state;
 
 pub use coupled::{Coupled, Exchanges, Felt};
 pub use loads::{Ambient, Follower};
+pub use near::BlockCell;
 pub use reading::Reading;
 pub use state::CoupledState;

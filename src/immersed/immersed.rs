@@ -316,6 +316,11 @@ impl Immersed {
         self.kernels.bytes()
     }
 
+    /// Cells of the domain, and which of its axes are periodic.
+    pub(crate) fn domain(&self) -> ([u32; 3], [bool; 3]) {
+        self.tiling.domain()
+    }
+
     /// Where the lattice is, and its units.
     pub fn frame(&self) -> &Frame {
         &self.frame

@@ -1,5 +1,6 @@
 //! A scene on a device: the loop that a user sees.
 
+mod beside;
 mod block_fields;
 mod block_setup;
 mod diverged;
@@ -7,6 +8,7 @@ mod dry;
 mod fields;
 mod lattice_setup;
 mod needs;
+mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
@@ -15,6 +17,7 @@ pub(crate) use dry::begin;
 pub use fields::Totals;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
+pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{
     Error, Result,
@@ -133,14 +136,14 @@ impl Simulation {
         loop {
             let next = self.step() + 1;
             let coupled = self.coupled.as_ref();
-            if coupled.is_some_and(|coupled| coupled.meets(next)) {
+            if coupled.is_some_and(|coupled| coupled.meets(next, last)) {
                 self.exchange(encoder).await?;
                 let coming = self.changed_faces()?;
                 return self.set_faces(coming);
             }
             self.lattice
                 .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next)) {
+            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next, last)) {
                 coupled.record_loads(&device, &mut encoder, true);
             }
             self.lattice
@@ -154,7 +157,7 @@ impl Simulation {
         }
     }
 
-    /// The last step of a stretch, at whose end the blocks move: the fluid around them runs first, and the
+    /// The last step of a stretch, at whose end the blocks move, or are asked what they feel: the fluid around them runs first, and the
     /// rest of it while their loads are read.
     async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
         let (device, queue) = (&self.device, &self.queue);
@@ -170,6 +173,9 @@ impl Simulation {
             .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
         coupled.read_loads().await?;
+        if !coupled.moves() {
+            return Ok(());
+        }
         let until = self.lattice.step() as f64 * self.units.time_step;
         coupled.advance(until).await
     }

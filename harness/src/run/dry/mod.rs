@@ -1,28 +1,22 @@
 //! Blocks alone.
 
 mod announce;
-mod block_files;
-mod block_probe;
-mod stage;
-mod views;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    summary::{Rocks, Summary},
+    rock::{self, BlockProbe, Rock, Rocks},
+    summary::Summary,
 };
 use crate::search::Finder;
-use block_files::BlockFiles;
-use block_probe::BlockProbe;
 use riprap::{
-    Result,
+    Error, Result,
     bodies::Ledger,
     checkpoint::BlockCheckpoint,
-    scene::{Quantity, Scene},
+    scene::{ProbePlace, Quantity, Scene},
     simulation,
 };
 use std::{path::Path, time::Duration};
-use views::Views;
 
 /// A scene of blocks alone.
 pub struct Dry {
@@ -45,55 +39,19 @@ impl Dry {
         })
     }
 
-    /// Blocks that move or might.
-    pub fn awake(&self) -> usize {
-        let blocks = self.simulation.blocks();
-        let all = blocks.asleep().enumerate();
-        all.filter(|(block, asleep)| !asleep && blocks.moves(*block))
-            .count()
-    }
-
-    /// What the balance of energies has lost or gained since the start, as a part of what has been
-    /// turned over: of the kinetic energy now, the fall of the potential one, and all that was taken.
-    pub fn energy_error(&self, now: &Ledger) -> f64 {
-        let change = now.balance() - self.start.balance();
-        let turned = now.kinetic
-            + self.start.kinetic
-            + (now.potential - self.start.potential).abs()
-            + now.elastic.abs()
-            + now.friction
-            + now.dashpot
-            + now.mass_damping
-            + now.driven.abs()
-            + now.loads.abs();
-        if turned > 0.0 { change / turned } else { 0.0 }
-    }
-
-    fn value(&self, quantity: Quantity, ledger: &Ledger) -> f64 {
-        let blocks = self.simulation.blocks();
-        match quantity {
-            Quantity::BlockKineticEnergy => ledger.kinetic,
-            Quantity::BlockPotentialEnergy => ledger.potential - self.start.potential,
-            Quantity::ContactEnergy => ledger.elastic,
-            Quantity::FrictionWork => ledger.friction,
-            Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.lost,
-            Quantity::OutsideWork => ledger.driven + ledger.loads,
-            Quantity::EnergyError => self.energy_error(ledger),
-            Quantity::Contacts => blocks.contacts().count() as f64,
-            Quantity::AwakeBlocks => self.awake() as f64,
-            Quantity::BlockMaxSpeed => self.max_speed(),
-            // A scene without fluid cannot ask for the fluid's.
-            _ => f64::NAN,
+    /// Its blocks as they are now.
+    fn blocks(&self) -> Rock<'_> {
+        let simulation = &self.simulation;
+        Rock {
+            scene: simulation.scene(),
+            step: simulation.step(),
+            time: simulation.time(),
+            setup: simulation.setup(),
+            blocks: simulation.blocks(),
+            felt: &[],
+            shown: simulation.blocks().len(),
+            start: &self.start,
         }
-    }
-
-    /// Largest speed of a centroid, m/s.
-    pub fn max_speed(&self) -> f64 {
-        let poses = self.simulation.blocks().poses();
-        poses
-            .iter()
-            .map(|pose| pose.velocity.length())
-            .fold(0.0, f64::max)
     }
 }
 
@@ -114,6 +72,10 @@ impl Engine for Dry {
         self.simulation.time()
     }
 
+    fn rock(&self) -> Option<Rock<'_>> {
+        Some(self.blocks())
+    }
+
     /// It goes back to the last good step.
     fn is_good(&self) -> bool {
         true
@@ -132,23 +94,25 @@ impl Engine for Dry {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        notes.max_speed = notes.max_speed.max(self.max_speed());
-        let ledger = self.simulation.blocks().ledger();
-        let values = quantities.iter().map(|q| self.value(*q, &ledger));
+        let rock = self.blocks();
+        notes.block_speed = notes.block_speed.max(rock.max_speed());
+        let ledger = rock.blocks.ledger();
+        let values = quantities.iter().map(|q| rock::value(&rock, *q, &ledger));
         Ok(values.collect())
     }
 
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
-        let scene = self.scene().clone();
         let mut recorders: Recorders<Self> = Vec::new();
-        for probe in &scene.probes {
-            recorders.push(Box::new(BlockProbe::new(self, folder, last, probe)?));
+        for probe in &self.scene().probes {
+            let ProbePlace::Block { block } = &probe.place else {
+                let message = "measures a fluid, and there is none";
+                return Err(Error::scene(format!("probes.{}", probe.name), message).into());
+            };
+            let probe = BlockProbe::new(self, folder, last, (probe, block))?;
+            recorders.push(Box::new(probe));
         }
-        recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
-        for view in &scene.views {
-            let adapter = self.adapter.clone();
-            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
-        }
+        let adapter = self.adapter.as_deref();
+        recorders.extend(rock::recorders(self, adapter, folder, last)?);
         Ok(recorders)
     }
 
@@ -159,7 +123,7 @@ impl Engine for Dry {
             adapter: simulation.finder().describe(),
             time_step: simulation.time_step(),
             first_step: simulation.step(),
-            rocks: Some(Rocks::of(self)),
+            rocks: Some(Rocks::of(&self.blocks(), self.time_step())),
             ..Summary::default()
         })
     }
@@ -170,19 +134,15 @@ impl Engine for Dry {
 
     fn pace(&self, _: &Summary, steps: u64, time: Duration) -> String {
         let rate = steps as f64 / time.as_secs_f64().max(1e-9);
-        let blocks = self.simulation.blocks();
-        format!(
-            "{rate:.0} steps/s, {} of {} blocks awake, {} contacts",
-            self.awake(),
-            blocks.len(),
-            blocks.contacts().count()
-        )
+        format!("{rate:.0} steps/s, {}", self.blocks().activity())
     }
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
-        let mut rocks = Rocks::of(self);
-        rocks.max_speed_seen = notes.max_speed.max(rocks.max_speed);
-        rocks.steps_a_second = steps as f64 / time.as_secs_f64().max(1e-9);
-        summary.rocks = Some(rocks);
+        summary.rocks = Some(Rocks::concluded(
+            &self.blocks(),
+            self.time_step(),
+            notes,
+            (steps, time),
+        ));
     }
 }

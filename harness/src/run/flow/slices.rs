@@ -35,7 +35,8 @@ impl Pictures {
         if slice.streamlines && slice.field != SliceField::Speed {
             fields.push(Field::Velocity);
         }
-        if !simulation.solid().is_empty() && slice.field != SliceField::Solid {
+        let covered = !simulation.solid().is_empty() || scene.has_blocks();
+        if covered && slice.field != SliceField::Solid {
             fields.push(Field::Solid);
         }
         let place = match scene.cells()[axis] {

@@ -6,7 +6,7 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::{Dry, stage::Stage};
+use super::{Rock, stage::Stage};
 use crate::render::{Instance, Picture, animate};
 use anyhow::{Result, bail};
 use riprap::scene::View;
@@ -37,7 +37,7 @@ pub struct Views {
 
 impl Views {
     pub fn new(
-        engine: &Dry,
+        engine: &impl Engine,
         folder: &Path,
         last: u64,
         view: &View,
@@ -60,7 +60,7 @@ impl Views {
         self.folder.join(format!("{}{ending}.png", self.view.name))
     }
 
-    fn stage(&mut self, engine: &Dry) -> Result<&Stage> {
+    fn stage(&mut self, engine: &Rock<'_>) -> Result<&Stage> {
         if self.failed {
             bail!("there is no device to draw on");
         }
@@ -75,16 +75,16 @@ impl Views {
         }
     }
 
-    fn draw(&mut self, engine: &Dry, path: &Path) -> Result<()> {
+    fn draw(&mut self, engine: &Rock<'_>, path: &Path) -> Result<()> {
         self.stage(engine)?.draw(engine)?.save(path)
     }
 
     /// Keeps the present frame if the strip wants one by now.
-    fn keep(&mut self, engine: &Dry) {
+    fn keep(&mut self, engine: &Rock<'_>) {
         let count = u64::from(self.view.strip);
         let wanted = self.strip.len() as u64;
-        if wanted < count && engine.step() * (count - 1).max(1) >= wanted * self.last {
-            let frame = (engine.time(), super::stage::bodies(engine));
+        if wanted < count && engine.step * (count - 1).max(1) >= wanted * self.last {
+            let frame = (engine.time, super::stage::bodies(engine));
             self.strip.push(frame);
         }
     }
@@ -115,29 +115,32 @@ impl Views {
     }
 }
 
-impl Recorder<Dry> for Views {
+impl<E: Engine> Recorder<E> for Views {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Dry, notes: &mut Notes) -> Result<()> {
-        let path = self.path(&format!("_{:06}", engine.step()));
-        let drawn = self.draw(engine, &path);
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let Some(rock) = engine.rock() else {
+            return Ok(());
+        };
+        let path = self.path(&format!("_{:06}", rock.step));
+        let drawn = self.draw(&rock, &path);
         notes.picture(path, drawn);
-        self.keep(engine);
+        self.keep(&rock);
         Ok(())
     }
 
-    fn finish(&mut self, engine: &Dry, notes: &mut Notes) -> Result<()> {
-        let Some(stage) = &self.stage else {
+    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
+        let (Some(stage), Some(rock)) = (&self.stage, engine.rock()) else {
             return Ok(());
         };
         if self.strip.len() > 1 {
             let path = self.path("_strip");
-            let drawn = stage.strip(engine, &self.strip).and_then(|p| p.save(&path));
+            let drawn = stage.strip(&rock, &self.strip).and_then(|p| p.save(&path));
             notes.picture(path, drawn);
         }
-        let step = engine.step();
+        let step = rock.step;
         if self.view.animation && self.frames(step).len() > 1 {
             let path = self.path("");
             let drawn = self.animate(step, &path);

@@ -1,8 +1,8 @@
 //! A run of blocks in numbers.
 
-use super::{dry::Dry, engine::Engine};
+use super::{super::recorder::Notes, Rock};
 use serde::Serialize;
-use std::fmt;
+use std::{fmt, time::Duration};
 
 /// What blocks did.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -53,19 +53,19 @@ pub struct Energies {
 }
 
 impl Rocks {
-    /// The present state.
-    pub fn of(engine: &Dry) -> Self {
-        let blocks = engine.simulation.blocks();
+    /// The present state, of blocks that take sub-steps of at most `time_step` s.
+    pub fn of(rock: &Rock<'_>, time_step: f64) -> Self {
+        let blocks = rock.blocks;
         let ledger = blocks.ledger();
         Self {
-            blocks: blocks.len(),
-            awake: engine.awake(),
+            blocks: rock.shown,
+            awake: rock.awake(),
             contacts: blocks.contacts().count(),
             pairs: blocks.candidates(),
-            sub_step: blocks.time_step().min(engine.time_step()),
-            max_speed: engine.max_speed(),
-            max_speed_seen: engine.max_speed(),
-            energy_error: engine.energy_error(&ledger),
+            sub_step: blocks.time_step().min(time_step),
+            max_speed: rock.max_speed(),
+            max_speed_seen: rock.max_speed(),
+            energy_error: rock.energy_error(&ledger),
             ledger: Energies {
                 kinetic: ledger.kinetic,
                 potential: ledger.potential,
@@ -78,6 +78,21 @@ impl Rocks {
                 loads: ledger.loads,
             },
             steps_a_second: 0.0,
+        }
+    }
+
+    /// The state at the end of a run that took `steps` in `time`.
+    pub fn concluded(
+        rock: &Rock<'_>,
+        time_step: f64,
+        notes: &Notes,
+        (steps, time): (u64, Duration),
+    ) -> Self {
+        let now = Self::of(rock, time_step);
+        Self {
+            max_speed_seen: notes.block_speed.max(now.max_speed),
+            steps_a_second: steps as f64 / time.as_secs_f64().max(1e-9),
+            ..now
         }
     }
 }

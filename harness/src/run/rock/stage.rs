@@ -1,6 +1,6 @@
 //! What a view shows: the meshes of the blocks, the camera and the colours, the same in every picture.
 
-use super::{Dry, Engine};
+use super::Rock;
 use crate::{
     gpu,
     render::{Camera, Colours, Drawing, Ground, Instance, Look, Mesh, Picture, Renderer, View},
@@ -32,14 +32,14 @@ pub struct Stage {
 impl Stage {
     /// Opens the adapter called `adapter`, or the best one, and places the camera for what `engine`
     /// shows now.
-    pub fn new(engine: &Dry, view: &scene::View, adapter: Option<&str>) -> Result<Self> {
+    pub fn new(engine: &Rock<'_>, view: &scene::View, adapter: Option<&str>) -> Result<Self> {
         let adapter = gpu::pick(adapter)?;
         let limits = wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits());
         let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits)?;
         let renderer = Renderer::new(&device, &queue, view.size)?;
         let small = Renderer::new(&device, &queue, view.size.map(|edge| edge / 2))?;
         let meshes = meshes(engine);
-        let up = DVec3::from(engine.scene().up_of(view));
+        let up = DVec3::from(engine.scene.up_of(view));
         let field_of_view = view.field_of_view.to_radians();
         let camera = match (view.from, view.to) {
             (Some(from), Some(to)) => Camera {
@@ -79,13 +79,13 @@ impl Stage {
     }
 
     /// The present picture.
-    pub fn draw(&self, engine: &Dry) -> Result<Picture> {
+    pub fn draw(&self, engine: &Rock<'_>) -> Result<Picture> {
         self.renderer
-            .render(&self.drawing(engine, engine.time(), bodies(engine)))
+            .render(&self.drawing(engine, engine.time, bodies(engine)))
     }
 
     /// The frames side by side, two in a row.
-    pub fn strip(&self, engine: &Dry, frames: &[(f64, Vec<Instance>)]) -> Result<Picture> {
+    pub fn strip(&self, engine: &Rock<'_>, frames: &[(f64, Vec<Instance>)]) -> Result<Picture> {
         let frames = frames.iter();
         let drawings: Vec<_> = frames
             .map(|(time, bodies)| self.drawing(engine, *time, bodies.clone()))
@@ -93,14 +93,14 @@ impl Stage {
         self.small.strip(&drawings, 2)
     }
 
-    fn drawing(&self, engine: &Dry, time: f64, instances: Vec<Instance>) -> Drawing<'_> {
+    fn drawing(&self, engine: &Rock<'_>, time: f64, instances: Vec<Instance>) -> Drawing<'_> {
         Drawing {
             meshes: &self.meshes,
             instances,
             view: View::From(self.camera),
             ground: self.ground,
             scale_bar: true,
-            title: engine.scene().title.clone(),
+            title: engine.scene.title.clone(),
             time: Some(time),
             colours: Some(Colours {
                 label: "speed".into(),
@@ -113,7 +113,7 @@ impl Stage {
 }
 
 /// A mesh for each part of each different shape.
-fn meshes(engine: &Dry) -> Vec<Mesh> {
+fn meshes(engine: &Rock<'_>) -> Vec<Mesh> {
     let mut made = Vec::new();
     each_shape(engine, |shape| {
         made.extend(shape.parts().iter().map(|part| match &part.form {
@@ -125,10 +125,10 @@ fn meshes(engine: &Dry) -> Vec<Mesh> {
 }
 
 /// Where the blocks are, each coloured by the speed of its centroid.
-pub fn bodies(engine: &Dry) -> Vec<Instance> {
+pub fn bodies(engine: &Rock<'_>) -> Vec<Instance> {
     let first = each_shape(engine, |_| {});
-    let poses = engine.simulation.blocks().poses();
-    let blocks = engine.simulation.setup().blocks.iter().zip(&poses);
+    let poses = engine.blocks.poses();
+    let blocks = engine.setup.blocks[..engine.shown].iter().zip(&poses);
     let parts = blocks.flat_map(|(block, pose)| {
         let first = first[&Arc::as_ptr(&block.shape)];
         let parts = block.shape.parts().iter().enumerate();
@@ -144,10 +144,10 @@ pub fn bodies(engine: &Dry) -> Vec<Instance> {
 }
 
 /// Calls `with` for each different shape; says which of all their parts is the first of each.
-fn each_shape(engine: &Dry, mut with: impl FnMut(&Shape)) -> HashMap<*const Shape, usize> {
+fn each_shape(engine: &Rock<'_>, mut with: impl FnMut(&Shape)) -> HashMap<*const Shape, usize> {
     let mut first = HashMap::new();
     let mut parts = 0;
-    for block in &engine.simulation.setup().blocks {
+    for block in &engine.setup.blocks[..engine.shown] {
         first.entry(Arc::as_ptr(&block.shape)).or_insert_with(|| {
             with(&block.shape);
             let at = parts;
@@ -159,13 +159,13 @@ fn each_shape(engine: &Dry, mut with: impl FnMut(&Shape)) -> HashMap<*const Shap
 }
 
 /// √(2gL), L the largest extent of a block that moves; without gravity the largest speed now, m/s.
-fn usual_speed(engine: &Dry) -> f64 {
-    let blocks = engine.simulation.setup().blocks.iter();
+fn usual_speed(engine: &Rock<'_>) -> f64 {
+    let blocks = engine.setup.blocks[..engine.shown].iter();
     let moving = blocks.filter(|block| block.motion != Motion::Fixed);
     let extent = moving
         .map(|block| 2.0 * block.shape.radius())
         .fold(0.0, f64::max);
-    let gravity = DVec3::from(engine.scene().rock.gravity).length();
+    let gravity = DVec3::from(engine.scene.rock.gravity).length();
     let speed = if gravity > 0.0 {
         (2.0 * gravity * extent).sqrt()
     } else {

@@ -1,6 +1,6 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Ambient, Follower, Reading, loads::sum};
+use super::{Ambient, Follower, Gap, Reading, gaps::gaps, loads::sum};
 use crate::{
     Result,
     bodies::{Block, Blocks, Load, Motion, Pose},
@@ -46,6 +46,8 @@ pub struct Coupled {
     ambient: Ambient,
     /// Blocks in the fluid, the first ones; the others are walls and solids, which the lattice has already.
     in_fluid: usize,
+    /// Those narrower than a cell at the start.
+    gaps: Vec<Gap>,
     interval: u64,
     average: bool,
     /// What the fluid did to the blocks in the last step that was read.
@@ -90,6 +92,7 @@ impl Coupled {
             scene.probes.iter().any(|probe| of(&probe.place))
         };
         let in_fluid = setup.in_fluid;
+        let gaps = gaps(&setup.setup, &blocks, in_fluid, units.cell, &mut finder).await?;
         let submerged = setup.setup.blocks[..in_fluid]
             .iter()
             .map(|block| Submerged {
@@ -109,6 +112,7 @@ impl Coupled {
                 gravity: DVec3::from(scene.rock.gravity),
             },
             in_fluid,
+            gaps,
             interval: scene.coupling.interval.into(),
             average: scene.coupling.average,
             last: vec![Load::default(); in_fluid],
@@ -277,6 +281,11 @@ impl Coupled {
     /// Number of blocks that are in the fluid, the first ones; the others are its solids and walls.
     pub fn in_fluid(&self) -> usize {
         self.in_fluid
+    }
+
+    /// The pairs of blocks, one of them in the fluid, that were less than a cell apart at the start.
+    pub fn gaps(&self) -> &[Gap] {
+        &self.gaps
     }
 
     /// Their cells.

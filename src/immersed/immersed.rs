@@ -10,6 +10,7 @@ use crate::{
     Error, Result,
     block::{Form, Shape},
     bodies::{Load, Pose},
+    kernel::Kernel,
     lattice::Lattice,
 };
 use std::sync::Arc;
@@ -309,6 +310,11 @@ impl Immersed {
     /// What was computed anew since the start.
     pub fn work(&self) -> Work {
         self.work
+    }
+
+    /// The kernels in the order in which they run, each with the workgroups of the coming step.
+    pub fn kernels(&self) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.kernels.all()
     }
 
     /// Bytes on the device.

@@ -54,7 +54,7 @@ impl Simulation {
     /// What the scene lacks, or what the device cannot hold.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         let units = Units::of(scene)?;
-        let advice = scene.advise(&units)?;
+        let mut advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
         let start = start(scene, &units)?;
@@ -90,6 +90,9 @@ impl Simulation {
             ),
             false => None,
         };
+        if let Some(coupled) = &coupled {
+            advice.extend(coupled.advise(scene));
+        }
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),

@@ -1,0 +1,10 @@
+//! Pictures in space: bodies are where the camera sees them, nearer ones hide farther ones, colours and lengths
+//! can be read, and what cannot be drawn is said.
+
+mod bodies;
+mod frame;
+mod lines;
+mod refusals;
+mod rig;
+mod sequences;
+mod shading;

@@ -101,6 +101,7 @@ impl Recorder<Flow> for Pictures {
             unit,
             range: self.slice.range,
             streamlines: self.slice.streamlines,
+            blocks: &[],
         };
         let path = self
             .folder

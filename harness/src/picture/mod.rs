@@ -1,10 +1,11 @@
 //! Pictures of results, as PNG files: a [`Slice`] through the flow, and a [`Chart`] of curves —
 //! the [history](Chart::history) of a probe or the [profile](Chart::profile) of a quantity.
 
+pub(crate) mod arrows;
 mod axis;
 pub(crate) mod canvas;
 mod chart;
-mod colour;
+pub(crate) mod colour;
 pub(crate) mod colour_bar;
 mod curve;
 mod follow;

@@ -1,5 +1,6 @@
 //! A quantity on a plane through the flow, as a map of colours.
 
+use super::arrows::arrows;
 use super::axis::{Axis, Scale};
 use super::canvas::{Anchor, Canvas};
 use super::colour::{Palette, SOLID};
@@ -188,8 +189,8 @@ fn draw_streamlines(
         let places: Vec<[f64; 2]> = line.iter().map(|&point| map.place(point)).collect();
         canvas.line(&places, 1.3, colour)?;
         let apart = ARROWS * separation * map.size[0] / (section.opposite()[0] - section.origin[0]);
-        for (at, towards) in arrows(&places, apart) {
-            let ([x, y], [u, v]) = (at, towards);
+        for arrow in arrows(&places, apart) {
+            let ([x, y], [u, v]) = (places[arrow.point], arrow.towards);
             // Pixels from the middle to the tip, and to either side.
             let (tip, side) = (7.0, 4.5);
             let corners = [
@@ -207,25 +208,6 @@ fn draw_streamlines(
         }
     }
     Ok(())
-}
-
-/// Places and directions of arrow heads on a line: about `apart` from each other, one at least.
-fn arrows(places: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
-    let length = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
-    let whole: f64 = places.windows(2).map(length).sum();
-    let count = (whole / apart).round().max(1.0);
-    let mut arrows = Vec::new();
-    let mut passed = 0.0;
-    for pair in places.windows(2) {
-        let step = length(pair);
-        let next = (arrows.len() as f64 + 0.5) * whole / count;
-        if step > 0.0 && passed + step >= next && (arrows.len() as f64) < count {
-            let towards = [0, 1].map(|axis| (pair[1][axis] - pair[0][axis]) / step);
-            arrows.push((pair[0], towards));
-        }
-        passed += step;
-    }
-    arrows
 }
 
 /// A number in a title: four digits, without zeros at the end.

@@ -25,7 +25,7 @@ pub fn render(drawing: &Drawing<'_>, size: [u32; 2]) -> Picture {
 
 /// What rendering is refused with.
 pub fn refusal(drawing: &Drawing<'_>) -> String {
-    let refused = renderer([64, 48]).render(drawing);
+    let refused = renderer([320, 240]).render(drawing);
     refused.expect_err("an error").to_string()
 }
 

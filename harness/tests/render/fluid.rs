@@ -186,14 +186,13 @@ fn a_camera_that_frames_sees_all_of_a_plane() {
 
 #[test]
 fn a_trace_has_its_speeds_colours_between_dark_rims() {
-    let points: Vec<DVec3> = (0..=8)
-        .map(|n| DVec3::new(0.25 * f64::from(n) - 1.0, 0.0, 0.02))
-        .collect();
+    // From x = −1 m to 1 m, from 0 to 1 m/s.
+    let place = |n: i32| DVec3::new(f64::from(n) / 40.0 - 1.0, 0.0, 0.02);
     let drawing = Drawing {
         traces: Some(Traces {
             lines: vec![Trace {
-                speeds: (0..=8).map(|n| 0.125 * f64::from(n)).collect(),
-                points,
+                speeds: (0..=80).map(|n| f64::from(n) / 80.0).collect(),
+                points: (0..=80).map(place).collect(),
             }],
             colours: Colours {
                 label: "speed".into(),
@@ -206,25 +205,29 @@ fn a_trace_has_its_speeds_colours_between_dark_rims() {
     };
     let width = view_width(&drawing);
     let picture = render(&drawing, SIZE);
-    for part in 0..8 {
-        let middle = 0.25 * (f64::from(part) + 0.5) - 1.0;
-        let [x, y] = seen(&level(), [width, SIZE[1]], DVec3::new(middle, 0.0, 0.02));
-        let wants = viridis((f64::from(part) + 0.5) / 8.0);
-        let column: Vec<[u8; 3]> = (y as u32 - 4..=y as u32 + 4)
-            .map(|y| picture.pixel(x as u32, y))
-            .collect();
-        let drawn = column.iter().filter(|p| **p != WHITE).count();
-        // The arrow head stands in the middle.
-        if (3..5).contains(&part) {
-            assert!(drawn > 6, "{drawn} rows");
-            continue;
-        }
+    let rows_at = |segment: i32| {
+        let middle = 0.5 * (place(segment) + place(segment + 1));
+        let [x, y] = seen(&level(), [width, SIZE[1]], middle).map(|at| at as u32);
+        let rows: Vec<[u8; 3]> = (y - 9..y + 9).map(|y| picture.pixel(x, y)).collect();
+        let drawn = rows.iter().filter(|row| **row != WHITE).count();
+        (rows, drawn)
+    };
+    // The arrow head of 20 pixels stands in the middle, and a metre has 91 pixels here.
+    assert!(rows_at(36).1 > 10);
+    for segment in (2..30).chain(48..78) {
+        let (column, drawn) = rows_at(segment);
         assert!((4..=6).contains(&drawn), "{drawn} rows");
-        let first = column.iter().position(|p| *p == wants).expect("its colour");
-        let last = column
-            .iter()
-            .rposition(|p| *p == wants)
-            .expect("its colour");
+        let wants = viridis((f64::from(segment) + 0.5) / 80.0);
+        // Segments are two pixels long and overlap with their neighbours.
+        let near = |p: &[u8; 3]| {
+            let either = [-1.0, 0.0, 1.0].map(|by| viridis((f64::from(segment) + 0.5 + by) / 80.0));
+            let close = |c: [u8; 3]| c.iter().zip(p).all(|(a, b)| a.abs_diff(*b) <= 2);
+            either.into_iter().any(close)
+        };
+        let found = (0..column.len()).filter(|row| near(&column[*row]));
+        let found: Vec<usize> = found.collect();
+        assert!(!found.is_empty(), "{wants:?} is not in {column:?}");
+        let (first, last) = (found[0], found[found.len() - 1]);
         // At either side a row that is part rim, if not all.
         for side in [first - 1, last + 1] {
             let rim = linear(column[side][1]) / linear(wants[1]);

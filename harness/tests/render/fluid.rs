@@ -218,11 +218,15 @@ fn a_trace_has_its_speeds_colours_between_dark_rims() {
         let (column, drawn) = rows_at(segment);
         assert!((4..=6).contains(&drawn), "{drawn} rows");
         let wants = viridis((f64::from(segment) + 0.5) / 80.0);
-        // Segments are two pixels long and overlap with their neighbours.
+        // Segments are two pixels long and overlap with their neighbours: a pixel has one of three colours, or a mean.
+        let three = [-1.0, 0.0, 1.0].map(|by| viridis((f64::from(segment) + 0.5 + by) / 80.0));
         let near = |p: &[u8; 3]| {
-            let either = [-1.0, 0.0, 1.0].map(|by| viridis((f64::from(segment) + 0.5 + by) / 80.0));
-            let close = |c: [u8; 3]| c.iter().zip(p).all(|(a, b)| a.abs_diff(*b) <= 2);
-            either.into_iter().any(close)
+            (0..3).all(|channel| {
+                let ends = three.map(|colour| colour[channel]);
+                let low = ends.into_iter().min().unwrap_or(0).saturating_sub(1);
+                let high = ends.into_iter().max().unwrap_or(0).saturating_add(1);
+                (low..=high).contains(&p[channel])
+            })
         };
         let found = (0..column.len()).filter(|row| near(&column[*row]));
         let found: Vec<usize> = found.collect();

@@ -134,7 +134,8 @@ impl Section {
     }
 
     /// Takes the cells whose centres lie in `blocks` out of the fluid; `plane` is the one that was cut by. What such a
-    /// cell shows outside of its block is what the fluid beside it has: the mean of its neighbours.
+    /// cell shows outside of its block is what the fluid beside it has: the mean of its neighbours, and without any it
+    /// is not a number.
     pub fn leave_out(&mut self, blocks: &[Placed<'_>], plane: Plane) {
         let [a, b] = plane.others();
         for block in blocks {
@@ -162,9 +163,7 @@ impl Section {
             let (sum, count) = around.fold((0.0, 0.0), |(sum, count), other| {
                 (sum + self.values[other], count + 1.0)
             });
-            if count > 0.0 {
-                self.values[cell] = sum / count;
-            }
+            self.values[cell] = sum / count;
         }
     }
 

@@ -25,21 +25,20 @@ pub struct FluidPlane {
 }
 
 impl FluidPlane {
-    /// What `section` shows, which `plane` has cut; its solid cells are left out.
+    /// What `section` shows, which `plane` has cut; its solid cells are left out, and those deep in blocks.
     pub fn of(section: &Section, plane: Plane, colours: Colours) -> Self {
-        let cells = section.values.iter().zip(&section.solid);
-        let value = |(value, solid): (&f64, &bool)| match (solid, value.is_nan()) {
-            (true, _) => f32::NAN,
+        let value = |cell: usize| match section.values[cell] as f32 {
+            _ if section.solid[cell] => f32::NAN,
             // To be seen as the fault that it is.
-            (false, true) => f32::INFINITY,
-            (false, false) => *value as f32,
+            value if value.is_nan() && section.is_fluid(cell) => f32::INFINITY,
+            value => value,
         };
         Self {
             plane,
             origin: section.origin,
             spacing: section.spacing,
             cells: section.cells,
-            values: cells.map(value).collect(),
+            values: (0..section.values.len()).map(value).collect(),
             colours,
         }
     }

@@ -15,7 +15,10 @@ mod progress;
 mod recorder;
 mod rocks;
 mod schedule;
+mod slice_field;
+mod slices;
 mod summary;
+mod views;
 
 pub use rocks::Rocks;
 pub use schedule::Schedule;

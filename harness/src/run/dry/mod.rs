@@ -3,26 +3,25 @@
 mod announce;
 mod block_files;
 mod block_probe;
-mod stage;
-mod views;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
     summary::{Rocks, Summary},
+    views::{Shown, Views},
 };
 use crate::search::Finder;
 use block_files::BlockFiles;
 use block_probe::BlockProbe;
 use riprap::{
     Result,
-    bodies::Ledger,
+    bodies::{Block, Ledger, Pose},
     checkpoint::BlockCheckpoint,
-    scene::{Quantity, Scene},
+    output::Array,
+    scene::{Field, Quantity, Scene},
     simulation,
 };
 use std::{path::Path, time::Duration};
-use views::Views;
 
 /// A scene of blocks alone.
 pub struct Dry {
@@ -184,5 +183,23 @@ impl Engine for Dry {
         rocks.max_speed_seen = notes.max_speed.max(rocks.max_speed);
         rocks.steps_a_second = steps as f64 / time.as_secs_f64().max(1e-9);
         summary.rocks = Some(rocks);
+    }
+}
+
+impl Shown for Dry {
+    fn blocks(&self) -> &[Block] {
+        &self.simulation.setup().blocks
+    }
+
+    fn solids(&self) -> usize {
+        self.scene().solids.len()
+    }
+
+    fn poses(&self) -> Vec<Pose> {
+        self.simulation.blocks().poses()
+    }
+
+    fn read(&mut self, _: &[Field], _: &[u32]) -> Result<Vec<Array>> {
+        Ok(Vec::new())
     }
 }

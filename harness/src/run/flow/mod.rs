@@ -3,19 +3,22 @@
 mod announce;
 mod fields;
 mod probes;
-mod slices;
+mod solids;
 mod watch;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
+    slices::Pictures,
     summary::Summary,
+    views::{Shown, Views},
 };
 use crate::{bench::copy_bandwidth, gpu};
 use fields::Fields;
 use probes::ProbeTable;
 use riprap::{
     Result,
+    bodies::{Block, Pose},
     checkpoint::Checkpoint,
     lattice::{bytes_a_cell, bytes_a_step},
     output::{Array, Image},
@@ -23,7 +26,7 @@ use riprap::{
     simulation::{Needs, Simulation, Totals},
     wgpu,
 };
-use slices::Pictures;
+use solids::{pose, solid_blocks};
 use std::{path::Path, time::Duration};
 use watch::Watch;
 
@@ -41,6 +44,8 @@ pub struct Flow {
     pub queue: wgpu::Queue,
     pub needs: Needs,
     pub simulation: Simulation,
+    /// Static solids, where there are views of them.
+    solids: Vec<Block>,
 }
 
 impl Flow {
@@ -57,17 +62,16 @@ impl Flow {
             queue,
             needs,
             simulation,
+            solids: match scene.views.is_empty() {
+                true => Vec::new(),
+                false => solid_blocks(scene),
+            },
         })
     }
 
     pub fn image(&mut self, fields: &[Field]) -> Result<Image> {
         let image = self.simulation.image(fields);
         gpu::drive(&self.device, PATIENCE, "reading the fields", image)?
-    }
-
-    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
-        let read = self.simulation.read(fields, cells);
-        gpu::drive(&self.device, PATIENCE, "reading cells", read)?
     }
 
     pub fn totals(&mut self) -> Result<Totals> {
@@ -133,6 +137,10 @@ impl Engine for Flow {
         for slice in &scene.output.slices {
             recorders.push(Box::new(Pictures::new(self, folder, last, slice)));
         }
+        for view in &scene.views {
+            let adapter = Some(self.adapter.name.clone());
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
+        }
         Ok(recorders)
     }
 
@@ -186,6 +194,25 @@ impl Engine for Flow {
         }
         (summary.mlups, summary.bandwidth_share) = speed(summary, steps, time);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
+    }
+}
+
+impl Shown for Flow {
+    fn blocks(&self) -> &[Block] {
+        &self.solids
+    }
+
+    fn solids(&self) -> usize {
+        self.solids.len()
+    }
+
+    fn poses(&self) -> Vec<Pose> {
+        self.solids.iter().map(pose).collect()
+    }
+
+    fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
+        let read = self.simulation.read(fields, cells);
+        gpu::drive(&self.device, PATIENCE, "reading cells", read)?
     }
 }
 

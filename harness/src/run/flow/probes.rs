@@ -5,7 +5,7 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::Flow;
+use super::{Flow, Shown};
 use anyhow::Result;
 use riprap::{output::Csv, probe::Gauge, scene::Probe};
 use std::path::{Path, PathBuf};

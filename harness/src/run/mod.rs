@@ -15,7 +15,10 @@ mod progress;
 mod recorder;
 mod rock;
 mod schedule;
+mod slice_field;
+mod slices;
 mod summary;
+mod views;
 
 pub use flow::Coupling;
 pub use rock::Rocks;

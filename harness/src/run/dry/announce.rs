@@ -7,21 +7,23 @@ use std::path::Path;
 /// Tells, on standard error, what will run on what.
 pub fn announce(engine: &Dry, folder: &Path, last: u64) {
     let simulation = &engine.simulation;
-    let rock = engine.blocks();
-    eprintln!("{}", rock.scene.title);
-    eprintln!("  blocks    {}", rock.counted());
+    let blocks = simulation.blocks();
+    eprintln!("{}", simulation.scene().title);
+    if let Some(rock) = engine.rock() {
+        eprintln!("  blocks    {}", rock.counted());
+    }
     for line in left_out(simulation.left_out()) {
         eprintln!("  left out  {line}");
     }
     eprintln!(
         "  search    {}, skin {:.3e} m",
         simulation.finder().describe(),
-        rock.blocks.skin()
+        blocks.skin()
     );
     eprintln!(
         "  step      Δt = {:.4e} s, sub-steps of at most {:.4e} s",
         simulation.time_step(),
-        rock.blocks.time_step()
+        blocks.time_step()
     );
     eprintln!(
         "  run       {} to step {last}, {:.6} s; into {}",

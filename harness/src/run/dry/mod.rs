@@ -5,15 +5,17 @@ mod announce;
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    rock::{self, BlockProbe, Rock, Rocks},
+    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
     summary::Summary,
+    views::{Shown, Views},
 };
 use crate::search::Finder;
 use riprap::{
     Error, Result,
-    bodies::Ledger,
+    bodies::{Block, Ledger, Pose},
     checkpoint::BlockCheckpoint,
-    scene::{ProbePlace, Quantity, Scene},
+    output::Array,
+    scene::{Field, ProbePlace, Quantity, Scene},
     simulation,
 };
 use std::{path::Path, time::Duration};
@@ -38,21 +40,6 @@ impl Dry {
             adapter: adapter.map(Into::into),
         })
     }
-
-    /// Its blocks as they are now.
-    fn blocks(&self) -> Rock<'_> {
-        let simulation = &self.simulation;
-        Rock {
-            scene: simulation.scene(),
-            step: simulation.step(),
-            time: simulation.time(),
-            setup: simulation.setup(),
-            blocks: simulation.blocks(),
-            felt: &[],
-            shown: simulation.blocks().len(),
-            start: &self.start,
-        }
-    }
 }
 
 impl Engine for Dry {
@@ -73,7 +60,16 @@ impl Engine for Dry {
     }
 
     fn rock(&self) -> Option<Rock<'_>> {
-        Some(self.blocks())
+        let simulation = &self.simulation;
+        Some(Rock {
+            step: simulation.step(),
+            time: simulation.time(),
+            setup: simulation.setup(),
+            blocks: simulation.blocks(),
+            felt: &[],
+            shown: simulation.blocks().len(),
+            start: &self.start,
+        })
     }
 
     /// It goes back to the last good step.
@@ -94,11 +90,7 @@ impl Engine for Dry {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        let rock = self.blocks();
-        notes.block_speed = notes.block_speed.max(rock.max_speed());
-        let ledger = rock.blocks.ledger();
-        let values = quantities.iter().map(|q| rock::value(&rock, *q, &ledger));
-        Ok(values.collect())
+        Ok(rock::values(self.rock(), quantities, notes, |_| f64::NAN))
     }
 
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
@@ -111,8 +103,11 @@ impl Engine for Dry {
             let probe = BlockProbe::new(self, folder, last, (probe, block))?;
             recorders.push(Box::new(probe));
         }
-        let adapter = self.adapter.as_deref();
-        recorders.extend(rock::recorders(self, adapter, folder, last)?);
+        recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
+        for view in &self.scene().views {
+            let adapter = self.adapter.clone();
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
+        }
         Ok(recorders)
     }
 
@@ -123,7 +118,7 @@ impl Engine for Dry {
             adapter: simulation.finder().describe(),
             time_step: simulation.time_step(),
             first_step: simulation.step(),
-            rocks: Some(Rocks::of(&self.blocks(), self.time_step())),
+            rocks: Rocks::of(self),
             ..Summary::default()
         })
     }
@@ -134,15 +129,29 @@ impl Engine for Dry {
 
     fn pace(&self, _: &Summary, steps: u64, time: Duration) -> String {
         let rate = steps as f64 / time.as_secs_f64().max(1e-9);
-        format!("{rate:.0} steps/s, {}", self.blocks().activity())
+        let activity = self.rock().map(|rock| rock.activity());
+        format!("{rate:.0} steps/s, {}", activity.unwrap_or_default())
     }
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
-        summary.rocks = Some(Rocks::concluded(
-            &self.blocks(),
-            self.time_step(),
-            notes,
-            (steps, time),
-        ));
+        summary.rocks = Rocks::concluded(self, notes, (steps, time));
+    }
+}
+
+impl Shown for Dry {
+    fn blocks(&self) -> &[Block] {
+        &self.simulation.setup().blocks
+    }
+
+    fn solids(&self) -> usize {
+        self.scene().solids.len()
+    }
+
+    fn poses(&self) -> Vec<Pose> {
+        self.simulation.blocks().poses()
+    }
+
+    fn read(&mut self, _: &[Field], _: &[u32]) -> Result<Vec<Array>> {
+        Ok(Vec::new())
     }
 }

@@ -4,14 +4,18 @@ mod announce;
 mod coupling;
 mod fields;
 mod probes;
-mod slices;
+mod shown;
+mod solids;
+mod walls;
 mod watch;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    rock::{self, BlockProbe, Rock, Rocks},
+    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    slices::Pictures,
     summary::Summary,
+    views::Views,
 };
 use crate::{bench::copy_bandwidth, gpu};
 pub use coupling::Coupling;
@@ -19,15 +23,16 @@ use fields::Fields;
 use probes::ProbeTable;
 use riprap::{
     Result,
-    bodies::Ledger,
+    bodies::{Block, Ledger},
     checkpoint::Checkpoint,
+    coupling::Coupled,
     lattice::{bytes_a_cell, bytes_a_step},
-    output::{Array, Image},
+    output::Image,
     scene::{Field, ProbePlace, Quantity, Scene},
-    simulation::{FirstCell, Needs, SUBLAYER, Simulation, Totals},
+    simulation::{Needs, Simulation, Totals},
     wgpu,
 };
-use slices::Pictures;
+use solids::solid_blocks;
 use std::{path::Path, time::Duration};
 use watch::Watch;
 
@@ -47,8 +52,8 @@ pub struct Flow {
     pub simulation: Simulation,
     /// Energies of the blocks at the start, those that a restart has not seen included.
     start: Ledger,
-    /// Name of the adapter that was asked for.
-    asked: Option<String>,
+    /// Static solids, where there are views of them.
+    solids: Vec<Block>,
 }
 
 impl Flow {
@@ -58,8 +63,8 @@ impl Flow {
         Self::of(scene, adapter).map_err(|error| crate::search::located(error, file))
     }
 
-    fn of(scene: &Scene, asked: Option<&str>) -> Result<Self> {
-        let adapter = gpu::pick(asked)?;
+    fn of(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
+        let adapter = gpu::pick(adapter)?;
         let needs = Needs::of(scene, &adapter)?;
         let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;
         let made = Simulation::new(&device, &queue, scene);
@@ -69,11 +74,14 @@ impl Flow {
             start: simulation
                 .coupled()
                 .map_or_else(Ledger::default, |coupled| coupled.blocks().ledger()),
-            asked: asked.map(Into::into),
             device,
             queue,
             needs,
             simulation,
+            solids: match scene.views.is_empty() {
+                true => Vec::new(),
+                false => solid_blocks(scene),
+            },
         })
     }
 
@@ -82,41 +90,15 @@ impl Flow {
         gpu::drive(&self.device, PATIENCE, "reading the fields", image)?
     }
 
-    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
-        let read = self.simulation.read(fields, cells);
-        gpu::drive(&self.device, PATIENCE, "reading cells", read)?
-    }
-
     pub fn totals(&mut self) -> Result<Totals> {
         let totals = self.simulation.totals();
         gpu::drive(&self.device, PATIENCE, "summing up", totals)?
     }
 
-    /// Whether the shear at walls and blocks is resolved; of a flow that has diverged nobody knows.
-    fn look_at_walls(&mut self, summary: &mut Summary) {
-        if summary.diverged {
-            return;
-        }
-        let looked = self.simulation.wall_units();
-        let looked = gpu::drive(&self.device, PATIENCE, "reading cells beside walls", looked);
-        let found = match looked {
-            Ok(Ok(found)) => found,
-            Ok(Err(error)) | Err(error) => {
-                return summary.warnings.push(format!("y⁺ is not known: {error}"));
-            }
-        };
-        summary.y_plus_walls = found.walls.map(|cell| cell.y_plus);
-        summary.y_plus_blocks = found.blocks.map(|cell| cell.y_plus);
-        for cell in [found.walls, found.blocks].into_iter().flatten() {
-            if cell.y_plus > SUBLAYER {
-                let beside = match (cell.block, self.rock()) {
-                    (Some(block), Some(rock)) => format!("block {}", rock.blocks.name(block)),
-                    _ => "a wall".into(),
-                };
-                let finer = self.simulation.units().cell * SUBLAYER / cell.y_plus;
-                summary.warnings.push(y_plus_warning(&cell, &beside, finer));
-            }
-        }
+    /// Blocks that are shown, the first ones: the faces of the domain that hold them are none.
+    fn shown(&self) -> usize {
+        let in_fluid = self.simulation.coupled().map(Coupled::in_fluid);
+        in_fluid.unwrap_or_default() + self.simulation.scene().solids.len()
     }
 
     /// Bytes a second that the device copies.
@@ -147,13 +129,12 @@ impl Engine for Flow {
         let coupled = simulation.coupled()?;
         let in_fluid = coupled.in_fluid();
         Some(Rock {
-            scene: simulation.scene(),
             step: simulation.step(),
             time: simulation.time(),
             setup: &coupled.setup().setup,
             blocks: coupled.blocks(),
             felt: &coupled.felt()[..in_fluid],
-            shown: in_fluid + simulation.scene().solids.len(),
+            shown: self.shown(),
             start: &self.start,
         })
     }
@@ -183,16 +164,8 @@ impl Engine for Flow {
             false => self.totals()?,
         };
         notes.max_speed = notes.max_speed.max(totals.max_speed);
-        let rock = self.rock();
-        if let Some(rock) = &rock {
-            notes.block_speed = notes.block_speed.max(rock.max_speed());
-        }
-        let ledger = rock.map(|rock| rock.blocks.ledger()).unwrap_or_default();
-        let value = |quantity: &Quantity| match &rock {
-            Some(rock) if quantity.is_of_blocks() => rock::value(rock, *quantity, &ledger),
-            _ => value(*quantity, &totals),
-        };
-        Ok(quantities.iter().map(value).collect())
+        let of_fluid = |quantity| value(quantity, &totals);
+        Ok(rock::values(self.rock(), quantities, notes, of_fluid))
     }
 
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
@@ -211,8 +184,11 @@ impl Engine for Flow {
             recorders.push(Box::new(Pictures::new(self, folder, last, slice)));
         }
         if scene.has_blocks() {
-            let adapter = self.asked.as_deref();
-            recorders.extend(rock::recorders(self, adapter, folder, last)?);
+            recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
+        }
+        for view in &scene.views {
+            let adapter = Some(self.adapter.name.clone());
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
         }
         Ok(recorders)
     }
@@ -247,7 +223,7 @@ impl Engine for Flow {
                 .iter()
                 .map(ToString::to_string)
                 .collect(),
-            rocks: self.rock().map(|rock| Rocks::of(&rock, self.time_step())),
+            rocks: Rocks::of(self),
             coupling: Coupling::of(simulation, 0),
             ..Summary::default()
         })
@@ -273,24 +249,10 @@ impl Engine for Flow {
         }
         (summary.mlups, summary.bandwidth_share) = speed(summary, steps, time);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
-        let rock = self.rock();
-        summary.rocks =
-            rock.map(|rock| Rocks::concluded(&rock, self.time_step(), notes, (steps, time)));
+        summary.rocks = Rocks::concluded(self, notes, (steps, time));
         summary.coupling = Coupling::of(&self.simulation, steps);
         self.look_at_walls(summary);
     }
-}
-
-/// What a large y⁺ means for the numbers of a run; cells of `finer` m would bring the first centre into
-/// the viscous sublayer if the friction stayed the same.
-fn y_plus_warning(cell: &FirstCell, beside: &str, finer: f64) -> String {
-    let [x, y, z] = cell.position;
-    format!(
-        "y⁺ is at least {:.0} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \
-         shear is not resolved there and there is no wall model, so that friction comes out too small; \
-         pressure and the drag of edged bodies suffer less. Cells of {finer:.2e} m would resolve it",
-        cell.y_plus
-    )
 }
 
 /// Million cell updates a second, and the part of what memory allows.

@@ -3,29 +3,21 @@
 mod block_files;
 mod block_probe;
 mod rocks;
-mod stage;
 mod values;
-mod views;
 
+pub use block_files::BlockFiles;
 pub use block_probe::BlockProbe;
 pub use rocks::Rocks;
-pub use values::value;
+pub use values::values;
 
-use super::engine::{Engine, Recorders};
-use block_files::BlockFiles;
 use riprap::{
     bodies::{Blocks, Ledger, Motion, Setup},
     coupling::Felt,
-    scene::Scene,
 };
-use std::path::Path;
-use views::Views;
 
 /// The blocks of an engine as they are now.
 #[derive(Clone, Copy)]
 pub struct Rock<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
     /// Steps done.
     pub step: u64,
     /// Simulated time, s.
@@ -87,19 +79,4 @@ impl Rock<'_> {
             self.count(|motion| *motion == Motion::Fixed),
         )
     }
-}
-
-/// What writes the blocks of an engine that has some: files and views.
-pub fn recorders<E: Engine>(
-    engine: &E,
-    adapter: Option<&str>,
-    folder: &Path,
-    last: u64,
-) -> anyhow::Result<Recorders<E>> {
-    let mut recorders: Recorders<E> = vec![Box::new(BlockFiles::new(engine, folder, last)?)];
-    for view in &engine.scene().views {
-        let adapter = adapter.map(Into::into);
-        recorders.push(Box::new(Views::new(engine, folder, last, view, adapter)));
-    }
-    Ok(recorders)
 }

@@ -1,6 +1,6 @@
 //! A run of blocks in numbers.
 
-use super::{super::recorder::Notes, Rock};
+use super::super::{engine::Engine, recorder::Notes};
 use serde::Serialize;
 use std::{fmt, time::Duration};
 
@@ -53,16 +53,17 @@ pub struct Energies {
 }
 
 impl Rocks {
-    /// The present state, of blocks that take sub-steps of at most `time_step` s.
-    pub fn of(rock: &Rock<'_>, time_step: f64) -> Self {
+    /// The present state of the blocks of `engine`, if it has any.
+    pub fn of(engine: &impl Engine) -> Option<Self> {
+        let rock = engine.rock()?;
         let blocks = rock.blocks;
         let ledger = blocks.ledger();
-        Self {
+        Some(Self {
             blocks: rock.shown,
             awake: rock.awake(),
             contacts: blocks.contacts().count(),
             pairs: blocks.candidates(),
-            sub_step: blocks.time_step().min(time_step),
+            sub_step: blocks.time_step().min(engine.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
             energy_error: rock.energy_error(&ledger),
@@ -78,22 +79,21 @@ impl Rocks {
                 loads: ledger.loads,
             },
             steps_a_second: 0.0,
-        }
+        })
     }
 
     /// The state at the end of a run that took `steps` in `time`.
     pub fn concluded(
-        rock: &Rock<'_>,
-        time_step: f64,
+        engine: &impl Engine,
         notes: &Notes,
         (steps, time): (u64, Duration),
-    ) -> Self {
-        let now = Self::of(rock, time_step);
-        Self {
+    ) -> Option<Self> {
+        let now = Self::of(engine)?;
+        Some(Self {
             max_speed_seen: notes.block_speed.max(now.max_speed),
             steps_a_second: steps as f64 / time.as_secs_f64().max(1e-9),
             ..now
-        }
+        })
     }
 }
 

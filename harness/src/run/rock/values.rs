@@ -1,10 +1,29 @@
 //! Numbers that sum up all blocks.
 
-use super::Rock;
+use super::{super::recorder::Notes, Rock};
 use riprap::{bodies::Ledger, scene::Quantity};
 
+/// The present values of `quantities`, those of blocks from `rock`, the others from `of_fluid`.
+pub fn values(
+    rock: Option<Rock<'_>>,
+    quantities: &[Quantity],
+    notes: &mut Notes,
+    of_fluid: impl Fn(Quantity) -> f64,
+) -> Vec<f64> {
+    let Some(rock) = rock else {
+        return quantities.iter().map(|q| of_fluid(*q)).collect();
+    };
+    notes.block_speed = notes.block_speed.max(rock.max_speed());
+    let ledger = rock.blocks.ledger();
+    let value = |quantity: &Quantity| match quantity.is_of_blocks() {
+        true => value(&rock, *quantity, &ledger),
+        false => of_fluid(*quantity),
+    };
+    quantities.iter().map(value).collect()
+}
+
 /// A quantity of blocks; NaN for one of the fluid.
-pub fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
+fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
     match quantity {
         Quantity::BlockKineticEnergy => ledger.kinetic,
         Quantity::BlockPotentialEnergy => ledger.potential - rock.start.potential,

@@ -48,7 +48,7 @@ impl Books {
                     body.mass * state.velocity.length_squared() + state.momentum.dot(state.spin);
                 power[1] += damping * twice;
                 if loaded {
-                    power[3] += state.load.dot(state.velocity) + state.load_torque.dot(state.spin);
+                    power[3] += load_power(state);
                 }
             } else if !body.is_fixed() {
                 power[2] -= state.force.dot(state.velocity) + state.torque.dot(state.spin);
@@ -58,6 +58,12 @@ impl Books {
             self.work[k] += 0.5 * dt * (self.power[k] + power);
         }
         self.power = power;
+    }
+
+    /// Takes new loads over: the next step begins under them.
+    pub fn reload(&mut self, bodies: &[Body], states: &[State]) {
+        let free = bodies.iter().zip(states).filter(|(body, _)| body.is_free());
+        self.power[3] = free.map(|(_, state)| load_power(state)).sum();
     }
 
     /// Books the contacts of `old` that are no more: their force acted for half a step yet.
@@ -94,4 +100,9 @@ impl Books {
             loads,
         }
     }
+}
+
+/// What the load on a block does a second, W.
+fn load_power(state: &State) -> f64 {
+    state.load.dot(state.velocity) + state.load_torque.dot(state.spin)
 }

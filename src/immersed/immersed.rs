@@ -15,6 +15,9 @@ use crate::{
 };
 use std::sync::Arc;
 
+/// Farthest a block may be from the origin, cells: half of what an i32 holds, so that no sum overflows.
+const FARTHEST: f64 = 1e9;
+
 /// A block that is put into a fluid.
 #[derive(Clone, Debug)]
 pub struct Submerged {
@@ -135,10 +138,18 @@ impl Immersed {
         }
         if let Some(bad) = poses.iter().position(|pose| !finite(pose)) {
             return Err(Error::NotFinite {
-                block: format!("{bad}"),
+                block: format!("block {bad}"),
                 time: lattice.step() as f64 * self.frame.units.time_step,
                 remedy: "look at its load and its drive; a shorter time step may help".into(),
             });
+        }
+        let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
+        if let Some(bad) = poses.iter().position(far) {
+            let message = format!(
+                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene;                  end the run before, or close the boundary through which it went",
+                poses[bad].centre
+            );
+            return Err(Error::scene(format!("block {bad}"), message));
         }
         let poses = self.ordered(poses);
         let start = self.poses.is_empty();

@@ -1,0 +1,218 @@
+//! Nothing is lost between blocks and fluid.
+
+use crate::world::{DENSITY, STEP, World, fluid, material};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Momenta are sums over some thousand cells in f32: rounding of the largest of them, kg m/s.
+fn rounding(momentum: DVec3) -> f64 {
+    1e-6 * (momentum.length() + 100.0)
+}
+
+/// What a block seems to be heavier, kg, of the mass `mass` and that of the fluid that it displaces: stable for five
+/// times the latter as added mass.
+fn virtual_mass(displaced: f64, mass: f64) -> f64 {
+    (0.5 * (5.0 * displaced - mass)).max(0.0)
+}
+
+#[test]
+fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
+    let scene = format!(
+        r#"{}{}
+        [rock]
+        gravity = [0, 0, 0]
+        [coupling]
+        average = false
+        [numerics]
+        time_step = 0.25
+        [[blocks]]
+        kind = "box"
+        size = [3, 2.5, 2]
+        position = [1, 2, 4.8]
+        rotation = {{ axis = [1, 2, 3], angle = 40 }}
+        motion = "driven"
+        velocity = ["0.04 * cos(t)", 0.03, -0.02]
+        spin = [0.01, 0.02, "0.03 * sin(t)"]
+        [[blocks]]
+        kind = "sphere"
+        radius = 1.2
+        position = [4, 2, 2]
+        motion = "driven"
+        velocity = [0, 0, 0.05]"#,
+        fluid([12, 10, 12], 0.02),
+        material("rock", 2000.0)
+    );
+    let mut world = World::new(&scene);
+    let (mut before, mass) = world.fluid();
+    for step in 1..=30 {
+        world.advance(1);
+        let (after, now) = world.fluid();
+        let given: DVec3 = (0..2).map(|block| world.felt(block).flow.force).sum();
+        let off = after - before + STEP * given;
+        assert!(
+            off.length() < rounding(after),
+            "step {step}: {off} of {after}"
+        );
+        // Rounding of f32 in each step.
+        assert!(
+            (now / mass - 1.0).abs() < 1e-6,
+            "step {step}: {now} kg, not {mass}"
+        );
+        before = after;
+    }
+}
+
+/// Single loads in every step: momentum goes from the fluid to the block without a remainder, and the block moves
+/// under what it gets and the inertia of the fluid inside it, (m + 2 m_f) a = F + m_f dv/dt + 2 m_f a_before.
+#[test]
+fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
+    let scene = format!(
+        r#"{}{}{}
+        [rock]
+        gravity = [0, 0, 0]
+        [coupling]
+        average = false
+        [numerics]
+        time_step = 0.25
+        solid_operator = "noble"
+        [[blocks]]
+        kind = "box"
+        size = [2.5, 2.5, 2]
+        position = [1, 2, 4.8]
+        rotation = {{ axis = [1, 2, 3], angle = 40 }}
+        velocity = [0.03, 0.02, -0.01]
+        spin = [0.01, 0.02, 0.03]
+        material = "light"
+        [[blocks]]
+        kind = "sphere"
+        radius = 1.25
+        position = [5, 3, 2]
+        velocity = [0, 0, 0.03]
+        material = "heavy""#,
+        fluid([14, 14, 14], 0.05),
+        material("light", 500.0),
+        material("heavy", 3000.0)
+    );
+    let mut world = World::new(&scene);
+    let volume = |block: usize, world: &World| {
+        world.sim.coupled().unwrap().setup().setup.blocks[block]
+            .shape
+            .volume()
+    };
+    let mut fluid = world.fluid().0;
+    let start = fluid + world.momentum(0) + world.momentum(1);
+    let mut velocities = [world.velocity(0), world.velocity(1)];
+    let mut rates = [DVec3::ZERO; 2];
+    let mut given = [DVec3::ZERO; 2];
+    // What the blocks have been given back of the fluid inside them.
+    let mut inside = DVec3::ZERO;
+    for step in 1..=40 {
+        world.advance(1);
+        let after = world.fluid().0;
+        let felt = [world.felt(0).flow, world.felt(1).flow];
+        let off = after - fluid + STEP * (felt[0].force + felt[1].force);
+        assert!(
+            off.length() < rounding(after),
+            "step {step}: {off} of {after}"
+        );
+        fluid = after;
+        // Impulse that is still to be given for the virtual mass.
+        let mut pending = DVec3::ZERO;
+        for n in 0..2 {
+            let mass = world.sim.coupled().unwrap().blocks().mass(n);
+            let whole = DENSITY * (felt[n].entrained + felt[n].missing);
+            // Σε is the volume, to the error of cells that several faces cut.
+            let off = whole / (DENSITY * volume(n, &world)) - 1.0;
+            assert!(off.abs() < 1e-3, "{whole}");
+            let inner = whole.min(DENSITY * felt[n].entrained + 0.5 * mass);
+            let more = virtual_mass(whole, mass);
+            let force = felt[n].force + inner * rates[n] + more * given[n];
+            inside += STEP * inner * rates[n];
+            given[n] = force / (mass + more);
+            pending += STEP * more * given[n];
+            let now = world.velocity(n);
+            rates[n] = (now - velocities[n]) / STEP;
+            velocities[n] = now;
+            let off = (rates[n] - given[n]).length();
+            assert!(
+                off < 1e-9 * given[n].length().max(1e-3),
+                "step {step}, block {n}: {off}"
+            );
+        }
+        // Fluid and rock, the fluid inside counted once.
+        let all = fluid + world.momentum(0) + world.momentum(1) - inside + pending;
+        let off = (all - start).length();
+        assert!(off < 1e-4 * start.length(), "step {step}: {off} of {start}");
+    }
+}
+
+/// As scenes have it by themselves: means of loads, over one step or several. The blocks slow each other down through
+/// the fluid, and all momentum stays.
+#[test]
+fn momentum_of_fluid_and_free_blocks_stays() {
+    for interval in [1, 3u64] {
+        let scene = format!(
+            r#"{}{}{}
+            [rock]
+            gravity = [0, 0, 0]
+            [coupling]
+            interval = {interval}
+            [numerics]
+            time_step = 0.25
+            eddy_viscosity = "wale"
+            [[blocks]]
+            kind = "box"
+            size = [2.5, 2.5, 2]
+            position = [1, 2, 4.8]
+            rotation = {{ axis = [1, 2, 3], angle = 40 }}
+            velocity = [0.04, 0.02, -0.01]
+            spin = [0.01, 0.02, 0.03]
+            material = "light"
+            [[blocks]]
+            kind = "sphere"
+            radius = 1.25
+            position = [5, 3, 2]
+            velocity = [0.02, 0, 0.05]
+            material = "heavy""#,
+            fluid([14, 14, 14], 0.02),
+            material("light", 1200.0),
+            material("heavy", 3000.0)
+        );
+        let mut world = World::new(&scene);
+        let volumes = [12.5, 4.0 / 3.0 * PI * 1.25f64.powi(3)];
+        let net = |world: &World| -> DVec3 {
+            let one = |n: usize| world.momentum(n) - DENSITY * volumes[n] * world.velocity(n);
+            one(0) + one(1)
+        };
+        let first = net(&world);
+        let start = world.fluid().0 + first;
+        for _ in 0..8 {
+            world.advance(4 * interval);
+            let velocities = [world.velocity(0), world.velocity(1)];
+            world.advance(interval - 1);
+            let before = world.fluid().0;
+            world.advance(1);
+            let after = world.fluid().0;
+            // On their way: half of the last load, and what the fluid inside and the virtual mass have got since the
+            // exchange before.
+            let pending: DVec3 = (0..2)
+                .map(|n| {
+                    let displaced = DENSITY * volumes[n];
+                    let mass = world.sim.coupled().unwrap().blocks().mass(n);
+                    let change = world.velocity(n) - velocities[n];
+                    (displaced + virtual_mass(displaced, mass)) * change
+                })
+                .sum();
+            let all = after + net(&world) + pending - 0.5 * (after - before);
+            let off = (all - start).length() / start.length();
+            println!("every {interval}, step {}: {off:e}", world.sim.step());
+            // The volume in the cells is that of the blocks to 1e-4 or so.
+            assert!(
+                off < 1e-4,
+                "every {interval}, step {}: {off:e}",
+                world.sim.step()
+            );
+        }
+        assert!((net(&world) - first).length() > 0.3 * first.length());
+    }
+}

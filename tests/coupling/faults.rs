@@ -1,0 +1,247 @@
+//! What cannot be is said, and why.
+
+use crate::{
+    rig::Rig,
+    world::{World, fluid, material},
+};
+use glam::{DQuat, DVec3};
+use riprap::{
+    Error,
+    block::Shape,
+    bodies::Pose,
+    immersed::{Frame, Immersed, Submerged},
+    lattice::{Lattice, Setup, SolidOperator, State},
+    scene::Scene,
+    simulation::{Needs, Simulation},
+    units::Units,
+    wgpu,
+};
+use std::{path::Path, sync::Arc};
+
+const UNITS: Units = Units {
+    cell: 1.0,
+    time_step: 1.0,
+    density: 1.0,
+};
+
+fn ball(radius: f64) -> Submerged {
+    Submerged {
+        shape: Arc::new(Shape::sphere(radius).unwrap()),
+        loaded: true,
+    }
+}
+
+fn at(centre: DVec3) -> Pose {
+    Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+}
+
+fn lattice(rig: &Rig, cells: [u32; 3], operator: Option<SolidOperator>) -> Lattice {
+    let mut setup = Setup::periodic(cells, 0.02);
+    setup.solid_operator = operator;
+    let rest = State::rest(cells.iter().product::<u32>() as usize);
+    rig.start(setup, &rest, false)
+}
+
+fn frame() -> Frame {
+    Frame {
+        origin: DVec3::ZERO,
+        units: UNITS,
+    }
+}
+
+#[test]
+fn poses_that_are_nowhere_are_refused_and_the_next_ones_are_not() {
+    let rig = Rig::new();
+    let mut lattice = lattice(&rig, [16, 8, 8], Some(SolidOperator::Holdych));
+    let blocks = vec![ball(2.0), ball(1.5)];
+    let mut immersed = Immersed::new(&rig.device, &lattice, frame(), blocks).unwrap();
+    let good = [at(DVec3::splat(4.0)), at(DVec3::new(11.0, 4.0, 4.0))];
+    let mut place = |poses: &[Pose]| {
+        let placed = immersed.place(&rig.device, &rig.queue, &mut lattice, poses);
+        (placed, immersed.tiles())
+    };
+    let tiles = place(&good).1;
+    assert!(tiles > 0);
+    let nan = at(DVec3::new(f64::NAN, 0.0, 0.0));
+    let mut spun = good[1];
+    spun.deformation_rate.x_axis.y = f64::INFINITY;
+    for bad in [nan, spun] {
+        let error = place(&[good[0], bad]).0.unwrap_err();
+        assert!(matches!(error, Error::NotFinite { .. }), "{error}");
+        assert!(error.to_string().contains('1'), "{error}");
+    }
+    // Finite, and beyond all cells that can be counted.
+    for far in [1e12, -1e30, 1e300] {
+        let error = place(&[good[0], at(DVec3::new(4.0, far, 4.0))])
+            .0
+            .unwrap_err();
+        assert!(error.to_string().contains("far"), "{error}");
+    }
+    let error = place(&good[..1]).0.unwrap_err().to_string();
+    assert!(error.contains("1 poses for 2 blocks"), "{error}");
+    let (placed, again) = place(&good);
+    placed.unwrap();
+    assert_eq!(again, tiles);
+}
+
+#[test]
+fn a_lattice_without_a_solid_operator_takes_no_blocks() {
+    let rig = Rig::new();
+    let lattice = lattice(&rig, [8, 8, 8], None);
+    let error = Immersed::new(&rig.device, &lattice, frame(), vec![ball(2.0)]).unwrap_err();
+    assert!(error.to_string().contains("solid operator"), "{error}");
+}
+
+/// A device that holds the fluid, but not all of its cells as cells with blocks.
+#[test]
+fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
+    let cells = [64, 64, 48];
+    let all = 4 * u64::from(cells.iter().product::<u32>());
+    let limits = Rig::new().device.limits();
+    let rig = Rig::with_limits(wgpu::Limits {
+        // Four directions of populations; nine numbers of a cell are more.
+        max_storage_buffer_binding_size: 4 * all,
+        ..limits
+    });
+    let mut lattice = lattice(&rig, cells, Some(SolidOperator::Holdych));
+    let mut immersed = Immersed::new(&rig.device, &lattice, frame(), vec![ball(40.0)]).unwrap();
+    let mut place =
+        |centre: DVec3| immersed.place(&rig.device, &rig.queue, &mut lattice, &[at(centre)]);
+    for _ in 0..2 {
+        let error = place(DVec3::splat(32.0)).unwrap_err();
+        assert!(matches!(error, Error::Limit { .. }), "{error}");
+        assert!(error.to_string().contains("larger cell"), "{error}");
+    }
+    // The same lattice with a block that fits.
+    let mut small = Immersed::new(&rig.device, &lattice, frame(), vec![ball(3.0)]).unwrap();
+    let pose = [at(DVec3::splat(20.0))];
+    small
+        .place(&rig.device, &rig.queue, &mut lattice, &pose)
+        .unwrap();
+}
+
+/// The least that [`Needs`] names is enough.
+#[test]
+fn a_device_with_what_a_scene_needs_runs_it() {
+    let text = format!(
+        r#"{}{}
+        [rock]
+        gravity = [0, 0, -0.01]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[blocks]]
+        kind = "box"
+        size = [2, 2, 2]
+        position = [2, 2, 2]"#,
+        fluid([8, 8, 8], 0.05),
+        material("rock", 2000.0)
+    );
+    let scene = Scene::from_toml(&text, Path::new(""), "scene.toml").unwrap();
+    let name = std::env::var("RIPRAP_ADAPTER").ok();
+    let adapter = crate::rig::gpu::pick(name.as_deref()).unwrap();
+    let needs = Needs::of(&scene, &adapter).unwrap();
+    let (device, queue) =
+        crate::rig::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
+    let rig = Rig { device, queue };
+    let mut sim = rig
+        .wait(Simulation::new(&rig.device, &rig.queue, &scene))
+        .unwrap();
+    rig.wait(sim.advance(3)).unwrap();
+    assert!(sim.coupled().unwrap().blocks().poses()[0].velocity.z < 0.0);
+}
+
+#[test]
+fn a_block_faster_than_any_flow_is_named() {
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[blocks]]
+        name = "ram"
+        kind = "box"
+        size = [2, 2, 2]
+        position = [2, 2, 2]
+        motion = "driven"
+        velocity = ["0.02 + 0.3 * t", 0, 0]"#,
+        fluid([10, 8, 8], 0.02),
+        material("rock", 2000.0)
+    ));
+    let error = world.try_advance(40).unwrap_err();
+    assert!(matches!(error, Error::Diverged { .. }), "{error}");
+    let text = error.to_string();
+    assert!(
+        text.contains("ram") && text.contains("cells a step"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_block_that_is_crushed_ends_the_run_where_it_was() {
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        x_min = {{ kind = "wall" }}
+        x_max = {{ kind = "wall" }}
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[blocks]]
+        name = "press"
+        kind = "box"
+        size = [1, 3, 3]
+        position = [2.6, 2, 2]
+        motion = "driven"
+        velocity = [0.1, 0, 0]
+        [[blocks]]
+        name = "nut"
+        kind = "box"
+        size = [1.5, 1.5, 1.5]
+        position = [4.2, 2, 2]"#,
+        fluid([10, 8, 8], 0.05),
+        material("rock", 2000.0)
+    ));
+    let saved = world.rig.wait(world.sim.checkpoint()).unwrap();
+    let error = world.try_advance(200).unwrap_err();
+    assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
+    assert!(error.to_string().contains("nut"), "{error}");
+    let stopped = [world.centre(0), world.centre(1)];
+    // It says so again, and moves nothing.
+    let error = world.try_advance(1).unwrap_err();
+    assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
+    assert_eq!([world.centre(0), world.centre(1)], stopped);
+    // And it can go on from before.
+    world.sim.restore(&saved).unwrap();
+    world.advance(10);
+}
+
+#[test]
+fn single_loads_for_free_blocks_in_cells_that_reflect_are_refused() {
+    let text = format!(
+        r#"{}{}
+        [coupling]
+        average = false
+        [numerics]
+        velocity_scale = 0.1
+        [[blocks]]
+        kind = "sphere"
+        radius = 1
+        position = [2, 2, 2]"#,
+        fluid([8, 8, 8], 0.05),
+        material("rock", 2000.0)
+    );
+    let scene = |text: &str| Scene::from_toml(text, Path::new(""), "scene.toml");
+    let error = scene(&text).unwrap_err().to_string();
+    assert!(
+        error.contains("average") && error.contains("noble"),
+        "{error}"
+    );
+    scene(&format!("{text}\nmotion = \"fixed\"")).unwrap();
+    let noble = text.replace("[numerics]", "[numerics]\nsolid_operator = \"noble\"");
+    scene(&noble).unwrap();
+}

@@ -1,0 +1,13 @@
+//! Blocks and fluid together: what must be conserved, repeated, left alone and refused.
+
+mod balance;
+mod buoyancy;
+mod crowd;
+mod density;
+mod faults;
+mod places;
+mod repeat;
+mod rest;
+#[path = "../rig/mod.rs"]
+mod rig;
+mod world;

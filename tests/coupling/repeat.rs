@@ -1,0 +1,139 @@
+//! The same bits twice, and from wherever a run was cut.
+
+use crate::world::{World, fluid, material};
+use riprap::checkpoint::Checkpoint;
+
+/// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.
+fn scene(interval: u32, average: bool) -> String {
+    format!(
+        r#"{}{}{}damping = 0.7
+        [boundaries]
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "free_slip" }}
+        [rock]
+        sleep = {{ speed = 2e-3, time = 1.5 }}
+        gravity = [0, 0, -0.01]
+        [coupling]
+        interval = {interval}
+        average = {average}
+        [numerics]
+        time_step = 0.25
+        eddy_viscosity = "wale"
+        solid_operator = "noble"
+        [[blocks]]
+        kind = "box"
+        size = [2, 2, 1.5]
+        position = [0.5, 2, 4.8]
+        rotation = {{ axis = [1, 2, 3], angle = 40 }}
+        velocity = [0.14, 0.1, 0]
+        spin = [0.05, 0.1, 0.15]
+        [[blocks]]
+        kind = "sphere"
+        radius = 1
+        position = [5, 2, 2.5]
+        motion = "driven"
+        velocity = ["0.05 * sin(0.3 * t)", 0, 0]
+        [[blocks]]
+        kind = "box"
+        size = [2, 2, 1]
+        position = [2, 5, 0.5]
+        material = "heavy"
+        [[blocks]]
+        kind = "box"
+        size = [1, 1, 1]
+        position = [5.3, 5.3, 3]
+        motion = "fixed""#,
+        fluid([14, 14, 14], 0.02),
+        material("rock", 2000.0),
+        // So heavy that the flow does not wake it.
+        material("heavy", 20_000.0)
+    )
+}
+
+impl World {
+    /// Everything, as it is written to files.
+    fn bits(&mut self) -> Vec<u8> {
+        let checkpoint = self.rig.wait(self.sim.checkpoint()).unwrap();
+        let file = std::env::temp_dir().join(format!("riprap-coupling-{}", std::process::id()));
+        checkpoint.write(&file).unwrap();
+        let bits = std::fs::read(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        bits
+    }
+
+    fn load(&mut self, bits: &[u8]) {
+        let file = std::env::temp_dir().join(format!("riprap-coupling-{}", std::process::id()));
+        std::fs::write(&file, bits).unwrap();
+        let checkpoint = Checkpoint::read(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        self.sim.restore(&checkpoint).unwrap();
+    }
+}
+
+#[test]
+fn runs_repeat_and_go_on_from_every_cut() {
+    for (interval, average) in [(1, false), (3, true)] {
+        let text = scene(interval, average);
+        // Before and after a reading, odd and even, awake and asleep.
+        let cuts = [1, 5, 13, 24, 36, 47];
+        let mut whole = World::new(&text);
+        let (mut saved, mut slept) = (Vec::new(), 0);
+        for cut in cuts {
+            whole.advance(cut - whole.sim.step());
+            saved.push(whole.bits());
+            let mut asleep = whole.sim.coupled().unwrap().blocks().asleep();
+            slept += u32::from(asleep.any(|asleep| asleep));
+        }
+        assert!((1..cuts.len() as u32).contains(&slept), "{slept}");
+        whole.advance(60 - whole.sim.step());
+        let expected = whole.bits();
+        let coupled = whole.sim.coupled().unwrap();
+        let searches = coupled.exchanges().cells.searches;
+        assert!(searches > 2, "the tiles were found {searches} times");
+
+        let mut other = World::new(&text);
+        other.advance(60);
+        assert!(other.bits() == expected, "a second time, every {interval}");
+        // Into a run that has gone on, with loads on their way.
+        for (cut, bits) in cuts.iter().zip(&saved) {
+            other.load(bits);
+            assert!(
+                other.bits() == *bits,
+                "as it was, cut at {cut}, every {interval}"
+            );
+            other.advance(60 - cut);
+            assert!(other.bits() == expected, "cut at {cut}, every {interval}");
+        }
+        let mut fresh = World::new(&text);
+        fresh.load(&saved[3]);
+        fresh.advance(60 - cuts[3]);
+        assert!(fresh.bits() == expected, "a new run, every {interval}");
+    }
+}
+
+#[test]
+fn checkpoints_of_other_scenes_leave_everything_as_it_is() {
+    let mut world = World::new(&scene(1, true));
+    world.advance(4);
+    let bits = world.bits();
+    let fewer = scene(1, true).replace(
+        "motion = \"fixed\"",
+        "motion = \"fixed\"\nrepeat = { count = 2, step = [0, 0, 1.2] }",
+    );
+    let mut other = World::new(&fewer);
+    other.advance(2);
+    let state = other.rig.wait(other.sim.checkpoint()).unwrap();
+    let error = world.sim.restore(&state).unwrap_err().to_string();
+    assert!(error.contains("blocks"), "{error}");
+    assert!(world.bits() == bits);
+    let mut dry = state.clone();
+    dry.blocks = None;
+    let error = world.sim.restore(&dry).unwrap_err().to_string();
+    assert!(error.contains("has none"), "{error}");
+    let mut broken = world.rig.wait(world.sim.checkpoint()).unwrap();
+    broken.populations.values.truncate(27);
+    world.advance(3);
+    let bits = world.bits();
+    assert!(world.sim.restore(&broken).is_err());
+    assert!(world.bits() == bits);
+}

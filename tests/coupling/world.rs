@@ -1,0 +1,80 @@
+//! A scene that runs, and what is measured of it.
+
+use crate::rig::Rig;
+use glam::DVec3;
+use riprap::{Result, coupling::Felt, scene::Scene, simulation::Simulation};
+use std::path::Path;
+
+/// Length of a step, s.
+pub const STEP: f64 = 0.25;
+/// Of the fluid, kg/m³.
+pub const DENSITY: f64 = 1000.0;
+
+/// Rock of this density (kg/m³) that is soft enough for long sub-steps.
+pub fn material(name: &str, density: f64) -> String {
+    format!(
+        "[[materials]]\nname = \"{name}\"\ndensity = {density}\nnormal_stiffness = 1e5\nfriction = 30\n"
+    )
+}
+
+/// A box of fluid of 1000 kg/m³ without gravity, cells of 0.5 m and steps of 0.25 s, so that no unit is one.
+pub fn fluid(cells: [u32; 3], nu: f64) -> String {
+    let size = cells.map(|n| 0.5 * f64::from(n));
+    // ν Δx²/Δt = ν 0.5²/0.25.
+    format!(
+        "[domain]\nsize = {size:?}\ncell = 0.5\n[fluid]\ndensity = 1000\nviscosity = {nu}\n[run]\nsteps = 1\n"
+    )
+}
+
+pub struct World {
+    pub rig: Rig,
+    pub sim: Simulation,
+}
+
+impl World {
+    pub fn new(text: &str) -> Self {
+        match Self::try_new(text) {
+            Ok(world) => world,
+            Err(error) => panic!("{error}\n{text}"),
+        }
+    }
+
+    pub fn try_new(text: &str) -> Result<Self> {
+        let scene = Scene::from_toml(text, Path::new(""), "scene.toml")?;
+        let rig = Rig::new();
+        let sim = rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))?;
+        Ok(Self { rig, sim })
+    }
+
+    pub fn advance(&mut self, steps: u64) {
+        self.try_advance(steps).unwrap();
+    }
+
+    pub fn try_advance(&mut self, steps: u64) -> Result<()> {
+        self.rig.wait(self.sim.advance(steps))
+    }
+
+    /// Momentum of what is in the cells, kg m/s, and its mass, kg.
+    pub fn fluid(&mut self) -> (DVec3, f64) {
+        let totals = self.rig.wait(self.sim.totals()).unwrap();
+        (DVec3::from(totals.momentum), totals.mass)
+    }
+
+    /// Momentum of the block `block`, kg m/s.
+    pub fn momentum(&self, block: usize) -> DVec3 {
+        let blocks = self.sim.coupled().unwrap().blocks();
+        blocks.mass(block) * self.velocity(block)
+    }
+
+    pub fn velocity(&self, block: usize) -> DVec3 {
+        self.sim.coupled().unwrap().blocks().poses()[block].velocity
+    }
+
+    pub fn centre(&self, block: usize) -> DVec3 {
+        self.sim.coupled().unwrap().blocks().poses()[block].centre
+    }
+
+    pub fn felt(&self, block: usize) -> Felt {
+        self.sim.coupled().unwrap().felt()[block]
+    }
+}

@@ -7,6 +7,7 @@ use super::{
     bytes::{Plain, fields},
     pairs::Mark,
     touch::{Pair, Touch},
+    touches::Touches,
 };
 use crate::{
     Error, Result,
@@ -68,6 +69,8 @@ impl Snapshot {
 impl Blocks {
     /// The present state.
     pub fn snapshot(&self) -> Snapshot {
+        let mut pairs = self.pairs.clone();
+        let touches = self.touches.listed(&mut pairs);
         Snapshot {
             time: self.time,
             steps: self.steps,
@@ -75,8 +78,8 @@ impl Blocks {
             started: self.started,
             states: self.states.clone(),
             marks: self.marks.clone(),
-            pairs: self.pairs.clone(),
-            touches: self.touches.clone(),
+            pairs,
+            touches,
             books: self.books,
         }
     }
@@ -116,9 +119,9 @@ impl Blocks {
         self.states.clone_from(&snapshot.states);
         self.marks.clone_from(&snapshot.marks);
         self.pairs.clone_from(&snapshot.pairs);
-        self.touches.clone_from(&snapshot.touches);
+        self.touches = Touches::from_list(&snapshot.touches);
         self.books = snapshot.books;
-        self.place(|_| true);
+        self.parts.put(&self.bodies, &self.states);
         Ok(())
     }
 }

@@ -21,7 +21,7 @@ const MAGIC: &[u8; 16] = b"riprap blocks 1\n";
 /// Everything that the next steps depend on: poses, momenta, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     time: f64,
     steps: u64,
@@ -69,19 +69,23 @@ impl Snapshot {
 impl Blocks {
     /// The present state.
     pub fn snapshot(&self) -> Snapshot {
-        let mut pairs = self.pairs.clone();
-        let touches = self.touches.listed(&mut pairs);
-        Snapshot {
-            time: self.time,
-            steps: self.steps,
-            time_step: self.time_step,
-            started: self.started,
-            states: self.states.clone(),
-            marks: self.marks.clone(),
-            pairs,
-            touches,
-            books: self.books,
-        }
+        let mut snapshot = Snapshot::default();
+        self.save(&mut snapshot);
+        snapshot
+    }
+
+    /// The present state in place of an older one, whose memory it uses.
+    pub fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.time = self.time;
+        snapshot.steps = self.steps;
+        snapshot.time_step = self.time_step;
+        snapshot.started = self.started;
+        snapshot.states.clone_from(&self.states);
+        snapshot.marks.clone_from(&self.marks);
+        snapshot.pairs.clone_from(&self.pairs);
+        self.touches
+            .list(&mut snapshot.pairs, &mut snapshot.touches);
+        snapshot.books = self.books;
     }
 
     /// Goes back, or on, to a state of the same setup: the next steps give the same bits as they did

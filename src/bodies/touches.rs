@@ -40,20 +40,18 @@ impl Touches {
         (pair.touch != NONE).then(|| &self.chunks[id / CHUNK].touches[id % CHUNK])
     }
 
-    /// All contacts in one list, and in `pairs` their places in it.
-    pub fn listed(&self, pairs: &mut [Pair]) -> Vec<Touch> {
-        let mut count = 0;
-        let first = |chunk: &Chunk| {
-            let first = count;
-            count += chunk.touches.len() as u32;
-            first
-        };
-        let firsts: Vec<u32> = self.chunks.iter().map(first).collect();
+    /// All contacts into one list, and into `pairs` their places in it.
+    pub fn list(&self, pairs: &mut [Pair], list: &mut Vec<Touch>) {
+        list.clear();
+        let mut firsts = Vec::with_capacity(self.chunks.len());
+        for chunk in &self.chunks {
+            firsts.push(list.len() as u32);
+            list.extend_from_slice(&chunk.touches);
+        }
         for pair in pairs.iter_mut().filter(|pair| pair.touch != NONE) {
             let id = pair.touch as usize;
             pair.touch = firsts[id / CHUNK] + (id % CHUNK) as u32;
         }
-        self.iter().copied().collect()
     }
 
     /// The contacts of a list; its places name them.

@@ -24,6 +24,7 @@ fn main() -> Result<()> {
         unit: "s⁻¹",
         range: None,
         streamlines: true,
+        blocks: &[],
     };
     slice.draw(&vortices, &folder.join("vorticity.png"))?;
     let flow = cylinder(420, 120);

@@ -2,7 +2,7 @@
 
 use crate::gpu;
 use riprap::{
-    Result,
+    Error, Result,
     broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
     scene::{Scene, Search},
     simulation::{Dry, LeftOut, block_setup},
@@ -95,10 +95,15 @@ pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Dry<Fin
         let finder = Finder::new(scene, parts.sum(), adapter)?;
         pollster::block_on(Dry::of(scene, setup, finder))
     });
-    made.map_err(|error| match std::fs::read_to_string(file) {
+    made.map_err(|error| located(error, file))
+}
+
+/// The error of a scene that was read from `file`, with its line there.
+pub fn located(error: Error, file: &Path) -> Error {
+    match std::fs::read_to_string(file) {
         Ok(text) => Scene::locate(error, &text, &file.display().to_string()),
         Err(_) => error,
-    })
+    }
 }
 
 /// What is missing of rock masses, a line for each.

@@ -1,38 +1,13 @@
 //! `riprap run` on small scenes: what it writes, and how it ends.
 
+mod rig;
+
+use rig::{args, folder, go};
 use riprap::Error;
 use riprap::output::Table;
 use riprap::units::Units;
-use riprap_harness::run::{Args, Schedule, Summary, Unfinished, run};
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-    sync::atomic::AtomicBool,
-};
-
-/// An empty folder for one test.
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("riprap_run_{}_{name}", std::process::id()));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// Arguments for the scene `text` in `folder`, writing to `folder/NAME`.
-fn args(folder: &Path, text: &str, out: &str) -> Args {
-    let scene = folder.join("scene.toml");
-    fs::write(&scene, text).unwrap();
-    Args {
-        scene,
-        out: Some(folder.join(out)),
-        ..Args::default()
-    }
-}
-
-fn go(args: &Args) -> Summary {
-    run(args, &AtomicBool::new(false)).unwrap()
-}
+use riprap_harness::run::{Args, Schedule, Unfinished, run};
+use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
 
 /// The first line of a table.
 fn header(path: &Path) -> String {
@@ -115,7 +90,7 @@ const RUNAWAY: &str = r#"
 
 #[test]
 fn the_couette_scene_writes_what_it_asks_for() {
-    let folder = folder("couette");
+    let folder = folder("run_couette");
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/couette.toml");
     let mut args = args(&folder, &fs::read_to_string(shipped).unwrap(), "out");
     args.steps = Some(170);
@@ -175,7 +150,7 @@ fn the_couette_scene_writes_what_it_asks_for() {
 
 #[test]
 fn a_restart_goes_on_to_the_same_bits() {
-    let folder = folder("restart");
+    let folder = folder("run_restart");
     let whole = args(&folder, STEP, "whole");
     assert!(go(&whole).complete);
     let mut parts = args(&folder, STEP, "parts");
@@ -211,7 +186,7 @@ fn a_restart_goes_on_to_the_same_bits() {
 
 #[test]
 fn a_stopped_run_leaves_its_state_and_all_its_outputs() {
-    let folder = folder("stop");
+    let folder = folder("run_stop");
     let mut args = args(&folder, STEP, "out");
     args.steps = Some(7);
     let before = fs::read(go(&args).checkpoint.unwrap()).unwrap();
@@ -231,7 +206,7 @@ fn a_stopped_run_leaves_its_state_and_all_its_outputs() {
 
 #[test]
 fn a_flow_that_diverges_says_where_and_why_and_keeps_what_there_is() {
-    let folder = folder("diverge");
+    let folder = folder("run_diverge");
     let args = args(&folder, RUNAWAY, "out");
     let summary = go(&args);
     assert!(summary.diverged && !summary.complete);
@@ -269,7 +244,7 @@ fn refusal(args: &Args) -> String {
 
 #[test]
 fn a_folder_that_cannot_be_made_is_refused() {
-    let folder = folder("folder");
+    let folder = folder("run_folder");
     fs::write(folder.join("file"), "").unwrap();
     let told = refusal(&args(&folder, STEP, "file/out"));
     assert!(told.contains("--out"), "{told}");
@@ -278,7 +253,7 @@ fn a_folder_that_cannot_be_made_is_refused() {
 
 #[test]
 fn a_checkpoint_that_does_not_fit_is_refused() {
-    let folder = folder("wrong");
+    let folder = folder("run_wrong");
     let mut restart = args(&folder, STEP, "out");
     restart.restart = Some(restart.scene.clone());
     let told = refusal(&restart);
@@ -303,7 +278,7 @@ fn a_checkpoint_that_does_not_fit_is_refused() {
 
 #[test]
 fn a_probe_cannot_take_the_name_of_the_history() {
-    let folder = folder("name");
+    let folder = folder("run_name");
     let told = refusal(&args(
         &folder,
         &STEP.replace("\"along\"", "\"history\""),
@@ -315,7 +290,7 @@ fn a_probe_cannot_take_the_name_of_the_history() {
 
 #[test]
 fn wrong_input_ends_the_program_with_2_and_one_line() {
-    let folder = folder("input");
+    let folder = folder("run_input");
     let scene = folder.join("scene.toml");
     fs::write(&scene, STEP.replace("viscosity = 1e-4", "viscocity = 1e-4")).unwrap();
     let program = Command::new(env!("CARGO_BIN_EXE_riprap"))

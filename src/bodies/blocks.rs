@@ -309,6 +309,7 @@ impl Blocks {
             state.load = load.force;
             state.load_torque = load.torque();
         }
+        self.books.reload(&self.bodies, &self.states);
         self.wake();
         Ok(())
     }

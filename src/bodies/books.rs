@@ -49,7 +49,7 @@ impl Books {
                     body.mass * state.velocity.length_squared() + state.momentum.dot(state.spin);
                 power[1] += damping * twice;
                 if loaded {
-                    power[3] += state.load.dot(state.velocity) + state.load_torque.dot(state.spin);
+                    power[3] += load_power(state);
                 }
             } else if !body.is_fixed() {
                 power[2] -= state.force.dot(state.velocity) + state.torque.dot(state.spin);
@@ -59,6 +59,12 @@ impl Books {
             self.work[k] += 0.5 * dt * (self.power[k] + power);
         }
         self.power = power;
+    }
+
+    /// Takes new loads over: the next step begins under them.
+    pub fn reload(&mut self, bodies: &[Body], states: &[State]) {
+        let free = bodies.iter().zip(states).filter(|(body, _)| body.is_free());
+        self.power[3] = free.map(|(_, state)| load_power(state)).sum();
     }
 
     /// The ledger of the present state.
@@ -103,4 +109,9 @@ fn work(chunk: &mut Chunk, states: &[State], dt: f64) {
         touch.stored += 0.5 * dt * (touch.power + spring) - force.friction;
         touch.power = spring;
     }
+}
+
+/// What the load on a block does a second, W.
+fn load_power(state: &State) -> f64 {
+    state.load.dot(state.velocity) + state.load_torque.dot(state.spin)
 }

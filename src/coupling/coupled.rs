@@ -1,6 +1,6 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Ambient, Follower, Reading, loads::sum};
+use super::{Ambient, Follower, Gap, Reading, gaps::gaps, loads::sum};
 use crate::{
     Result,
     bodies::{Block, Blocks, Load, Motion, Pose},
@@ -16,10 +16,10 @@ use glam::{DMat3, DVec3};
 /// Exchanges that are left out between two looks at the loads while every block rests.
 const REST: u64 = 16;
 
-/// How often fluid and blocks met since the start.
+/// How often fluid and blocks met since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exchanges {
-    /// Loads read back.
+    /// Loads read back: those of the steps after which blocks moved, and of the steps before these.
     pub readings: u64,
     /// What was computed of the blocks' cells.
     pub cells: Work,
@@ -46,6 +46,8 @@ pub struct Coupled {
     ambient: Ambient,
     /// Blocks in the fluid, the first ones; the others are walls and solids, which the lattice has already.
     in_fluid: usize,
+    /// Those narrower than a cell at the start.
+    gaps: Vec<Gap>,
     interval: u64,
     average: bool,
     /// Steps for which the blocks are held.
@@ -54,7 +56,9 @@ pub struct Coupled {
     pub(super) last: Vec<Load>,
     pub(super) felt: Vec<Felt>,
     pub(super) followers: Vec<Follower>,
-    pub(super) read: u64,
+    /// Whether loads have been read, so that `last` is of the step before.
+    pub(super) begun: bool,
+    read: u64,
     /// Whether the cells have been computed for the present poses.
     pub(super) placed: bool,
 }
@@ -90,6 +94,7 @@ impl Coupled {
             scene.probes.iter().any(|probe| of(&probe.place))
         };
         let in_fluid = setup.in_fluid;
+        let gaps = gaps(&setup.setup, &blocks, in_fluid, units.cell, &mut finder).await?;
         let submerged = setup.setup.blocks[..in_fluid]
             .iter()
             .map(|block| Submerged {
@@ -109,12 +114,14 @@ impl Coupled {
                 gravity: DVec3::from(scene.rock.gravity),
             },
             in_fluid,
+            gaps,
             interval: scene.coupling.interval.into(),
             average: scene.coupling.average,
             hold: (scene.coupling.hold / units.time_step).round() as u64,
             last: vec![Load::default(); in_fluid],
             felt: vec![Felt::default(); setup.setup.blocks.len()],
             followers: vec![Follower::default(); setup.setup.blocks.len()],
+            begun: false,
             read: 0,
             placed: false,
             setup,
@@ -146,10 +153,11 @@ impl Coupled {
         Ok(())
     }
 
-    /// Whether fluid and blocks meet at the end of the step `step`, counted from 1.
-    pub fn meets(&self, step: u64) -> bool {
+    /// Whether fluid and blocks meet at the end of the step `step`, counted from 1, of those until `last`.
+    pub fn meets(&self, step: u64, last: u64) -> bool {
         let interval = match (self.moves(), self.rests()) {
-            (false, _) => return false,
+            // The loads change nothing; those who ask about them look after the last step.
+            (false, _) => return step == last && self.immersed.wrench_count() > 0,
             (true, false) => self.interval,
             (true, true) => self.interval * REST,
         };
@@ -158,12 +166,12 @@ impl Coupled {
 
     /// Whether the loads of the step `step`, counted from 1, are wanted beside those of the next one, for
     /// their mean.
-    pub fn prepares(&self, step: u64) -> bool {
-        self.average && !self.meets(step) && self.meets(step + 1)
+    pub fn prepares(&self, step: u64, last: u64) -> bool {
+        self.average && !self.meets(step, last) && self.meets(step + 1, last)
     }
 
     /// Whether a block can move at all.
-    fn moves(&self) -> bool {
+    pub fn moves(&self) -> bool {
         (0..self.blocks.len()).any(|block| self.blocks.moves(block))
     }
 
@@ -196,12 +204,13 @@ impl Coupled {
         let [last, early] = &mut self.readings;
         if early.is_pending() {
             self.last = self.immersed.loads(&early.finish().await?)?;
+            self.begun = true;
             self.read += 1;
         }
         let loads = self.immersed.loads(&last.finish().await?)?;
         let poses = self.blocks.poses();
         for (block, load) in loads.iter().enumerate() {
-            let single = self.read == 0 || !self.average;
+            let single = !self.begun || !self.average;
             let load = if single {
                 *load
             } else {
@@ -213,6 +222,7 @@ impl Coupled {
             };
         }
         self.last = loads;
+        self.begun = true;
         self.read += 1;
         Ok(())
     }
@@ -279,6 +289,11 @@ impl Coupled {
     /// Number of blocks that are in the fluid, the first ones; the others are its solids and walls.
     pub fn in_fluid(&self) -> usize {
         self.in_fluid
+    }
+
+    /// The pairs of blocks, one of them in the fluid, that were less than a cell apart at the start.
+    pub fn gaps(&self) -> &[Gap] {
+        &self.gaps
     }
 
     /// Their cells.

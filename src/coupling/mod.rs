@@ -4,12 +4,17 @@
 //! are, has the fluid run the bricks that they reach, reads the loads back while the rest of the fluid runs,
 //! and moves the blocks to the end of the step in as many sub-steps as their contacts want.
 
+mod advice;
 mod coupled;
+mod gaps;
 mod loads;
+mod near;
 mod reading;
 mod state;
 
 pub use coupled::{Coupled, Exchanges, Felt};
+pub use gaps::Gap;
 pub use loads::{Ambient, Follower};
+pub use near::BlockCell;
 pub use reading::Reading;
 pub use state::CoupledState;

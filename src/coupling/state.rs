@@ -17,8 +17,8 @@ const BLOCK: usize = 13 + 3 * LOAD;
 pub struct CoupledState {
     /// The blocks.
     snapshot: Snapshot,
-    /// Loads read so far.
-    read: u64,
+    /// Whether loads have been read.
+    begun: bool,
     blocks: Vec<(Follower, Load, Felt)>,
 }
 
@@ -26,7 +26,7 @@ impl CoupledState {
     /// As bytes, the same on every machine.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
-        bytes.extend(self.read.to_le_bytes());
+        bytes.extend(u64::from(self.begun).to_le_bytes());
         bytes.extend((self.blocks.len() as u64).to_le_bytes());
         for (follower, last, felt) in &self.blocks {
             let loads = [last, &felt.flow, &felt.buoyancy];
@@ -50,7 +50,7 @@ impl CoupledState {
             let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
             part.ok_or_else(cut)
         };
-        let read = u64::from_le_bytes(word(0)?);
+        let begun = u64::from_le_bytes(word(0)?) != 0;
         let count = u64::from_le_bytes(word(8)?) as usize;
         let end = count
             .checked_mul(8 * BLOCK)
@@ -72,7 +72,7 @@ impl CoupledState {
             (Follower::from_numbers(&follower), last, felt)
         });
         Ok(Self {
-            read,
+            begun,
             blocks: blocks.collect(),
             snapshot: Snapshot::from_bytes(&bytes[end..])?,
         })
@@ -88,7 +88,7 @@ impl Coupled {
         });
         CoupledState {
             snapshot: self.blocks.snapshot(),
-            read: self.read,
+            begun: self.begun,
             blocks: blocks.collect(),
         }
     }
@@ -109,7 +109,7 @@ impl Coupled {
         self.blocks
             .restore(&state.snapshot)
             .map_err(|error| Error::scene("restart", error.to_string()))?;
-        self.read = state.read;
+        self.begun = state.begun;
         for (block, (follower, last, felt)) in state.blocks.iter().enumerate() {
             self.followers[block] = *follower;
             self.felt[block] = *felt;

@@ -10,6 +10,7 @@ use crate::{
     Error, Result,
     block::{Form, Shape},
     bodies::{Load, Pose},
+    kernel::Kernel,
     lattice::Lattice,
 };
 use std::sync::Arc;
@@ -311,9 +312,19 @@ impl Immersed {
         self.work
     }
 
+    /// The kernels in the order in which they run, each with the workgroups of the coming step.
+    pub fn kernels(&self) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.kernels.all()
+    }
+
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         self.kernels.bytes()
+    }
+
+    /// Cells of the domain, and which of its axes are periodic.
+    pub(crate) fn domain(&self) -> ([u32; 3], [bool; 3]) {
+        self.tiling.domain()
     }
 
     /// Where the lattice is, and its units.

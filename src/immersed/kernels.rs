@@ -238,6 +238,11 @@ impl Kernels {
         }
     }
 
+    /// All of them in their order, each with the workgroups of the coming dispatch.
+    pub fn all(&self) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.kernels.iter().zip(self.groups)
+    }
+
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
         self.buffers

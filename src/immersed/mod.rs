@@ -17,15 +17,20 @@ mod kernels;
 mod outline;
 mod plan;
 mod program;
+mod shell;
 mod tables;
 mod tiles;
 
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{
-    MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells, voxelise,
-    voxelise_edges,
+    MOST_BINDINGS, MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells,
+    voxelise, voxelise_edges,
 };
+pub use shell::NearCell;
 pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
+
+pub(crate) use outline::outline;
+pub(crate) use shell::near;
 
 use plan::Plan;

@@ -6,6 +6,9 @@ use crate::{lattice::Grid, link::Program};
 /// cell that many faces cut takes four columns through all of them.
 pub const MOST_FACES: u32 = 8192;
 
+/// Storage buffers of the kernel that has the most of them, `saturate_cells`.
+pub const MOST_BINDINGS: u32 = 7;
+
 /// Who adds up a tile. Both give the same numbers up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileSum {

@@ -57,6 +57,11 @@ impl Tiling {
         Self { grid, periodic }
     }
 
+    /// Cells of the domain, and which of its axes are periodic.
+    pub fn domain(&self) -> ([u32; 3], [bool; 3]) {
+        (self.grid.cells, self.periodic)
+    }
+
     /// The tiles of a part grown by `margin` cells, without their slots, each with its brick; in the order
     /// of bricks and lanes.
     pub fn tiles(&self, outline: &Outline, margin: f64) -> Vec<(u32, Tile)> {

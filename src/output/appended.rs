@@ -107,11 +107,17 @@ impl<'a> Appended<'a> {
              header_type=\"UInt64\">\n<{kind}>\n{xml}</{kind}>\n\
              <AppendedData encoding=\"raw\">\n_"
         )?;
+        self.write_arrays(writer)?;
+        writer.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    }
+
+    /// Writes the arrays alone, each with its length in front.
+    pub fn write_arrays(&self, writer: &mut dyn Write) -> io::Result<()> {
         for values in &self.arrays {
             writer.write_all(&values.bytes().to_le_bytes())?;
             values.write(writer)?;
         }
-        writer.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+        Ok(())
     }
 }
 

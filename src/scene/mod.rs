@@ -50,7 +50,7 @@ pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::Run;
 pub use sample::{BodyForce, InitialFields};
 pub use solids::{Shape, Solid};
-pub use views::View;
+pub use views::{View, ViewSlice};
 
 /// A fluid, blocks of rock, or both, in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -104,7 +104,7 @@ pub struct Scene {
     /// Measurements. Default none.
     #[serde(default)]
     pub probes: Vec<Probe>,
-    /// Pictures of the blocks. Default none.
+    /// Pictures in space, of the blocks and of the fluid. Default none.
     #[serde(default)]
     pub views: Vec<View>,
     /// Directory to which the paths of meshes are relative.

@@ -51,7 +51,7 @@ pub enum Field {
     QCriterion,
     /// Vorticity, 1/s.
     Vorticity,
-    /// 1 in solid cells, 0 in the fluid.
+    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
     Solid,
 }
 
@@ -102,7 +102,7 @@ pub enum SliceField {
     EddyViscosity,
     /// Q-criterion ½(|Ω|² − |S|²), 1/s².
     QCriterion,
-    /// 1 in solid cells, 0 in the fluid.
+    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
     Solid,
 }
 

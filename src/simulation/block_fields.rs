@@ -2,7 +2,8 @@
 
 use crate::{
     block::Form,
-    bodies::{Blocks, Motion, Setup},
+    bodies::{Block, Blocks, Motion},
+    coupling::Felt,
     output::{Array, Cloud, Polyhedra},
 };
 use glam::DVec3;
@@ -11,14 +12,17 @@ use std::f64::consts::{PI, TAU};
 /// Faces of a sphere around its axis; half as many along it.
 const AROUND: u32 = 24;
 
-/// The parts of all blocks where they are now, with what their blocks do: number, velocity (m/s) and
-/// speed (m/s), spin (rad/s), net force of their contacts (N), whether they are fixed or asleep, and
-/// the number of their material.
-pub fn block_polyhedra(setup: &Setup, blocks: &Blocks) -> Polyhedra {
+/// The parts of the first blocks, those `shown`, where they are now, with what their blocks do: number,
+/// velocity (m/s) and speed (m/s), spin (rad/s), net force of their contacts (N), whether they are fixed or
+/// asleep, and the number of their material.
+///
+/// In a fluid, where the first blocks have a [`Felt`] each, also what its flow does to them and their
+/// buoyancy (N); NaN for blocks that nobody asks about, the fixed ones without a probe, and for solids.
+pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, felt: &[Felt]) -> Polyhedra {
     let mut made = Polyhedra::default();
     let mut owners = Vec::new();
     let poses = blocks.poses();
-    for (number, (block, pose)) in setup.blocks.iter().zip(&poses).enumerate() {
+    for (number, (block, pose)) in shown.iter().zip(&poses).enumerate() {
         for part in block.shape.parts() {
             let first = made.points.len() as u32;
             let (points, faces) = surface(&part.form);
@@ -54,12 +58,24 @@ pub fn block_polyhedra(setup: &Setup, blocks: &Blocks) -> Polyhedra {
         scalar("speed", &|owner| poses[owner].velocity.length()),
         vector("spin", &|owner| spins[owner]),
         vector("contact_force", &|owner| forces[owner]),
-        scalar("fixed", &|owner| {
-            flag(setup.blocks[owner].motion == Motion::Fixed)
-        }),
+        scalar("fixed", &|owner| flag(shown[owner].motion == Motion::Fixed)),
         scalar("asleep", &|owner| flag(asleep[owner])),
-        scalar("material", &|owner| setup.blocks[owner].material as f64),
+        scalar("material", &|owner| shown[owner].material as f64),
     ];
+    if !felt.is_empty() {
+        let known = |owner: usize| {
+            let known =
+                |felt: &&Felt| shown[owner].motion != Motion::Fixed || felt.flow.entrained > 0.0;
+            felt.get(owner).filter(known)
+        };
+        let force = |owner, of: fn(&Felt) -> DVec3| known(owner).map_or(DVec3::NAN, of);
+        made.arrays.extend([
+            vector("fluid_force", &|owner| force(owner, |felt| felt.flow.force)),
+            vector("buoyancy", &|owner| {
+                force(owner, |felt| felt.buoyancy.force)
+            }),
+        ]);
+    }
     made
 }
 

@@ -122,10 +122,16 @@ impl Simulation {
         Ok(values)
     }
 
-    /// 1 in solid cells.
+    /// 1 in solid cells, and in those whose centres are in a block.
     fn solid_values(&self, cells: Option<&[u32]>) -> Vec<f32> {
         let solid = self.solid();
-        let value = |cell: usize| f32::from(u8::from(solid.get(cell).is_some_and(|s| *s)));
+        let blocks = self.coupled.as_ref();
+        let blocks = blocks.map_or_else(Vec::new, |coupled| coupled.near(0.0));
+        let value = |cell: usize| {
+            let in_block = || blocks.binary_search_by_key(&cell, |found| found.near.cell as usize);
+            let is_solid = solid.get(cell).is_some_and(|solid| *solid) || in_block().is_ok();
+            f32::from(u8::from(is_solid))
+        };
         match cells {
             Some(cells) => cells.iter().map(|cell| value(*cell as usize)).collect(),
             None => (0..self.lattice.grid().cell_count()).map(value).collect(),

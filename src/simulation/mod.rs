@@ -1,5 +1,6 @@
 //! A scene on a device: the loop that a user sees.
 
+mod beside;
 mod block_fields;
 mod block_setup;
 mod diverged;
@@ -7,6 +8,7 @@ mod dry;
 mod fields;
 mod lattice_setup;
 mod needs;
+mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
@@ -15,6 +17,7 @@ pub(crate) use dry::begin;
 pub use fields::Totals;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
+pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{
     Error, Result,
@@ -51,7 +54,7 @@ impl Simulation {
     /// What the scene lacks, or what the device cannot hold.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         let units = Units::of(scene)?;
-        let advice = scene.advise(&units)?;
+        let mut advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
         let start = start(scene, &units)?;
@@ -87,6 +90,9 @@ impl Simulation {
             ),
             false => None,
         };
+        if let Some(coupled) = &coupled {
+            advice.extend(coupled.advise(scene));
+        }
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),
@@ -133,14 +139,14 @@ impl Simulation {
         loop {
             let next = self.step() + 1;
             let coupled = self.coupled.as_ref();
-            if coupled.is_some_and(|coupled| coupled.meets(next)) {
+            if coupled.is_some_and(|coupled| coupled.meets(next, last)) {
                 self.exchange(encoder).await?;
                 let coming = self.changed_faces()?;
                 return self.set_faces(coming);
             }
             self.lattice
                 .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next)) {
+            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next, last)) {
                 coupled.record_loads(&device, &mut encoder, true);
             }
             self.lattice
@@ -154,7 +160,7 @@ impl Simulation {
         }
     }
 
-    /// The last step of a stretch, at whose end the blocks move: the fluid around them runs first, and the
+    /// The last step of a stretch, at whose end the blocks move, or are asked what they feel: the fluid around them runs first, and the
     /// rest of it while their loads are read.
     async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
         let (device, queue) = (&self.device, &self.queue);
@@ -170,6 +176,9 @@ impl Simulation {
             .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
         coupled.read_loads().await?;
+        if !coupled.moves() {
+            return Ok(());
+        }
         let until = self.lattice.step() as f64 * self.units.time_step;
         coupled.advance(until).await
     }

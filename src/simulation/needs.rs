@@ -2,7 +2,7 @@
 
 use super::lattice_setup;
 use crate::{
-    Result,
+    Result, immersed,
     lattice::{Grid, Memory, Setup, memory},
     scene::Scene,
     units::Units,
@@ -39,10 +39,17 @@ impl Needs {
             .max(limits.max_storage_buffer_binding_size);
         limits.max_storage_buffer_binding_size = binding.min(has.max_storage_buffer_binding_size);
         limits.max_buffer_size = binding.max(limits.max_buffer_size).min(has.max_buffer_size);
-        limits.max_storage_buffers_per_shader_stage = memory
+        let mut bindings = memory
             .most_bindings
-            .max(limits.max_storage_buffers_per_shader_stage)
-            .min(has.max_storage_buffers_per_shader_stage);
+            .max(limits.max_storage_buffers_per_shader_stage);
+        if scene.has_blocks() {
+            bindings = bindings.max(immersed::MOST_BINDINGS);
+            // What they take is known once they are placed, and changes as they move.
+            limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
+            limits.max_buffer_size = has.max_buffer_size;
+        }
+        limits.max_storage_buffers_per_shader_stage =
+            bindings.min(has.max_storage_buffers_per_shader_stage);
         Ok(Self {
             features: (adapter.features() & wgpu::Features::TIMESTAMP_QUERY) | setup.features(),
             limits,

@@ -1,6 +1,6 @@
 //! Energy: what is there and what was taken adds up to what was put in.
 
-use crate::rig::{blocks, cuboid, joint, run, setup, slope};
+use crate::rig::{AllPairs, blocks, cuboid, joint, run, setup, slope};
 use glam::{DQuat, DVec3};
 use riprap::bodies::{Block, Load, Motion};
 
@@ -70,4 +70,23 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     // (1 − cos πt)/2π.
     let ram = blocks.poses()[1].centre.x + 1.0;
     assert!((ram * std::f64::consts::PI - 1.0).abs() < 1e-6, "{ram}");
+}
+
+/// A free block under a load that jumps at every exchange: a step under a constant force gains just what the
+/// force does along it, so that the work is the kinetic energy up to rounding.
+#[test]
+fn a_load_that_jumps_works_from_the_moment_on() {
+    let block = Block::new("block", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
+    let mut setup = setup(vec![block], joint(1e8, 30.0));
+    (setup.gravity, setup.time_step) = (DVec3::ZERO, Some(1e-3));
+    let mut blocks = blocks(setup);
+    for (exchange, force) in (1..).zip([1e4, -3e4, 0.0, 7e4, 2e4]) {
+        let load = Load::at(DVec3::X * force, DVec3::ZERO);
+        blocks.load(&[load]).expect("one load a block");
+        let until = f64::from(exchange) * 0.01;
+        pollster::block_on(blocks.advance(&mut AllPairs, until)).expect("nothing is in the way");
+    }
+    let end = blocks.ledger();
+    assert!(end.kinetic > 1.0, "{end:?}");
+    assert!((end.loads / end.kinetic - 1.0).abs() < 1e-9, "{end:?}");
 }

@@ -20,7 +20,7 @@ size = [1, 2, 3]
 steps = 10
 "#;
 
-fn cube(more: &str) -> riprap::Result<Scene> {
+pub fn cube(more: &str) -> riprap::Result<Scene> {
     read(&format!("{CUBE}{more}"))
 }
 
@@ -259,10 +259,6 @@ fn a_scene_is_of_something() {
         &["probes[0]", "kind = \"block\""],
     );
     refused(
-        crate::channel("[[views]]\nname = \"v\"\n"),
-        &["views", "there are none"],
-    );
-    refused(
         crate::channel("[[output.histories]]\nquantities = [\"contacts\"]\n"),
         &["output.histories[0].quantities", "contacts is of blocks"],
     );
@@ -414,7 +410,7 @@ fn names_and_places_are_those_of_blocks() {
 }
 
 #[test]
-fn rock_masses_and_views_agree_with_themselves() {
+fn rock_masses_agree_with_themselves() {
     let mass = |joint: &str| {
         cube(&format!(
             "[[rock_masses]]\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\njoints = [{{ {joint} }}]\n"
@@ -436,18 +432,6 @@ fn rock_masses_and_views_agree_with_themselves() {
     refused(
         mass("dip = 30, dipdirection = 90, spacing = 1"),
         &["did you mean `dip_direction`?"],
-    );
-    refused(
-        cube("[[views]]\nname = \"v\"\nfrom = [0, 0, 1]\n"),
-        &["views[0].from", "add `to`"],
-    );
-    refused(
-        cube("[[views]]\nname = \"v\"\nfrom = [0, 0, 1]\nto = [0, 0, 0]\n"),
-        &["views[0].up", "looks along it"],
-    );
-    refused(
-        cube("[[views]]\nname = \"v\"\nsize = [10, 10]\n"),
-        &["views[0].size[0]", "64 to 8192"],
     );
 }
 

@@ -10,6 +10,7 @@ mod sampling;
 mod shipped;
 mod solids;
 mod units;
+mod views;
 
 use std::path::Path;
 

@@ -1,14 +1,18 @@
 //! `riprap check`: what a scene will run, and how long it will take.
 
+mod blocks;
+mod coupling;
+mod dry;
 mod report;
-mod rock;
 mod text;
 mod trial;
 
+pub use blocks::BlockFacts;
+pub use coupling::{Immersion, Narrow};
+pub use dry::RockReport;
 pub use report::Report;
-pub use rock::RockReport;
 
-use crate::{adapters::Adapter, gpu, print};
+use crate::{adapters::Adapter, gpu, print, search::located};
 use anyhow::Result;
 use riprap::{
     scene::Scene,
@@ -35,8 +39,8 @@ pub struct Args {
 /// What the scene lacks, or what the adapter cannot hold.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
-    if scene.has_blocks() {
-        let report = rock::report(&scene, &args.scene, args.adapter.as_deref())?;
+    if !scene.has_fluid() {
+        let report = dry::report(&scene, &args.scene, args.adapter.as_deref())?;
         return if args.json {
             print::print_json(&report)
         } else {
@@ -47,11 +51,11 @@ pub fn run(args: &Args) -> Result<()> {
     let needs = Needs::of(&scene, &adapter)?;
     let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;
     let made = Simulation::new(&device, &queue, &scene);
-    let mut simulation = gpu::drive(&device, trial::PATIENCE, "compiling the kernels", made)??;
-    let report = Report {
-        time: trial::time(&mut simulation, &device)?,
-        ..Report::of(&simulation, Adapter::of(&adapter, args.adapter.is_none()))?
-    };
+    let made = gpu::drive(&device, trial::PATIENCE, "compiling the kernels", made)?;
+    let mut simulation = made.map_err(|error| located(error, &args.scene))?;
+    let time = trial::time(&mut simulation, &device)?;
+    let adapter = Adapter::of(&adapter, args.adapter.is_none());
+    let report = Report::of(&simulation, adapter, time)?;
     if args.json {
         print::print_json(&report)
     } else {

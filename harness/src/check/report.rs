@@ -1,8 +1,11 @@
 //! What a scene will run.
 
+use super::Immersion;
 use crate::adapters::Adapter;
 use anyhow::Result;
-use riprap::{lattice::Lattice, simulation::Simulation, units::Units};
+use riprap::{
+    coupling::Coupled, immersed::Immersed, lattice::Lattice, simulation::Simulation, units::Units,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -21,6 +24,9 @@ pub struct Report {
     pub kernels: Vec<Kernel>,
     /// Time and the numbers of the method.
     pub numerics: Numerics,
+    /// The blocks, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blocks: Option<Immersion>,
     /// What may disappoint.
     pub warnings: Vec<String>,
     /// How long it takes.
@@ -117,11 +123,12 @@ pub struct Time {
 }
 
 impl Report {
-    /// What is known of a scene before it runs.
+    /// What is known of a scene after the steps that were timed.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
-    pub fn of(simulation: &Simulation, adapter: Adapter) -> Result<Self> {
+    pub fn of(simulation: &Simulation, adapter: Adapter, time: Time) -> Result<Self> {
+        let immersed = simulation.coupled().map(Coupled::immersed);
         let lattice = simulation.lattice();
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
@@ -129,11 +136,16 @@ impl Report {
             title: scene.title.clone(),
             adapter,
             cells: Cells::of(lattice),
-            memory: Memory::of(lattice),
-            kernels: lattice.kernels(false).map(Kernel::of).collect(),
+            memory: Memory::of(lattice, immersed),
+            kernels: lattice
+                .kernels(false)
+                .chain(immersed.into_iter().flat_map(Immersed::kernels))
+                .map(Kernel::of)
+                .collect(),
             numerics: Numerics::of(simulation, simulation.units())?,
             warnings: warnings.collect(),
-            time: Time::default(),
+            blocks: Immersion::of(simulation, simulation.step()),
+            time,
         })
     }
 }
@@ -161,12 +173,15 @@ impl Cells {
 }
 
 impl Memory {
-    fn of(lattice: &Lattice) -> Self {
+    fn of(lattice: &Lattice, immersed: Option<&Immersed>) -> Self {
         let bytes = lattice.bytes().into_iter();
         let mut kinds: BTreeMap<_, _> = bytes.map(|(kind, n)| (kind.to_owned(), n)).collect();
         // Density and three components of the velocity in f32.
         let output = 16 * lattice.grid().cell_count() as u64;
         kinds.insert("density and velocity for output".into(), output);
+        if let Some(immersed) = immersed {
+            kinds.insert("blocks".into(), immersed.bytes());
+        }
         Self {
             total: kinds.values().sum(),
             kinds,

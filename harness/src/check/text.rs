@@ -33,6 +33,9 @@ impl Report {
             line("", format!("buffers: {}", shorten(&kernel.bindings)));
         }
         self.numerics(&mut line);
+        if let Some(blocks) = &self.blocks {
+            blocks.lines(&mut line);
+        }
         for warning in &self.warnings {
             line("warning", warning.clone());
         }

@@ -128,17 +128,29 @@ fn rgb_of_lab(lightness: f64, a: f64, b: f64) -> RGBColor {
         cube(y),
         1.08883 * cube(y - b / 200.0),
     );
-    let channel = |linear: f64| {
-        let value = if linear > 0.0031308 {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        } else {
-            12.92 * linear
-        };
-        (255.0 * value.clamp(0.0, 1.0)).round() as u8
-    };
     RGBColor(
-        channel(3.2406 * x - 1.5372 * y - 0.4986 * z),
-        channel(-0.9689 * x + 1.8758 * y + 0.0415 * z),
-        channel(0.0557 * x - 0.2040 * y + 1.0570 * z),
+        srgb_of_linear(3.2406 * x - 1.5372 * y - 0.4986 * z),
+        srgb_of_linear(-0.9689 * x + 1.8758 * y + 0.0415 * z),
+        srgb_of_linear(0.0557 * x - 0.2040 * y + 1.0570 * z),
     )
+}
+
+/// A channel of sRGB (IEC 61966-2-1) for a part of the most light.
+pub fn srgb_of_linear(linear: f64) -> u8 {
+    let value = if linear > 0.0031308 {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    } else {
+        12.92 * linear
+    };
+    (255.0 * value.clamp(0.0, 1.0)).round() as u8
+}
+
+/// The part of the most light that a channel of sRGB stands for.
+pub fn linear_of_srgb(channel: u8) -> f64 {
+    let value = f64::from(channel) / 255.0;
+    if value > 0.04045 {
+        ((value + 0.055) / 1.055).powf(2.4)
+    } else {
+        value / 12.92
+    }
 }

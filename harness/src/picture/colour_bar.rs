@@ -1,10 +1,11 @@
 //! The scale that tells which colour means which value.
 
-use super::axis::Axis;
+use super::axis::{Axis, Scale, extremes};
 use super::canvas::{Anchor, Canvas};
 use super::colour::Palette;
 use super::frame::{self, FOOT, Frame, INK, TEXT};
-use anyhow::Result;
+use anyhow::{Result, bail};
+use plotters::style::RGBColor;
 
 /// Thickness of the bar, pixels.
 const THICK: f64 = 26.0;
@@ -14,7 +15,7 @@ const GAP: f64 = 26.0;
 const TICK: f64 = 6.0;
 
 /// A palette over the range of an axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ColourBar {
     /// The quantity.
     pub axis: Axis,
@@ -23,6 +24,37 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
+    /// The bar of a quantity over `range`, whose middle is special only where its ends are equal and opposite; without
+    /// one over what `values` reach, for a `length` from zero, against which alone it means something.
+    pub fn fitting(
+        quantity: &str,
+        unit: &str,
+        range: Option<[f64; 2]>,
+        values: impl Iterator<Item = f64>,
+        length: bool,
+    ) -> Result<Self> {
+        let (palette, range) = match range {
+            Some([low, high]) if !(low.is_finite() && high.is_finite() && low < high) => {
+                bail!("colours from {low} to {high} {unit}: give two numbers, the lower first")
+            }
+            Some([low, high]) if low == -high => (Palette::Diverging, [low, high]),
+            Some(range) => (Palette::Sequential, range),
+            None => match extremes(values) {
+                [_, high] if length => (Palette::Sequential, [0.0, high]),
+                range => Palette::fitting(range),
+            },
+        };
+        Ok(Self {
+            axis: Axis::new(quantity, unit, range, Scale::Linear),
+            palette,
+        })
+    }
+
+    /// The colour of a value.
+    pub fn colour(&self, value: f64) -> RGBColor {
+        self.palette.colour(self.axis.fraction(value))
+    }
+
     /// Width beside a map of `height`, pixels.
     pub fn width(&self, height: f64) -> Result<f64> {
         Ok(GAP + THICK + frame::side(&self.axis, height)?)

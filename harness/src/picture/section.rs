@@ -1,6 +1,8 @@
 //! A plane cut out of an image.
 
+use super::placed::{Placed, centres};
 use anyhow::{Context, Result, bail};
+use glam::DVec3;
 use riprap::output::{Array, Image};
 
 /// A plane normal to an axis.
@@ -10,6 +12,17 @@ pub struct Plane {
     pub normal: usize,
     /// Where it cuts that axis, m.
     pub position: f64,
+}
+
+impl Plane {
+    /// The axes that lie in it, in their order.
+    pub fn others(&self) -> [usize; 2] {
+        match self.normal {
+            0 => [1, 2],
+            1 => [0, 2],
+            _ => [0, 1],
+        }
+    }
 }
 
 /// What is shown of an array.
@@ -40,8 +53,10 @@ pub struct Section {
     pub cells: [usize; 2],
     /// The quantity, in its own unit.
     pub values: Vec<f64>,
-    /// Cells without fluid.
+    /// Solid cells.
     pub solid: Vec<bool>,
+    /// Cells whose centres lie in blocks, of which there are none before [`Self::leave_out`].
+    pub in_blocks: Vec<bool>,
     /// Velocity in the plane, m/s, if the image has an array `velocity`.
     pub velocity: Option<Vec<[f64; 2]>>,
 }
@@ -49,12 +64,11 @@ pub struct Section {
 impl Section {
     /// Cuts `image` by `plane`, cell values as they are.
     pub fn new(image: &Image, plane: Plane, quantity: Quantity<'_>) -> Result<Self> {
-        let [a, b] = match plane.normal {
-            0 => [1, 2],
-            1 => [0, 2],
-            2 => [0, 1],
-            other => bail!("a plane cannot be normal to axis {other}; give 0 (x), 1 (y) or 2 (z)"),
-        };
+        if plane.normal > 2 {
+            let axis = plane.normal;
+            bail!("a plane cannot be normal to axis {axis}; give 0 (x), 1 (y) or 2 (z)");
+        }
+        let [a, b] = plane.others();
         let layer = layer(image, plane)?;
         let shown = array(image, quantity)?;
         let solid = image.array("solid");
@@ -70,6 +84,7 @@ impl Section {
             cells: [image.cells[a], image.cells[b]],
             values: Vec::new(),
             solid: Vec::new(),
+            in_blocks: vec![false; image.cells[a] * image.cells[b]],
             velocity: moving.map(|_| Vec::new()),
         };
         for v in 0..image.cells[b] {
@@ -98,6 +113,12 @@ impl Section {
         Ok(section)
     }
 
+    /// The quantity in the fluid's cells.
+    pub fn fluid(&self) -> impl Iterator<Item = f64> {
+        let cells = (0..self.values.len()).filter(|cell| self.is_fluid(*cell));
+        cells.map(|cell| self.values[cell])
+    }
+
     /// Upper corner, m.
     pub fn opposite(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.origin[axis] + self.spacing * self.cells[axis] as f64)
@@ -112,11 +133,58 @@ impl Section {
         Some(u? + self.cells[0] * v?)
     }
 
-    /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in a
-    /// solid cell, outside, or without velocity.
+    /// Takes the cells whose centres lie in `blocks` out of the fluid; `plane` is the one that was cut by. What such a
+    /// cell shows outside of its block is what the fluid beside it has: the mean of its neighbours, and without any it
+    /// is not a number.
+    pub fn leave_out(&mut self, blocks: &[Placed<'_>], plane: Plane) {
+        let [a, b] = plane.others();
+        for block in blocks {
+            let [low, high] = block.bounds();
+            if !(low[plane.normal]..=high[plane.normal]).contains(&plane.position) {
+                continue;
+            }
+            let [us, vs] = [(0, a), (1, b)].map(|(along, axis)| {
+                let ends = [low[axis], high[axis]];
+                centres(self.origin[along], self.spacing, self.cells[along], ends)
+            });
+            for v in vs {
+                for u in us.clone() {
+                    let mut centre = DVec3::splat(plane.position);
+                    (centre[a], centre[b]) = (
+                        self.origin[0] + self.spacing * (u as f64 + 0.5),
+                        self.origin[1] + self.spacing * (v as f64 + 0.5),
+                    );
+                    self.in_blocks[u + self.cells[0] * v] |= block.holds(centre);
+                }
+            }
+        }
+        for cell in (0..self.values.len()).filter(|cell| self.in_blocks[*cell]) {
+            let around = self.around(cell).filter(|other| self.is_fluid(*other));
+            let (sum, count) = around.fold((0.0, 0.0), |(sum, count), other| {
+                (sum + self.values[other], count + 1.0)
+            });
+            self.values[cell] = sum / count;
+        }
+    }
+
+    /// The cells that touch a cell, and the cell.
+    fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let [columns, rows] = self.cells;
+        let near = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
+        let us = near(cell % columns, columns);
+        near(cell / columns, rows).flat_map(move |v| us.clone().map(move |u| u + columns * v))
+    }
+
+    /// Whether a cell is neither solid nor in a block.
+    pub fn is_fluid(&self, cell: usize) -> bool {
+        !self.solid[cell] && !self.in_blocks[cell]
+    }
+
+    /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in
+    /// another cell, outside, or without velocity.
     pub fn velocity_at(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         let velocity = self.velocity.as_ref()?;
-        if self.solid[self.cell(point)?] {
+        if !self.is_fluid(self.cell(point)?) {
             return None;
         }
         let mut lower = [0; 2];
@@ -133,7 +201,7 @@ impl Section {
             let weight = [1.0 - part[0], part[0]][u] * [1.0 - part[1], part[1]][v];
             let cell = lower[0] + u + self.cells[0] * (lower[1] + v);
             // A weight of zero also keeps out the cell beyond the last one.
-            if weight > 0.0 && !self.solid[cell] {
+            if weight > 0.0 && self.is_fluid(cell) {
                 sum = [0, 1].map(|axis| sum[axis] + weight * velocity[cell][axis]);
                 total += weight;
             }

@@ -1,13 +1,15 @@
 //! A quantity on a plane through the flow, as a map of colours.
 
-use super::axis::{Axis, Scale, extremes};
+use super::arrows::arrows;
+use super::axis::{Axis, Scale};
 use super::canvas::{Anchor, Canvas};
 use super::colour::{Palette, SOLID};
 use super::colour_bar::ColourBar;
 use super::frame::{self, FOOT, Frame, INK, TEXT, TITLE};
+use super::placed::Placed;
 use super::section::{Plane, Quantity, Section};
 use super::streamlines::streamlines;
-use anyhow::{Result, bail};
+use anyhow::Result;
 use riprap::output::Image;
 use std::path::Path;
 
@@ -21,6 +23,8 @@ const MARGIN: f64 = 16.0;
 const FLAT: f64 = 0.35;
 /// Distance between streamlines in parts of the map's longer edge; about 35 across it.
 const SEPARATION: f64 = 1.0 / 35.0;
+/// Width of the outline of a block, pixels.
+const OUTLINE: f64 = 2.0;
 /// Arrow heads on a streamline are this many distances between lines apart.
 const ARROWS: f64 = 10.0;
 
@@ -44,57 +48,35 @@ pub struct Slice<'a> {
     pub range: Option<[f64; 2]>,
     /// Whether to draw streamlines of the velocity in the plane.
     pub streamlines: bool,
+    /// Blocks whose cuts are drawn over the fluid.
+    pub blocks: &'a [Placed<'a>],
 }
 
 impl Slice<'_> {
     /// Draws the slice of `image` into a PNG file.
     pub fn draw(&self, image: &Image, path: &Path) -> Result<()> {
-        let section = Section::new(image, self.plane, self.quantity)?;
-        let (palette, range) = self.colours(&section)?;
-        let bar = ColourBar {
-            axis: Axis::new(self.label, self.unit, range, Scale::Linear),
-            palette,
-        };
+        let mut section = Section::new(image, self.plane, self.quantity)?;
+        section.leave_out(self.blocks, self.plane);
+        let length = matches!(self.quantity, Quantity::Magnitude(_));
+        let bar = ColourBar::fitting(self.label, self.unit, self.range, section.fluid(), length)?;
         let (mut canvas, map) = self.layout(&section, &bar)?;
         let opposite = map.opposite();
         canvas.shade(map.corner, opposite, |place| {
             match section.cell(map.values(place)) {
-                Some(cell) if !section.solid[cell] => {
-                    palette.colour(bar.axis.fraction(section.values[cell]))
-                }
+                Some(cell) if !section.solid[cell] => bar.colour(section.values[cell]),
                 _ => SOLID,
             }
         });
         if self.streamlines {
-            draw_streamlines(&mut canvas, &map, &section, palette)?;
+            draw_streamlines(&mut canvas, &map, &section, bar.palette)?;
+        }
+        for block in self.blocks {
+            if let Some(outline) = block.outline(self.plane) {
+                draw_block(&mut canvas, &map, &section, &outline)?;
+            }
         }
         map.draw(&mut canvas, true)?;
         canvas.save(path)
-    }
-
-    /// The palette, and the values at its ends.
-    fn colours(&self, section: &Section) -> Result<(Palette, [f64; 2])> {
-        if let Some([low, high]) = self.range {
-            if !(low.is_finite() && high.is_finite() && low < high) {
-                bail!(
-                    "colours from {low} to {high} {}: give two numbers, the lower first",
-                    self.unit
-                );
-            }
-            let palette = if low == -high {
-                Palette::Diverging
-            } else {
-                Palette::Sequential
-            };
-            return Ok((palette, [low, high]));
-        }
-        let fluid = section.values.iter().zip(&section.solid);
-        let [low, high] = extremes(fluid.filter(|(_, solid)| !**solid).map(|(value, _)| *value));
-        Ok(match self.quantity {
-            // A length means something only against zero.
-            Quantity::Magnitude(_) => (Palette::Sequential, [0.0, high]),
-            Quantity::Scalar(_) | Quantity::Component(..) => Palette::fitting([low, high]),
-        })
     }
 
     /// A canvas with title and colour bar, and the frame of the map on it.
@@ -150,6 +132,49 @@ impl Slice<'_> {
     }
 }
 
+/// The cut through a block, as far as it lies in the map.
+fn draw_block(
+    canvas: &mut Canvas,
+    map: &Frame,
+    section: &Section,
+    outline: &[[f64; 2]],
+) -> Result<()> {
+    let inside = clipped(outline, section.origin, section.opposite());
+    let corners: Vec<[f64; 2]> = inside.iter().map(|&point| map.place(point)).collect();
+    let Some(&first) = corners.first() else {
+        return Ok(());
+    };
+    canvas.polygon(&corners, SOLID)?;
+    let closed = [&corners[..], &[first]].concat();
+    canvas.line(&closed, OUTLINE, INK)
+}
+
+/// A convex polygon without what lies outside of the box from `low` to `high` (Sutherland and Hodgman, 1974).
+fn clipped(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut left = polygon.to_vec();
+    for (axis, sign, edge) in [
+        (0, 1.0, low[0]),
+        (1, 1.0, low[1]),
+        (0, -1.0, high[0]),
+        (1, -1.0, high[1]),
+    ] {
+        let depth = |point: [f64; 2]| sign * (point[axis] - edge);
+        let corners = std::mem::take(&mut left);
+        let next = corners.iter().cycle().skip(1);
+        for (&from, &to) in corners.iter().zip(next) {
+            let (here, there) = (depth(from), depth(to));
+            if here >= 0.0 {
+                left.push(from);
+            }
+            if (here >= 0.0) != (there >= 0.0) {
+                let part = here / (here - there);
+                left.push([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis])));
+            }
+        }
+    }
+    left
+}
+
 fn draw_streamlines(
     canvas: &mut Canvas,
     map: &Frame,
@@ -164,8 +189,8 @@ fn draw_streamlines(
         let places: Vec<[f64; 2]> = line.iter().map(|&point| map.place(point)).collect();
         canvas.line(&places, 1.3, colour)?;
         let apart = ARROWS * separation * map.size[0] / (section.opposite()[0] - section.origin[0]);
-        for (at, towards) in arrows(&places, apart) {
-            let ([x, y], [u, v]) = (at, towards);
+        for arrow in arrows(&places, apart) {
+            let ([x, y], [u, v]) = (places[arrow.point], arrow.towards);
             // Pixels from the middle to the tip, and to either side.
             let (tip, side) = (7.0, 4.5);
             let corners = [
@@ -175,7 +200,7 @@ fn draw_streamlines(
             ];
             let fluid = |place: &[f64; 2]| {
                 let cell = section.cell(map.values(*place));
-                cell.is_some_and(|cell| !section.solid[cell])
+                cell.is_some_and(|cell| section.is_fluid(cell))
             };
             if corners.iter().all(fluid) {
                 canvas.polygon(&corners, colour)?;
@@ -183,25 +208,6 @@ fn draw_streamlines(
         }
     }
     Ok(())
-}
-
-/// Places and directions of arrow heads on a line: about `apart` from each other, one at least.
-fn arrows(places: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
-    let length = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
-    let whole: f64 = places.windows(2).map(length).sum();
-    let count = (whole / apart).round().max(1.0);
-    let mut arrows = Vec::new();
-    let mut passed = 0.0;
-    for pair in places.windows(2) {
-        let step = length(pair);
-        let next = (arrows.len() as f64 + 0.5) * whole / count;
-        if step > 0.0 && passed + step >= next && (arrows.len() as f64) < count {
-            let towards = [0, 1].map(|axis| (pair[1][axis] - pair[0][axis]) / step);
-            arrows.push((pair[0], towards));
-        }
-        passed += step;
-    }
-    arrows
 }
 
 /// A number in a title: four digits, without zeros at the end.

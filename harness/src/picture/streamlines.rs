@@ -2,7 +2,9 @@
 //! arbitrary density"): each new line begins at a set distance from one already there, and ends
 //! where it would come nearer than half of that to another.
 
+use super::follow::Field;
 use super::section::Section;
+use super::taken::Taken;
 use std::collections::VecDeque;
 
 /// How near a line may come to others, in parts of the distance at which lines begin; the paper's
@@ -24,7 +26,7 @@ pub fn streamlines(section: &Section, separation: f64) -> Vec<Vec<[f64; 2]>> {
         return Vec::new();
     };
     let speed = |cell: usize| velocity[cell][0].hypot(velocity[cell][1]);
-    let fluid = |cell: &usize| !section.solid[*cell] && speed(*cell).is_finite();
+    let fluid = |cell: &usize| section.is_fluid(*cell) && speed(*cell).is_finite();
     let cells = 0..velocity.len();
     let Some(fastest) = cells
         .clone()
@@ -37,7 +39,7 @@ pub fn streamlines(section: &Section, separation: f64) -> Vec<Vec<[f64; 2]>> {
         section,
         still: STILL * speed(fastest),
         separation,
-        taken: Taken::new(section, separation),
+        taken: Taken::new(separation),
         lines: Vec::new(),
     };
     // Seeds beside lines first, since they pack best; then every cell that is still far from all,
@@ -75,7 +77,7 @@ struct Tracer<'a> {
     section: &'a Section,
     still: f64,
     separation: f64,
-    taken: Taken,
+    taken: Taken<2>,
     lines: Vec<Vec<[f64; 2]>>,
 }
 
@@ -86,11 +88,15 @@ impl Tracer<'_> {
         if self.direction(seed).is_none() || self.taken.near(seed, self.separation) {
             return;
         }
-        let mut line = self.trace(seed, -1.0, &[]);
-        line.reverse();
-        let downstream = self.trace(seed, 1.0, &line);
-        line.push(seed);
-        line.extend(downstream);
+        let field = Field {
+            direction: |point| self.direction(point),
+            step: STEP * self.section.spacing,
+            own: NEAREST_SELF * self.separation,
+            // A line longer than all cells is one that cannot end.
+            most: 2 * self.section.values.len(),
+        };
+        let nearest = NEAREST * self.separation;
+        let line = field.line(seed, |point| self.taken.near(point, nearest));
         if (line.len() - 1) as f64 * STEP * self.section.spacing > SHORTEST * self.separation {
             line.iter().for_each(|&point| self.taken.add(point));
             next.push_back(self.lines.len());
@@ -98,99 +104,9 @@ impl Tracer<'_> {
         }
     }
 
-    /// Points after `seed`, upstream if `sign` is −1, until an end of the fluid or a line is near;
-    /// `upstream` is the other half of the same line.
-    fn trace(&self, seed: [f64; 2], sign: f64, upstream: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let step = sign * STEP * self.section.spacing;
-        let own = NEAREST_SELF * self.separation;
-        // Along the line, a point is near to its neighbours without the line closing.
-        let skip = (2.0 * own / step.abs()).ceil() as usize + 1;
-        let mut whole: Vec<[f64; 2]> = upstream.to_vec();
-        whole.push(seed);
-        let mut mine = Taken::new(self.section, self.separation);
-        let mut known = 0;
-        let mut point = seed;
-        // A line longer than all cells is one that cannot end.
-        for _ in 0..2 * self.section.values.len() {
-            let Some(after) = self.runge_kutta(point, step) else {
-                break;
-            };
-            while known + skip < whole.len() {
-                mine.add(whole[known]);
-                known += 1;
-            }
-            if self.taken.near(after, NEAREST * self.separation) || mine.near(after, own) {
-                break;
-            }
-            whole.push(after);
-            point = after;
-        }
-        whole.split_off(upstream.len() + 1)
-    }
-
-    /// One classical fourth-order step of length `step` (m) along the direction of the flow.
-    fn runge_kutta(&self, [x, y]: [f64; 2], step: f64) -> Option<[f64; 2]> {
-        let ahead = |[u, v]: [f64; 2], part: f64| [x + part * step * u, y + part * step * v];
-        let a = self.direction([x, y])?;
-        let b = self.direction(ahead(a, 0.5))?;
-        let c = self.direction(ahead(b, 0.5))?;
-        let d = self.direction(ahead(c, 1.0))?;
-        let mean = [0, 1].map(|axis| (a[axis] + 2.0 * (b[axis] + c[axis]) + d[axis]) / 6.0);
-        let after = ahead(mean, 1.0);
-        self.direction(after).map(|_| after)
-    }
-
     fn direction(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         let [u, v] = self.section.velocity_at(point)?;
         let speed = u.hypot(v);
         (speed > self.still).then(|| [u / speed, v / speed])
-    }
-}
-
-/// Points sorted into square bins, to find those near a place.
-struct Taken {
-    origin: [f64; 2],
-    bin: f64,
-    bins: [usize; 2],
-    points: Vec<Vec<[f64; 2]>>,
-}
-
-impl Taken {
-    /// For distances up to `bin` (m).
-    fn new(section: &Section, bin: f64) -> Self {
-        let bins = [0, 1]
-            .map(|axis| (section.cells[axis] as f64 * section.spacing / bin).ceil() as usize + 1);
-        Self {
-            origin: section.origin,
-            bin,
-            bins,
-            points: vec![Vec::new(); bins[0] * bins[1]],
-        }
-    }
-
-    fn place(&self, point: [f64; 2]) -> [usize; 2] {
-        [0, 1].map(|axis| {
-            let place = ((point[axis] - self.origin[axis]) / self.bin).max(0.0) as usize;
-            place.min(self.bins[axis] - 1)
-        })
-    }
-
-    fn add(&mut self, point: [f64; 2]) {
-        let [u, v] = self.place(point);
-        self.points[u + self.bins[0] * v].push(point);
-    }
-
-    fn near(&self, point: [f64; 2], distance: f64) -> bool {
-        let [u, v] = self.place(point);
-        let around = |place: usize, axis: usize| {
-            place.saturating_sub(1)..=(place + 1).min(self.bins[axis] - 1)
-        };
-        around(v, 1).any(|v| {
-            around(u, 0).any(|u| {
-                self.points[u + self.bins[0] * v]
-                    .iter()
-                    .any(|other| (other[0] - point[0]).hypot(other[1] - point[1]) < distance)
-            })
-        })
     }
 }

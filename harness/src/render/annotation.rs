@@ -1,8 +1,9 @@
-//! Title, time, colour bar and scale bar around a view.
+//! Title, time, colour bars and scale bar around a view.
 
 use super::camera::Camera;
 use super::drawing::Drawing;
 use super::picture::Picture;
+use super::scales::Scales;
 use super::uniforms::round_down;
 use crate::picture::canvas::{Anchor, Canvas};
 use crate::picture::colour_bar::ColourBar;
@@ -13,8 +14,8 @@ use plotters::style::RGBColor;
 
 /// Around text, pixels.
 const MARGIN: f64 = 18.0;
-/// Part of the view's height that the colour bar takes.
-const BAR: f64 = 0.7;
+/// Part of the view's height that a colour bar takes.
+pub const BAR: f64 = 0.7;
 /// Width that the scale bar has at most, in parts of the view's.
 const SCALE_BAR: f64 = 0.2;
 /// Half of the height of the scale bar's ends, pixels.
@@ -27,9 +28,9 @@ pub struct Layout {
     size: [u32; 2],
     /// Height above the view for the title.
     head: f64,
-    /// Width beside the view for the colour bar.
+    /// Width beside the view for the colour bars.
     side: f64,
-    bar: Option<ColourBar>,
+    bars: Vec<ColourBar>,
 }
 
 impl Layout {
@@ -37,14 +38,16 @@ impl Layout {
         let titled = !drawing.title.is_empty() || drawing.time.is_some();
         let head = if titled { 2.0 * MARGIN + TITLE } else { 0.0 };
         let [width, height] = size.map(f64::from);
-        let bar = colour_bar(drawing)?;
-        let side = match &bar {
-            Some(bar) => (bar.width(BAR * (height - head))? + MARGIN).ceil(),
-            None => 0.0,
+        let bars: Vec<ColourBar> = Scales::of(drawing)?.bars().into_iter().cloned().collect();
+        let side = bars_width(&bars, BAR * (height - head))?;
+        let side = if bars.is_empty() {
+            0.0
+        } else {
+            (side + MARGIN).ceil()
         };
         if width - side < LEAST || height - head < LEAST {
             bail!(
-                "a picture of {width} × {height} pixels has no room for title and colour bar; \
+                "a picture of {width} × {height} pixels has no room for title and colour bars; \
                  give a larger one"
             );
         }
@@ -52,7 +55,7 @@ impl Layout {
             size,
             head,
             side,
-            bar,
+            bars,
         })
     }
 
@@ -73,10 +76,7 @@ impl Layout {
         let mut canvas = Canvas::new(width, height);
         paste(&mut canvas, view, [0.0, self.head]);
         self.title(&mut canvas, drawing)?;
-        if let Some(bar) = &self.bar {
-            let map = beside([0.0, self.head], self.view_size());
-            bar.draw_beside(&mut canvas, &map)?;
-        }
+        draw_bars(&mut canvas, &self.bars, [0.0, self.head], self.view_size())?;
         if drawing.scale_bar {
             scale_bar(&mut canvas, camera, [0.0, self.head], self.view_size())?;
         }
@@ -102,28 +102,34 @@ impl Layout {
     }
 }
 
-/// The colour bar of a drawing, if its values mean something.
-pub fn colour_bar(drawing: &Drawing<'_>) -> Result<Option<ColourBar>> {
-    let Some(colours) = &drawing.colours else {
-        return Ok(None);
-    };
-    let (palette, range) = drawing.palette()?;
-    let axis = Axis::new(&colours.label, &colours.unit, range, Scale::Linear);
-    Ok(Some(ColourBar { axis, palette }))
+/// Width that colour bars of this height take beside a view, pixels.
+pub fn bars_width(bars: &[ColourBar], height: f64) -> Result<f64> {
+    let widths = bars.iter().map(|bar| bar.width(height));
+    widths.sum()
 }
 
-/// The frame beside which the colour bar of a view stands.
-pub fn beside(corner: [f64; 2], size: [u32; 2]) -> Frame {
+/// Draws colour bars to the right of a view of this corner and size, from left to right.
+pub fn draw_bars(
+    canvas: &mut Canvas,
+    bars: &[ColourBar],
+    corner: [f64; 2],
+    size: [u32; 2],
+) -> Result<()> {
     let [width, height] = size.map(f64::from);
     let axis = Axis::new("", "", [0.0, 1.0], Scale::Linear);
-    let bar = (BAR * height).round();
-    Frame {
-        corner: [corner[0], corner[1] + (0.5 * (height - bar)).round()],
-        size: [width, bar],
+    let high = (BAR * height).round();
+    let mut map = Frame {
+        corner: [corner[0], corner[1] + (0.5 * (height - high)).round()],
+        size: [width, high],
         side: 0.0,
         x: axis.clone(),
         y: axis,
+    };
+    for bar in bars {
+        bar.draw_beside(canvas, &map)?;
+        map.size[0] += bar.width(high)?;
     }
+    Ok(())
 }
 
 /// Copies a picture onto the canvas.

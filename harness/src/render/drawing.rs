@@ -1,8 +1,10 @@
 //! What a picture shows.
 
 use super::camera::{Camera, Look};
+use super::fluid_plane::FluidPlane;
 use super::mesh::{Mesh, Vertex};
-use crate::picture::Palette;
+use crate::picture::colour_bar::ColourBar;
+use crate::picture::{Palette, Trace};
 use glam::{DMat3, DVec3};
 use riprap::{Error, Result};
 
@@ -14,9 +16,13 @@ pub struct Drawing<'a> {
     pub meshes: &'a [Mesh],
     /// The bodies.
     pub instances: Vec<Instance>,
-    /// Other surfaces, such as slices through a fluid.
+    /// Planes through a fluid.
+    pub planes: Vec<FluidPlane>,
+    /// Lines along a flow.
+    pub traces: Option<Traces>,
+    /// Other surfaces.
     pub surfaces: Vec<Surface>,
-    /// Lines in space, such as traces of a flow.
+    /// Other lines.
     pub lines: Vec<Line>,
     /// Where it is seen from.
     pub view: View,
@@ -32,7 +38,7 @@ pub struct Drawing<'a> {
     pub title: String,
     /// Time, s, drawn beside the title.
     pub time: Option<f64>,
-    /// What the bodies' values are; without it no colour bar is drawn.
+    /// What the bodies' values are; without it they have no colour bar.
     pub colours: Option<Colours>,
 }
 
@@ -49,6 +55,33 @@ pub struct Instance {
     pub value: Option<f64>,
     /// A body that does not move is drawn in neutral grey, whatever its value.
     pub fixed: bool,
+}
+
+/// Lines along a flow, coloured by its speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traces {
+    /// The lines.
+    pub lines: Vec<Trace>,
+    /// What their colours are.
+    pub colours: Colours,
+}
+
+impl Traces {
+    pub(super) fn bar(&self) -> anyhow::Result<ColourBar> {
+        let Colours { label, unit, range } = &self.colours;
+        let speeds = self.lines.iter().flat_map(|trace| &trace.speeds);
+        ColourBar::fitting(label, unit, *range, speeds.copied(), true)
+    }
+
+    fn check(&self) -> std::result::Result<(), String> {
+        for (index, trace) in self.lines.iter().enumerate() {
+            check_finite(&trace.points).map_err(|message| format!("line {index}: {message}"))?;
+            if trace.points.len() != trace.speeds.len() {
+                return Err(format!("line {index}: give each point one speed"));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Triangles with colours.
@@ -80,7 +113,7 @@ pub struct Line {
 pub enum View {
     /// A camera.
     From(Camera),
-    /// The nearest camera in a direction that sees all bodies.
+    /// The nearest camera in a direction that sees all bodies, planes and lines.
     Framing(Look),
 }
 
@@ -179,6 +212,17 @@ impl Drawing<'_> {
                 })
                 .map_err(|message| Error::scene(format!("surfaces[{index}]"), message))?;
         }
+        for (index, plane) in self.planes.iter().enumerate() {
+            let place = || format!("planes[{index}]");
+            plane
+                .check()
+                .map_err(|message| Error::scene(place(), message))?;
+        }
+        if let Some(traces) = &self.traces {
+            traces
+                .check()
+                .map_err(|message| Error::scene("traces", message))?;
+        }
         for (index, line) in self.lines.iter().enumerate() {
             let place = || format!("lines[{index}]");
             check_finite(&line.ends).map_err(|message| Error::scene(place(), message))?;
@@ -208,7 +252,7 @@ fn check_surface(vertices: &[Vertex], triangles: &[[u32; 3]]) -> std::result::Re
     }
 }
 
-fn check_finite<'a>(
+pub(super) fn check_finite<'a>(
     points: impl IntoIterator<Item = &'a DVec3>,
 ) -> std::result::Result<(), String> {
     match points.into_iter().find(|point| !point.is_finite()) {

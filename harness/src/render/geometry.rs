@@ -5,6 +5,8 @@
 
 use super::drawing::{Drawing, Instance};
 use super::mesh::Vertex;
+use super::scales::Scales;
+use super::strokes::End;
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat3, DVec3};
 use std::ops::Range;
@@ -31,16 +33,6 @@ pub struct Corner {
     position: [f32; 3],
     normal: [i16; 4],
     colour: [u8; 4],
-}
-
-/// A corner of a stroke, as in stroke.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct End {
-    position: [f32; 3],
-    other: [f32; 3],
-    colour: [u8; 4],
-    half_width: [f32; 2],
 }
 
 /// Where a mesh is drawn, and its colour.
@@ -87,17 +79,16 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The geometry of a drawing relative to `target` (m), with the colours that values have and the pixels that a
-    /// metre has at a place.
+    /// The geometry of a drawing relative to `target` (m), with its colours and the pixels that a metre has at a place.
     pub fn new(
         drawing: &Drawing<'_>,
         target: DVec3,
-        value_colour: impl Fn(f64) -> [u8; 3],
+        scales: &Scales,
         pixels_per_metre: impl Fn(DVec3) -> f64,
     ) -> Self {
         let colour = |body: &Instance| match body.value {
             _ if body.fixed => FIXED,
-            Some(value) => value_colour(value),
+            Some(value) => scales.body(value),
             None => STONE,
         };
         let mut geometry = Self {
@@ -178,6 +169,14 @@ impl Geometry {
                 .strokes
                 .stroke(ends, [r, g, b, u8::MAX], half_width);
         }
+        for plane in &drawing.planes {
+            geometry.strokes.border(plane, target);
+        }
+        for trace in drawing.traces.iter().flat_map(|traces| &traces.lines) {
+            geometry
+                .strokes
+                .trace(trace, target, scales, &pixels_per_metre);
+        }
         geometry.solid.close();
         geometry.plain.close();
         geometry.strokes.close();
@@ -212,7 +211,7 @@ impl<V> List<V> {
             .sum()
     }
 
-    fn push(&mut self, vertices: impl Iterator<Item = V>, triangles: &[[u32; 3]]) {
+    pub fn push(&mut self, vertices: impl Iterator<Item = V>, triangles: &[[u32; 3]]) {
         let first = self.vertices.len() as u32;
         self.vertices.extend(vertices);
         let indices = triangles.iter().flatten();
@@ -233,22 +232,6 @@ impl<V> List<V> {
                 placements,
             });
         }
-    }
-}
-
-impl List<End> {
-    /// A stroke between two ends: half of its width in pixels, and the most that it may be in metres.
-    fn stroke(&mut self, ends: [DVec3; 2], colour: [u8; 4], [half, limit]: [f32; 2]) {
-        let [a, b] = ends.map(|end| end.as_vec3().to_array());
-        // Around the quadrilateral; seen from the other end, the sides are exchanged.
-        let corners = [(a, b, half), (a, b, -half), (b, a, half), (b, a, -half)];
-        let corners = corners.map(|(position, other, half)| End {
-            position,
-            other,
-            colour,
-            half_width: [half, limit],
-        });
-        self.push(corners.into_iter(), &[[0, 1, 2], [0, 2, 3]]);
     }
 }
 

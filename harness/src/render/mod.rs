@@ -1,4 +1,4 @@
-//! Pictures of blocks in space, drawn by a device without a window: [`Drawing`] → [`Renderer`] →
+//! Pictures of blocks and of a fluid around them in space, drawn by a device without a window: [`Drawing`] → [`Renderer`] →
 //! [`Picture`], single, as a strip of frames or as an [animation](animate).
 //!
 //! ```no_run
@@ -27,18 +27,25 @@ mod animation;
 mod annotation;
 mod camera;
 mod drawing;
+mod fluid_plane;
 mod geometry;
 mod light;
 mod mesh;
 mod picture;
 mod pipelines;
+mod plane_binding;
 mod renderer;
+mod scales;
 mod strip;
+mod strokes;
+mod submission;
+mod texels;
 mod uniforms;
 
 pub use animation::animate;
 pub use camera::{Camera, Look};
-pub use drawing::{Background, Colours, Drawing, Ground, Instance, Line, Surface, View};
+pub use drawing::{Background, Colours, Drawing, Ground, Instance, Line, Surface, Traces, View};
+pub use fluid_plane::FluidPlane;
 pub use mesh::{Mesh, Vertex};
 pub use picture::Picture;
 pub use pipelines::SHADERS;

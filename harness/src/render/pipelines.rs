@@ -3,7 +3,8 @@
 use riprap::wgpu;
 use std::mem::size_of;
 
-use super::geometry::{Corner, End, Placement};
+use super::geometry::{Corner, Placement};
+use super::strokes::End;
 
 /// Colours are blended and averaged as light, and stored as sRGB.
 pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -20,10 +21,11 @@ macro_rules! with_view {
 }
 
 /// Name and text of each shader.
-pub const SHADERS: [(&str, &str); 5] = [
+pub const SHADERS: [(&str, &str); 6] = [
     ("background", with_view!("background.wgsl")),
     ("ground", with_view!("ground.wgsl")),
     ("body", with_view!("body.wgsl")),
+    ("plane", with_view!("plane.wgsl")),
     ("stroke", with_view!("stroke.wgsl")),
     ("shadow", include_str!("shadow.wgsl")),
 ];
@@ -32,10 +34,12 @@ pub const SHADERS: [(&str, &str); 5] = [
 pub struct Pipelines {
     pub view_layout: wgpu::BindGroupLayout,
     pub light_layout: wgpu::BindGroupLayout,
+    pub plane_layout: wgpu::BindGroupLayout,
     pub background: wgpu::RenderPipeline,
     pub ground: wgpu::RenderPipeline,
     pub depth: wgpu::RenderPipeline,
     pub body: wgpu::RenderPipeline,
+    pub plane: wgpu::RenderPipeline,
     pub stroke: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
 }
@@ -44,8 +48,8 @@ const CORNER: [wgpu::VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Snorm16x4, 2 => Unorm8x4];
 const CORNER_PLACEMENT: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![3 => Float32x4, 4 => Float32x4, 5 => Float32x4, 6 => Unorm8x4];
-const END: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32x2];
+const END: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
+    0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32x2, 8 => Float32];
 const END_PLACEMENT: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Unorm8x4];
 
@@ -56,6 +60,7 @@ impl Pipelines {
             label: Some("light"),
             entries: &[uniform(0, wgpu::ShaderStages::VERTEX, true)],
         });
+        let plane_layout = plane_layout(device);
         let corners = [
             layout::<Corner>(wgpu::VertexStepMode::Vertex, &CORNER),
             layout::<Placement>(wgpu::VertexStepMode::Instance, &CORNER_PLACEMENT),
@@ -66,8 +71,9 @@ impl Pipelines {
         ];
         let make = |name, buffers: &[_], kind| {
             let bound = match kind {
-                Kind::Shadow => &light_layout,
-                _ => &view_layout,
+                Kind::Shadow => &[Some(&light_layout)][..],
+                Kind::Plane => &[Some(&view_layout), Some(&plane_layout)],
+                _ => &[Some(&view_layout)],
             };
             pipeline(device, name, bound, buffers, kind)
         };
@@ -76,10 +82,12 @@ impl Pipelines {
             ground: make("ground", &[], Kind::Ground),
             depth: make("body", &corners, Kind::Depth),
             body: make("body", &corners, Kind::Shaded),
+            plane: make("plane", &[], Kind::Plane),
             stroke: make("stroke", &ends, Kind::Stroke),
             shadow: make("shadow", &corners, Kind::Shadow),
             view_layout,
             light_layout,
+            plane_layout,
         }
     }
 }
@@ -92,6 +100,8 @@ enum Kind {
     Depth,
     /// Over the depth that it has left.
     Shaded,
+    /// Covers samples by its opacity.
+    Plane,
     Stroke,
     Shadow,
 }
@@ -99,7 +109,7 @@ enum Kind {
 fn pipeline(
     device: &wgpu::Device,
     name: &str,
-    bound: &wgpu::BindGroupLayout,
+    bound: &[Option<&wgpu::BindGroupLayout>],
     buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
     kind: Kind,
 ) -> wgpu::RenderPipeline {
@@ -110,7 +120,7 @@ fn pipeline(
     });
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(name),
-        bind_group_layouts: &[Some(bound)],
+        bind_group_layouts: bound,
         immediate_size: 0,
     });
     let fragment = match kind {
@@ -122,6 +132,8 @@ fn pipeline(
         blend: (kind == Kind::Ground).then_some(wgpu::BlendState::ALPHA_BLENDING),
         write_mask: match kind {
             Kind::Depth => wgpu::ColorWrites::empty(),
+            // Opacity counts the samples alone.
+            Kind::Plane => wgpu::ColorWrites::COLOR,
             _ => wgpu::ColorWrites::ALL,
         },
     };
@@ -129,7 +141,7 @@ fn pipeline(
         Kind::Background => (wgpu::CompareFunction::Always, false),
         // Drawn last, over what is farther away.
         Kind::Ground => (wgpu::CompareFunction::Greater, false),
-        Kind::Depth | Kind::Stroke => (wgpu::CompareFunction::Greater, true),
+        Kind::Depth | Kind::Plane | Kind::Stroke => (wgpu::CompareFunction::Greater, true),
         Kind::Shaded => (wgpu::CompareFunction::Equal, false),
         Kind::Shadow => (wgpu::CompareFunction::Less, true),
     };
@@ -144,7 +156,7 @@ fn pipeline(
         },
         primitive: wgpu::PrimitiveState {
             topology: match kind {
-                Kind::Ground => wgpu::PrimitiveTopology::TriangleStrip,
+                Kind::Ground | Kind::Plane => wgpu::PrimitiveTopology::TriangleStrip,
                 _ => wgpu::PrimitiveTopology::TriangleList,
             },
             ..Default::default()
@@ -158,6 +170,7 @@ fn pipeline(
         }),
         multisample: wgpu::MultisampleState {
             count: if kind == Kind::Shadow { 1 } else { SAMPLES },
+            alpha_to_coverage_enabled: kind == Kind::Plane,
             ..Default::default()
         },
         fragment: (kind != Kind::Shadow).then_some(wgpu::FragmentState {
@@ -197,6 +210,29 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
                 3,
                 wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
             ),
+        ],
+    })
+}
+
+fn plane_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    };
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("plane"),
+        entries: &[
+            uniform(0, wgpu::ShaderStages::VERTEX_FRAGMENT, false),
+            entry(1, texture),
+            entry(2, sampler),
         ],
     })
 }

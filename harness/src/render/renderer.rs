@@ -3,13 +3,14 @@
 use super::annotation::Layout;
 use super::camera::{Camera, Look};
 use super::drawing::{Drawing, View};
-use super::geometry::{Geometry, List};
-use super::light::{Light, Lights, MOST};
+use super::geometry::Geometry;
+use super::light::Lights;
 use super::picture::Picture;
-use super::pipelines::{COLOUR, DEPTH, Pipelines, SAMPLES};
+use super::pipelines::{DEPTH, Pipelines};
+use super::scales::Scales;
+use super::submission::texture;
 use super::uniforms::Uniforms;
 use crate::gpu;
-use bytemuck::Pod;
 use glam::DVec3;
 use riprap::readback::Readback;
 use riprap::{Error, Result, wgpu};
@@ -26,12 +27,13 @@ const FEW_VERTICES: usize = 64;
 
 /// Draws pictures of one size.
 pub struct Renderer {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     size: [u32; 2],
-    pipelines: Pipelines,
-    atlas: wgpu::Texture,
-    sampler: wgpu::Sampler,
+    pub(super) pipelines: Pipelines,
+    /// Shadow maps.
+    pub(super) atlas: wgpu::Texture,
+    pub(super) sampler: wgpu::Sampler,
 }
 
 impl Renderer {
@@ -81,7 +83,7 @@ impl Renderer {
         layout.finish(drawing, &camera, &view)
     }
 
-    /// The camera that sees the bodies of all `drawings`, such as the frames of an animation.
+    /// The camera that sees everything in all `drawings`, such as the frames of an animation.
     ///
     /// # Errors
     /// Those of [`Self::render`].
@@ -112,16 +114,12 @@ impl Renderer {
             }
         };
         let axes = camera.axes()?;
-        let (palette, [low, high]) = drawing.palette()?;
-        let value_colour = |value| {
-            let colour = palette.colour((value - low) / (high - low));
-            [colour.0, colour.1, colour.2]
-        };
+        let scales = Scales::of(drawing)?;
         let pixels_per_metre = |place: DVec3| {
             let depth = axes.forward.dot(place - camera.from).abs();
             camera.pixels_per_metre(size[1].into()) * camera.distance() / depth
         };
-        let geometry = Geometry::new(drawing, camera.to, value_colour, pixels_per_metre);
+        let geometry = Geometry::new(drawing, camera.to, &scales, pixels_per_metre);
         let zenith = camera.up.normalize();
         let level = axes.right.cross(zenith);
         // Over the spectator's left shoulder.
@@ -134,7 +132,8 @@ impl Renderer {
         let lights = Lights::new(sun, zenith, bounds, triangles, on_cpu, texels);
         let uniforms = Uniforms::new(drawing, &camera, &axes, size, bounds, sun, &lights);
         let (buffer, row) = guarded(&self.device, "a picture", || {
-            self.submit(drawing, &geometry, &lights, &uniforms, size)
+            let planes = self.bind_planes(drawing, &scales, camera.to)?;
+            self.submit(drawing, &geometry, &lights, &uniforms, &planes, size)
         })??;
         let count = buffer.size() as usize;
         let mut readback = Readback::default();
@@ -151,207 +150,12 @@ impl Renderer {
         };
         Ok((camera, picture))
     }
-
-    /// Draws, and returns the buffer that will hold the pixels and the bytes of a row in it.
-    fn submit(
-        &self,
-        drawing: &Drawing<'_>,
-        geometry: &Geometry,
-        lights: &Lights,
-        uniforms: &Uniforms,
-        size: [u32; 2],
-    ) -> Result<(wgpu::Buffer, u32)> {
-        let device = &self.device;
-        let placements = self.buffer(&geometry.placements, wgpu::BufferUsages::VERTEX)?;
-        let solid = self.upload(&geometry.solid)?;
-        let plain = self.upload(&geometry.plain)?;
-        let strokes = self.upload(&geometry.strokes)?;
-        let mut encoder = device.create_command_encoder(&Default::default());
-        if let Some(solid) = &solid {
-            self.shadows(&mut encoder, lights, |pass| {
-                pass.set_vertex_buffer(1, placements.slice(..));
-                solid.draw(pass);
-            })?;
-        }
-        let bound = self.bind(uniforms, lights)?;
-        let colour = texture(device, "colour", size, COLOUR, SAMPLES);
-        let depth = texture(device, "depth", size, DEPTH, SAMPLES);
-        let resolved = texture(device, "picture", size, COLOUR, 1);
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        let (colour, depth, resolve) = (view(&colour), view(&depth), view(&resolved));
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("picture"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &colour,
-                depth_slice: None,
-                resolve_target: Some(&resolve),
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
-                    store: wgpu::StoreOp::Discard,
-                },
-            })],
-            depth_stencil_attachment: Some(depth_attachment(&depth, 0.0, wgpu::StoreOp::Discard)),
-            ..Default::default()
-        });
-        pass.set_bind_group(0, &bound, &[]);
-        pass.set_pipeline(&self.pipelines.background);
-        pass.draw(0..3, 0..1);
-        pass.set_vertex_buffer(1, placements.slice(..));
-        // Depth first, so that light is computed once a pixel.
-        for pipeline in [&self.pipelines.depth, &self.pipelines.body] {
-            pass.set_pipeline(pipeline);
-            for list in solid.iter().chain(&plain) {
-                list.draw(&mut pass);
-            }
-        }
-        pass.set_pipeline(&self.pipelines.stroke);
-        if let Some(list) = &strokes {
-            list.draw(&mut pass);
-        }
-        if drawing.ground.is_some() && uniforms.above_ground() {
-            pass.set_pipeline(&self.pipelines.ground);
-            pass.draw(0..4, 0..1);
-        }
-        drop(pass);
-        let row = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let pixels = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("pixels"),
-            size: u64::from(row) * u64::from(size[1]),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        encoder.copy_texture_to_buffer(
-            resolved.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &pixels,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(row),
-                    rows_per_image: Some(size[1]),
-                },
-            },
-            resolved.size(),
-        );
-        self.queue.submit([encoder.finish()]);
-        Ok((pixels, row))
-    }
-
-    /// Draws what each light sees.
-    fn shadows(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        lights: &Lights,
-        draw: impl Fn(&mut wgpu::RenderPass<'_>),
-    ) -> Result<()> {
-        let stride = self.device.limits().min_uniform_buffer_offset_alignment as usize;
-        let stride = size_of::<Light>().next_multiple_of(stride);
-        let mut bytes = vec![0_u8; stride * lights.lights.len()];
-        for (slot, light) in bytes.chunks_mut(stride).zip(&lights.lights) {
-            slot[..size_of::<Light>()].copy_from_slice(bytemuck::bytes_of(light));
-        }
-        let table = self.buffer(&bytes, wgpu::BufferUsages::UNIFORM)?;
-        let bound = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("light"),
-            layout: &self.pipelines.light_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &table,
-                    offset: 0,
-                    size: wgpu::BufferSize::new(size_of::<Light>() as u64),
-                }),
-            }],
-        });
-        let atlas = self.atlas.create_view(&Default::default());
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadows"),
-            depth_stencil_attachment: Some(depth_attachment(&atlas, 1.0, wgpu::StoreOp::Store)),
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipelines.shadow);
-        for (index, tile) in lights.tiles.iter().enumerate() {
-            let [x, y, size] = tile.map(|texels| texels as f32);
-            pass.set_viewport(x, y, size, size, 0.0, 1.0);
-            pass.set_scissor_rect(tile[0], tile[1], tile[2], tile[2]);
-            pass.set_bind_group(0, &bound, &[(index * stride) as u32]);
-            draw(&mut pass);
-        }
-        Ok(())
-    }
-
-    fn bind(&self, uniforms: &Uniforms, lights: &Lights) -> Result<wgpu::BindGroup> {
-        let view = self.buffer(&[*uniforms], wgpu::BufferUsages::UNIFORM)?;
-        let mut table = lights.lights.clone();
-        table.resize(MOST, bytemuck::Zeroable::zeroed());
-        let table = self.buffer(&table, wgpu::BufferUsages::UNIFORM)?;
-        let atlas = self.atlas.create_view(&Default::default());
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("view"),
-            layout: &self.pipelines.view_layout,
-            entries: &[
-                entry(0, view.as_entire_binding()),
-                entry(1, table.as_entire_binding()),
-                entry(2, wgpu::BindingResource::TextureView(&atlas)),
-                entry(3, wgpu::BindingResource::Sampler(&self.sampler)),
-            ],
-        }))
-    }
-
-    fn upload<'a, V: Pod>(&self, list: &'a List<V>) -> Result<Option<Uploaded<'a, V>>> {
-        if list.batches.is_empty() {
-            return Ok(None);
-        }
-        Ok(Some(Uploaded {
-            vertices: self.buffer(&list.vertices, wgpu::BufferUsages::VERTEX)?,
-            indices: self.buffer(&list.indices, wgpu::BufferUsages::INDEX)?,
-            list,
-        }))
-    }
-
-    fn buffer<T: Pod>(&self, values: &[T], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer> {
-        let bytes: &[u8] = bytemuck::cast_slice(values);
-        let most = self.device.limits().max_buffer_size;
-        if bytes.len() as u64 > most {
-            return Err(Error::Limit {
-                name: "bytes of a picture's shapes".into(),
-                wants: bytes.len() as u64,
-                has: most,
-                remedy: "draw fewer blocks, or blocks that share their meshes".into(),
-            });
-        }
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("picture"),
-            size: bytes.len() as u64,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        self.queue.write_buffer(&buffer, 0, bytes);
-        Ok(buffer)
-    }
 }
 
-/// A list on the device.
-struct Uploaded<'a, V> {
-    vertices: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    list: &'a List<V>,
-}
-
-impl<V> Uploaded<'_, V> {
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_vertex_buffer(0, self.vertices.slice(..));
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for batch in &self.list.batches {
-            pass.draw_indexed(batch.indices.clone(), 0, batch.placements.clone());
-        }
-    }
-}
-
-/// Balls that hold all bodies.
+/// Balls that hold all bodies, planes and lines.
 fn balls<'a>(drawing: &'a Drawing<'_>) -> impl Iterator<Item = (DVec3, f64)> + 'a {
     let radii: Vec<f64> = drawing.meshes.iter().map(|mesh| mesh.radius()).collect();
-    drawing.instances.iter().flat_map(move |body| {
+    let bodies = drawing.instances.iter().flat_map(move |body| {
         let vertices = &drawing.meshes[body.mesh].vertices;
         let stretch = [0, 1, 2].map(|axis| body.deformation.col(axis).length());
         let radius = radii[body.mesh] * stretch.into_iter().fold(0.0, f64::max);
@@ -360,7 +164,12 @@ fn balls<'a>(drawing: &'a Drawing<'_>) -> impl Iterator<Item = (DVec3, f64)> + '
         let each = vertices.iter().take(if few { vertices.len() } else { 0 });
         let each = each.map(|v| (body.centre + body.deformation * v.position, 0.0));
         whole.into_iter().chain(each)
-    })
+    });
+    let corners = drawing.planes.iter().flat_map(|plane| plane.corners());
+    let traces = drawing.traces.iter().flat_map(|traces| &traces.lines);
+    let points = traces.flat_map(|trace| trace.points.iter().copied());
+    let ends = drawing.lines.iter().flat_map(|line| line.ends);
+    bodies.chain(corners.chain(points).chain(ends).map(|point| (point, 0.0)))
 }
 
 /// What `make` makes, unless the device refuses.
@@ -372,48 +181,5 @@ fn guarded<T>(device: &wgpu::Device, what: &str, make: impl FnOnce() -> T) -> Re
     match gpu::drive(device, PATIENCE, what, errors)? {
         Some(error) => Err(Error::Device(format!("{what}: {error}"))),
         None => Ok(made),
-    }
-}
-
-fn texture(
-    device: &wgpu::Device,
-    label: &str,
-    [width, height]: [u32; 2],
-    format: wgpu::TextureFormat,
-    sample_count: u32,
-) -> wgpu::Texture {
-    let also = match (format, sample_count) {
-        (DEPTH, 1) => wgpu::TextureUsages::TEXTURE_BINDING,
-        (_, 1) => wgpu::TextureUsages::COPY_SRC,
-        _ => wgpu::TextureUsages::empty(),
-    };
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | also,
-        view_formats: &[],
-    })
-}
-
-fn depth_attachment(
-    view: &wgpu::TextureView,
-    clear: f32,
-    store: wgpu::StoreOp,
-) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations {
-            load: wgpu::LoadOp::Clear(clear),
-            store,
-        }),
-        stencil_ops: None,
     }
 }

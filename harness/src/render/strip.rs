@@ -1,9 +1,10 @@
 //! Frames side by side.
 
-use super::annotation::{beside, colour_bar, paste, picture, scale_bar, time_stamp};
+use super::annotation::{BAR, bars_width, draw_bars, paste, picture, scale_bar, time_stamp};
 use super::drawing::Drawing;
 use super::picture::Picture;
 use super::renderer::Renderer;
+use super::scales::Scales;
 use crate::picture::canvas::{Anchor, Canvas};
 use crate::picture::frame::{INK, TEXT, TITLE, fitting};
 use anyhow::{Result, bail};
@@ -13,7 +14,7 @@ const GAP: f64 = 12.0;
 
 impl Renderer {
     /// Drawings as the frames of one picture, `columns` in a row, each of the renderer's size with its
-    /// time above; title, colour bar and scale bar are those of the first.
+    /// time above; title, colour bars and scale bar are those of the first.
     ///
     /// # Errors
     /// Those of [`Self::render`]; if there is no drawing or no column; if the drawings' colours mean
@@ -22,9 +23,10 @@ impl Renderer {
         let Some(first) = drawings.first().filter(|_| columns > 0) else {
             bail!("a strip of no frames or no columns; give one at least");
         };
-        let colours = first.palette()?;
+        let scales = Scales::of(first)?;
+        let bars: Vec<_> = scales.bars().into_iter().cloned().collect();
         for (index, drawing) in drawings.iter().enumerate() {
-            if first.colours.is_some() && drawing.palette()? != colours {
+            if Scales::of(drawing)?.bars() != scales.bars() {
                 bail!(
                     "frame {index} has other colours than the first: give all of them the same \
                      colours.range"
@@ -44,11 +46,9 @@ impl Renderer {
         let width = columns as f64 * (frame_width + GAP) - GAP;
         let row = label + frame_height + GAP;
         let height = rows as f64 * row - GAP;
-        let bar = colour_bar(first)?;
-        let map = beside([0.0, head], [width as u32, height as u32]);
-        let side = match &bar {
-            Some(bar) => (bar.width(map.size[1])? + GAP).ceil(),
-            None => 0.0,
+        let side = match bars.is_empty() {
+            true => 0.0,
+            false => (bars_width(&bars, BAR * height)? + GAP).ceil(),
         };
         let whole = [(width + side) as u32, (head + height) as u32];
         let mut canvas = Canvas::new(whole[0], whole[1]);
@@ -70,9 +70,12 @@ impl Renderer {
                 scale_bar(&mut canvas, &camera, [left, top + label], size)?;
             }
         }
-        if let Some(bar) = &bar {
-            bar.draw_beside(&mut canvas, &map)?;
-        }
+        draw_bars(
+            &mut canvas,
+            &bars,
+            [0.0, head],
+            [width as u32, height as u32],
+        )?;
         Ok(picture(&canvas, whole))
     }
 }

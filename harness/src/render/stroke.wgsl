@@ -12,16 +12,26 @@ struct End {
     @location(5) y: vec4f,
     @location(6) z: vec4f,
     @location(7) tint: vec4f,
+    // Part of the width that has the colour, negative at the second end; the rest, at both sides, is dark.
+    @location(8) core: f32,
 }
 
 struct Stroke {
     @builtin(position) clip: vec4f,
     @location(0) colour: vec4f,
+    // −1 at one side to 1 at the other.
+    @location(1) across: f32,
+    @location(2) @interpolate(flat) core: f32,
 }
+
+// How dark a rim is.
+const RIM = 0.12;
 
 // How far a line stands before the surface it lies on, in halves of its width: a surface that falls
 // away from the eye by up to atan(3) does not hide half of it.
 const LIFT = 3.0;
+// The most that it stands before, pixels: an arrow head must not show before what hides its line.
+const MOST_LIFT = 7.5;
 
 @vertex
 fn stroke_vertex(in: End) -> Stroke {
@@ -32,7 +42,7 @@ fn stroke_vertex(in: End) -> Stroke {
     var b = seen(vec3f(dot(in.x, other), dot(in.y, other), dot(in.z, other)));
     if (max(a.z, b.z) <= near) {
         // Behind the eye: outside the picture.
-        return Stroke(vec4f(0.0, 0.0, 2.0, 1.0), vec4f(0.0));
+        return Stroke(vec4f(0.0, 0.0, 2.0, 1.0), vec4f(0.0), 0.0, 1.0);
     }
     if (a.z < near) {
         a = mix(a, b, (near - a.z) / (b.z - a.z));
@@ -47,11 +57,18 @@ fn stroke_vertex(in: End) -> Stroke {
     let side = sign(in.half_width.x) * half_width * vec2f(-direction.y, direction.x);
     // Half a width longer, so that lines that meet leave no notch.
     let place = (at + side - 0.5 * half_width * direction) / (0.5 * view.size.xy);
-    let lifted = max(a.z * (1.0 - LIFT * half_width / view.eye.w), near);
-    return Stroke(vec4f(place * a.z, near * a.z / lifted, a.z), in.colour * in.tint);
+    let lift = min(LIFT * half_width, MOST_LIFT) / view.eye.w;
+    let lifted = max(a.z * (1.0 - lift), near);
+    let clip = vec4f(place * a.z, near * a.z / lifted, a.z);
+    // Each end counts its sides with its back to the other one.
+    return Stroke(clip, in.colour * in.tint, sign(in.half_width.x * in.core), abs(in.core));
 }
 
 @fragment
 fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
-    return vec4f(linear_of_srgb(in.colour.rgb), 1.0);
+    let colour = linear_of_srgb(in.colour.rgb);
+    // Soft within a pixel.
+    let pixel = max(fwidth(in.across), 1e-6);
+    let rim = clamp((abs(in.across) - in.core) / pixel + 0.5, 0.0, 1.0);
+    return vec4f(mix(colour, RIM * colour, select(rim, 0.0, in.core >= 1.0)), 1.0);
 }

@@ -25,6 +25,9 @@ pub struct Uniforms {
     below: [f32; 4],
 }
 
+/// Depth of the near plane, in distances to the camera's target: what is nearer is not seen. A float that runs to zero
+/// at infinity tells depths apart as well behind a near one as behind a far one.
+const NEAR: f64 = 1e-3;
 /// Cells of the ground's grid across the bodies, about.
 const CELLS: f64 = 8.0;
 
@@ -56,13 +59,7 @@ impl Uniforms {
         let ground_middle = middle + (ground - middle.dot(zenith)) * zenith;
         let grid = Grid::new(zenith, grid_spacing(radius));
         let faded = 2.4 * radius;
-        let depth = axes.forward.dot(middle - eye) - radius;
-        let ground_depth = axes.forward.dot(ground_middle - eye) - faded * 2.0_f64.sqrt();
-        let near = match drawing.ground {
-            Some(_) => depth.min(ground_depth),
-            None => depth,
-        };
-        let near = (0.5 * near).max(1e-3 * camera.distance());
+        let near = NEAR * camera.distance();
         let (above, below) = match drawing.background {
             Background::White => ([1.0; 3], [1.0; 3]),
             Background::Sky => ([0.36, 0.55, 0.82], [0.93, 0.95, 0.98]),

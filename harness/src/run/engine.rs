@@ -1,7 +1,8 @@
-//! What a journey asks of whatever moves: a fluid, blocks, or one day both.
+//! What a journey asks of whatever moves: a fluid, blocks, or both.
 
 use super::{
     recorder::{Notes, Recorder},
+    rock::Rock,
     summary::Summary,
 };
 use anyhow::Result;
@@ -24,6 +25,9 @@ pub trait Engine: Sized + 'static {
 
     /// Simulated time, s.
     fn time(&self) -> f64;
+
+    /// Its blocks as they are now, if it has any.
+    fn rock(&self) -> Option<Rock<'_>>;
 
     /// Whether its state is worth writing after steps that have left the range of the method.
     fn is_good(&self) -> bool;

@@ -13,11 +13,15 @@ mod history;
 mod journey;
 mod progress;
 mod recorder;
-mod rocks;
+mod rock;
 mod schedule;
+mod slice_field;
+mod slices;
 mod summary;
+mod views;
 
-pub use rocks::Rocks;
+pub use flow::Coupling;
+pub use rock::Rocks;
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 
@@ -63,13 +67,10 @@ pub struct Args {
 /// context of [`Unfinished`].
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
-    match (scene.has_fluid(), scene.has_blocks()) {
-        (true, false) => travel(Flow::open(&scene, args.adapter.as_deref())?, args, stop),
-        // One that has both is refused there.
-        _ => {
-            let engine = Dry::open(&scene, &args.scene, args.adapter.as_deref())?;
-            travel(engine, args, stop)
-        }
+    let (file, adapter) = (&args.scene, args.adapter.as_deref());
+    match scene.has_fluid() {
+        true => travel(Flow::open(&scene, file, adapter)?, args, stop),
+        false => travel(Dry::open(&scene, file, adapter)?, args, stop),
     }
 }
 

@@ -27,8 +27,10 @@ pub struct Notes {
     pub warnings: Vec<String>,
     /// The last checkpoint with its step.
     pub checkpoint: Option<(u64, PathBuf)>,
-    /// Largest speed seen, m/s.
+    /// Largest speed of the fluid that was seen, m/s.
     pub max_speed: f64,
+    /// Largest speed of a block's centroid that was seen, m/s.
+    pub block_speed: f64,
 }
 
 impl Notes {

@@ -1,7 +1,6 @@
 //! What a run was, for people and for programs: `summary.json`.
 
-pub use super::rocks::Rocks;
-use super::{progress::clock, recorder::Notes};
+use super::{flow::Coupling, progress::clock, recorder::Notes, rock::Rocks};
 use riprap::output::replace;
 use serde::Serialize;
 use std::{
@@ -64,7 +63,17 @@ pub struct Summary {
     pub checkpoint: Option<PathBuf>,
     /// Its step.
     pub checkpoint_step: Option<u64>,
-    /// What blocks did; only in runs of blocks, whose JSON has none of the fluid's numbers.
+    /// Largest y⁺ half a cell from a wall or solid at the end, if there is one: see
+    /// [`riprap::simulation::WallUnits`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_plus_walls: Option<f64>,
+    /// Largest y⁺ half a cell from a block at the end, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_plus_blocks: Option<f64>,
+    /// How blocks and fluid met, where there are both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
+    /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
 }
@@ -113,10 +122,14 @@ impl Summary {
     /// None that is known of.
     pub fn json(&self) -> anyhow::Result<serde_json::Value> {
         let mut json = serde_json::to_value(self)?;
-        if let (Some(_), Some(keys)) = (&self.rocks, json.as_object_mut()) {
+        if let (false, Some(keys)) = (self.has_fluid(), json.as_object_mut()) {
             keys.retain(|key, _| !OF_FLUID.contains(&key.as_str()));
         }
         Ok(json)
+    }
+
+    fn has_fluid(&self) -> bool {
+        self.fluid_cells > 0
     }
 
     /// What is on disk, in a sentence.
@@ -153,9 +166,7 @@ impl fmt::Display for Summary {
             self.time,
             clock(self.seconds)
         )?;
-        if let Some(rocks) = &self.rocks {
-            writeln!(f, "{rocks}")?;
-        } else {
+        if self.has_fluid() {
             writeln!(
                 f,
                 "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
@@ -164,6 +175,17 @@ impl fmt::Display for Summary {
                 self.bandwidth / 1e9,
                 self.max_mach
             )?;
+        }
+        for (what, y_plus) in [("walls", self.y_plus_walls), ("blocks", self.y_plus_blocks)] {
+            if let Some(y_plus) = y_plus {
+                writeln!(f, "  largest y⁺ half a cell from {what}: {y_plus:.2}")?;
+            }
+        }
+        if let Some(coupling) = &self.coupling {
+            writeln!(f, "{coupling}")?;
+        }
+        if let Some(rocks) = &self.rocks {
+            writeln!(f, "{rocks}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

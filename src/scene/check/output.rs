@@ -2,7 +2,7 @@
 
 use super::rules::{distinct, finite, interval, names, refuse};
 use crate::error::Result;
-use crate::scene::{EddyViscosity, Field, Scene, Slice, SliceField};
+use crate::scene::{Axis, EddyViscosity, Field, Scene, Slice, SliceField};
 
 impl Scene {
     pub(super) fn check_output(&self) -> Result<()> {
@@ -38,11 +38,20 @@ impl Scene {
 
     fn check_slice(&self, key: &str, slice: &Slice) -> Result<()> {
         interval(format!("{key}.every"), slice.every)?;
-        self.check_eddy(
-            &format!("{key}.field"),
-            slice.field == SliceField::EddyViscosity,
-        )?;
-        if let Some(range) = slice.range {
+        self.check_plane(key, slice.axis, slice.position, slice.field, slice.range)
+    }
+
+    /// A plane of the domain can be shown.
+    pub(super) fn check_plane(
+        &self,
+        key: &str,
+        axis: Axis,
+        position: Option<f64>,
+        field: SliceField,
+        range: Option<[f64; 2]>,
+    ) -> Result<()> {
+        self.check_eddy(&format!("{key}.field"), field == SliceField::EddyViscosity)?;
+        if let Some(range) = range {
             finite(format!("{key}.range"), &range)?;
             if range[0] >= range[1] {
                 return refuse(
@@ -55,8 +64,8 @@ impl Scene {
             }
         }
         let mut point = self.domain.middle();
-        if let Some(position) = slice.position {
-            point[slice.axis.index()] = position;
+        if let Some(position) = position {
+            point[axis.index()] = position;
         }
         super::rules::inside(format!("{key}.position"), &self.domain, point)
     }

@@ -2,7 +2,7 @@
 
 use super::rules::{direction, finite, interval, names, positive, refuse};
 use crate::error::Result;
-use crate::scene::{Scene, View};
+use crate::scene::{Scene, SliceField, View};
 
 /// Largest edge of a picture: what every adapter can draw on.
 const LARGEST: u32 = 8192;
@@ -11,12 +11,6 @@ const SMALLEST: u32 = 64;
 
 impl Scene {
     pub(super) fn check_views(&self) -> Result<()> {
-        if !self.views.is_empty() && !self.has_blocks() {
-            return refuse(
-                "views",
-                "show blocks, and there are none; remove them, or add [[blocks]]",
-            );
-        }
         // Slices come first: views may not take their files.
         let slices = self.output.slices.iter().map(|slice| slice.name.as_str());
         let views = self.views.iter().map(|view| view.name.as_str());
@@ -33,6 +27,7 @@ impl Scene {
     }
 
     fn check_view(&self, key: &str, view: &View) -> Result<()> {
+        self.check_shown(key, view)?;
         let ahead = match (view.from, view.to) {
             (Some(from), Some(to)) => {
                 finite(format!("{key}.from"), &from)?;
@@ -103,6 +98,46 @@ impl Scene {
             finite(format!("{key}.ground"), &[ground])?;
         }
         interval(format!("{key}.every"), view.every)
+    }
+
+    /// There is something to be seen.
+    fn check_shown(&self, key: &str, view: &View) -> Result<()> {
+        if !self.has_blocks() && !view.shows_fluid() {
+            return refuse(
+                key,
+                "shows blocks, and there are none; remove it, give it `slices` or `traces` of the \
+                 fluid, or add [[blocks]]",
+            );
+        }
+        if !self.has_fluid() && view.shows_fluid() {
+            let asked = if view.traces > 0 { "traces" } else { "slices" };
+            return refuse(
+                format!("{key}.{asked}"),
+                "show the fluid, and there is none; remove them or add [fluid]",
+            );
+        }
+        if view.traces > View::MOST_TRACES {
+            return refuse(
+                format!("{key}.traces"),
+                format!(
+                    "are {} lines, of which most would be hidden; give 0 to {}, such as 60",
+                    view.traces,
+                    View::MOST_TRACES
+                ),
+            );
+        }
+        for (index, slice) in view.slices.iter().enumerate() {
+            let key = format!("{key}.slices[{index}]");
+            if slice.field == SliceField::Solid {
+                return refuse(
+                    format!("{key}.field"),
+                    "is `solid`, and slices in a view leave solid cells out; give another field, \
+                     such as \"speed\", or use output.slices",
+                );
+            }
+            self.check_plane(&key, slice.axis, slice.position, slice.field, slice.range)?;
+        }
+        Ok(())
     }
 
     /// The direction that is up in the picture of `view`: its own, or against gravity, or z.

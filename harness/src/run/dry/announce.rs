@@ -2,26 +2,16 @@
 
 use super::{Dry, Engine};
 use crate::search::left_out;
-use riprap::bodies::Motion;
 use std::path::Path;
 
 /// Tells, on standard error, what will run on what.
 pub fn announce(engine: &Dry, folder: &Path, last: u64) {
     let simulation = &engine.simulation;
-    let (setup, blocks) = (simulation.setup(), simulation.blocks());
-    let parts: usize = setup.blocks.iter().map(|b| b.shape.parts().len()).sum();
-    let count = |wanted: fn(&Motion) -> bool| {
-        let motions = setup.blocks.iter().map(|block| &block.motion);
-        motions.filter(|motion| wanted(motion)).count()
-    };
+    let blocks = simulation.blocks();
     eprintln!("{}", simulation.scene().title);
-    eprintln!(
-        "  blocks    {}: {} free, {} driven, {} fixed; {parts} parts",
-        blocks.len(),
-        count(|motion| *motion == Motion::Free),
-        count(|motion| matches!(motion, Motion::Driven { .. })),
-        count(|motion| *motion == Motion::Fixed),
-    );
+    if let Some(rock) = engine.rock() {
+        eprintln!("  blocks    {}", rock.counted());
+    }
     for line in left_out(simulation.left_out()) {
         eprintln!("  left out  {line}");
     }

@@ -1,28 +1,24 @@
 //! Blocks alone.
 
 mod announce;
-mod block_files;
-mod block_probe;
-mod stage;
-mod views;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    summary::{Rocks, Summary},
+    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    summary::Summary,
+    views::{Shown, Views},
 };
 use crate::search::Finder;
-use block_files::BlockFiles;
-use block_probe::BlockProbe;
 use riprap::{
-    Result,
-    bodies::Ledger,
+    Error, Result,
+    bodies::{Block, Ledger, Pose},
     checkpoint::BlockCheckpoint,
-    scene::{Quantity, Scene},
+    output::Array,
+    scene::{Field, ProbePlace, Quantity, Scene},
     simulation,
 };
 use std::{path::Path, time::Duration};
-use views::Views;
 
 /// A scene of blocks alone.
 pub struct Dry {
@@ -44,57 +40,6 @@ impl Dry {
             adapter: adapter.map(Into::into),
         })
     }
-
-    /// Blocks that move or might.
-    pub fn awake(&self) -> usize {
-        let blocks = self.simulation.blocks();
-        let all = blocks.asleep().enumerate();
-        all.filter(|(block, asleep)| !asleep && blocks.moves(*block))
-            .count()
-    }
-
-    /// What the balance of energies has lost or gained since the start, as a part of what has been
-    /// turned over: of the kinetic energy now, the fall of the potential one, and all that was taken.
-    pub fn energy_error(&self, now: &Ledger) -> f64 {
-        let change = now.balance() - self.start.balance();
-        let turned = now.kinetic
-            + self.start.kinetic
-            + (now.potential - self.start.potential).abs()
-            + now.elastic.abs()
-            + now.friction
-            + now.dashpot
-            + now.mass_damping
-            + now.driven.abs()
-            + now.loads.abs();
-        if turned > 0.0 { change / turned } else { 0.0 }
-    }
-
-    fn value(&self, quantity: Quantity, ledger: &Ledger) -> f64 {
-        let blocks = self.simulation.blocks();
-        match quantity {
-            Quantity::BlockKineticEnergy => ledger.kinetic,
-            Quantity::BlockPotentialEnergy => ledger.potential - self.start.potential,
-            Quantity::ContactEnergy => ledger.elastic,
-            Quantity::FrictionWork => ledger.friction,
-            Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.lost,
-            Quantity::OutsideWork => ledger.driven + ledger.loads,
-            Quantity::EnergyError => self.energy_error(ledger),
-            Quantity::Contacts => blocks.contacts().count() as f64,
-            Quantity::AwakeBlocks => self.awake() as f64,
-            Quantity::BlockMaxSpeed => self.max_speed(),
-            // A scene without fluid cannot ask for the fluid's.
-            _ => f64::NAN,
-        }
-    }
-
-    /// Largest speed of a centroid, m/s.
-    pub fn max_speed(&self) -> f64 {
-        let poses = self.simulation.blocks().poses();
-        poses
-            .iter()
-            .map(|pose| pose.velocity.length())
-            .fold(0.0, f64::max)
-    }
 }
 
 impl Engine for Dry {
@@ -112,6 +57,19 @@ impl Engine for Dry {
 
     fn time(&self) -> f64 {
         self.simulation.time()
+    }
+
+    fn rock(&self) -> Option<Rock<'_>> {
+        let simulation = &self.simulation;
+        Some(Rock {
+            step: simulation.step(),
+            time: simulation.time(),
+            setup: simulation.setup(),
+            blocks: simulation.blocks(),
+            felt: &[],
+            shown: simulation.blocks().len(),
+            start: &self.start,
+        })
     }
 
     /// It goes back to the last good step.
@@ -132,20 +90,21 @@ impl Engine for Dry {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        notes.max_speed = notes.max_speed.max(self.max_speed());
-        let ledger = self.simulation.blocks().ledger();
-        let values = quantities.iter().map(|q| self.value(*q, &ledger));
-        Ok(values.collect())
+        Ok(rock::values(self.rock(), quantities, notes, |_| f64::NAN))
     }
 
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
-        let scene = self.scene().clone();
         let mut recorders: Recorders<Self> = Vec::new();
-        for probe in &scene.probes {
-            recorders.push(Box::new(BlockProbe::new(self, folder, last, probe)?));
+        for probe in &self.scene().probes {
+            let ProbePlace::Block { block } = &probe.place else {
+                let message = "measures a fluid, and there is none";
+                return Err(Error::scene(format!("probes.{}", probe.name), message).into());
+            };
+            let probe = BlockProbe::new(self, folder, last, (probe, block))?;
+            recorders.push(Box::new(probe));
         }
         recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
-        for view in &scene.views {
+        for view in &self.scene().views {
             let adapter = self.adapter.clone();
             recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
         }
@@ -159,7 +118,7 @@ impl Engine for Dry {
             adapter: simulation.finder().describe(),
             time_step: simulation.time_step(),
             first_step: simulation.step(),
-            rocks: Some(Rocks::of(self)),
+            rocks: Rocks::of(self),
             ..Summary::default()
         })
     }
@@ -170,19 +129,29 @@ impl Engine for Dry {
 
     fn pace(&self, _: &Summary, steps: u64, time: Duration) -> String {
         let rate = steps as f64 / time.as_secs_f64().max(1e-9);
-        let blocks = self.simulation.blocks();
-        format!(
-            "{rate:.0} steps/s, {} of {} blocks awake, {} contacts",
-            self.awake(),
-            blocks.len(),
-            blocks.contacts().count()
-        )
+        let activity = self.rock().map(|rock| rock.activity());
+        format!("{rate:.0} steps/s, {}", activity.unwrap_or_default())
     }
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
-        let mut rocks = Rocks::of(self);
-        rocks.max_speed_seen = notes.max_speed.max(rocks.max_speed);
-        rocks.steps_a_second = steps as f64 / time.as_secs_f64().max(1e-9);
-        summary.rocks = Some(rocks);
+        summary.rocks = Rocks::concluded(self, notes, (steps, time));
+    }
+}
+
+impl Shown for Dry {
+    fn blocks(&self) -> &[Block] {
+        &self.simulation.setup().blocks
+    }
+
+    fn solids(&self) -> usize {
+        self.scene().solids.len()
+    }
+
+    fn poses(&self) -> Vec<Pose> {
+        self.simulation.blocks().poses()
+    }
+
+    fn read(&mut self, _: &[Field], _: &[u32]) -> Result<Vec<Array>> {
+        Ok(Vec::new())
     }
 }

@@ -1,7 +1,7 @@
 //! What a run says before it starts.
 
-use super::Flow;
-use crate::{gpu, print};
+use super::{super::engine::Engine, Coupling, Flow};
+use crate::{gpu, print, search::left_out};
 use riprap::lattice::bytes_a_cell;
 use std::path::Path;
 
@@ -52,6 +52,24 @@ pub fn announce(engine: &Flow, folder: &Path, last: u64, bandwidth: f64) {
             None => String::new(),
         }
     );
+    if let (Some(rock), Some(coupling)) = (engine.rock(), Coupling::of(simulation, 0)) {
+        eprintln!(
+            "  blocks    {}; {} in the fluid",
+            rock.counted(),
+            coupling.in_fluid
+        );
+        let sub_steps = (units.time_step / rock.blocks.time_step()).ceil().max(1.0);
+        eprintln!(
+            "            {sub_steps} sub-steps of at most {:.4e} s; they meet the fluid every {} steps",
+            rock.blocks.time_step().min(units.time_step),
+            scene.coupling.interval
+        );
+    }
+    if let Some(coupled) = simulation.coupled() {
+        for line in left_out(&coupled.setup().left_out) {
+            eprintln!("  left out  {line}");
+        }
+    }
     eprintln!(
         "  run       {} to step {last}, {:.6} s; into {}",
         simulation.step(),

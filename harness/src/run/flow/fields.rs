@@ -26,7 +26,8 @@ impl Fields {
         let output = &simulation.scene().output;
         let path = folder.join("fields.pvd");
         let mut fields = output.fields.clone();
-        if !simulation.solid().is_empty() && !fields.contains(&Field::Solid) {
+        let covered = !simulation.solid().is_empty() || simulation.scene().has_blocks();
+        if covered && !fields.contains(&Field::Solid) {
             // Without it, ParaView and pictures show solids as fluid at rest.
             fields.push(Field::Solid);
         }

@@ -1,29 +1,38 @@
-//! A fluid on a device of its own, every wait with an end.
+//! A fluid on a device of its own, with the blocks in it, every wait with an end.
 
 mod announce;
+mod coupling;
 mod fields;
 mod probes;
-mod slices;
+mod shown;
+mod solids;
+mod walls;
 mod watch;
 
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
+    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    slices::Pictures,
     summary::Summary,
+    views::Views,
 };
 use crate::{bench::copy_bandwidth, gpu};
+pub use coupling::Coupling;
 use fields::Fields;
 use probes::ProbeTable;
 use riprap::{
     Result,
+    bodies::{Block, Ledger},
     checkpoint::Checkpoint,
+    coupling::Coupled,
     lattice::{bytes_a_cell, bytes_a_step},
-    output::{Array, Image},
-    scene::{Field, Quantity, Scene},
+    output::Image,
+    scene::{Field, ProbePlace, Quantity, Scene},
     simulation::{Needs, Simulation, Totals},
     wgpu,
 };
-use slices::Pictures;
+use solids::solid_blocks;
 use std::{path::Path, time::Duration};
 use watch::Watch;
 
@@ -41,11 +50,20 @@ pub struct Flow {
     pub queue: wgpu::Queue,
     pub needs: Needs,
     pub simulation: Simulation,
+    /// Energies of the blocks at the start, those that a restart has not seen included.
+    start: Ledger,
+    /// Static solids, where there are views of them.
+    solids: Vec<Block>,
 }
 
 impl Flow {
-    /// The scene at its start on the adapter called `adapter`, or on the best one.
-    pub fn open(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
+    /// The scene that was read from `file` at its start, on the adapter called `adapter` or on the best
+    /// one.
+    pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
+        Self::of(scene, adapter).map_err(|error| crate::search::located(error, file))
+    }
+
+    fn of(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
         let adapter = gpu::pick(adapter)?;
         let needs = Needs::of(scene, &adapter)?;
         let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;
@@ -53,10 +71,17 @@ impl Flow {
         let simulation = gpu::drive(&device, PATIENCE, "the kernels", made)??;
         Ok(Self {
             adapter: adapter.get_info(),
+            start: simulation
+                .coupled()
+                .map_or_else(Ledger::default, |coupled| coupled.blocks().ledger()),
             device,
             queue,
             needs,
             simulation,
+            solids: match scene.views.is_empty() {
+                true => Vec::new(),
+                false => solid_blocks(scene),
+            },
         })
     }
 
@@ -65,14 +90,15 @@ impl Flow {
         gpu::drive(&self.device, PATIENCE, "reading the fields", image)?
     }
 
-    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
-        let read = self.simulation.read(fields, cells);
-        gpu::drive(&self.device, PATIENCE, "reading cells", read)?
-    }
-
     pub fn totals(&mut self) -> Result<Totals> {
         let totals = self.simulation.totals();
         gpu::drive(&self.device, PATIENCE, "summing up", totals)?
+    }
+
+    /// Blocks that are shown, the first ones: the faces of the domain that hold them are none.
+    fn shown(&self) -> usize {
+        let in_fluid = self.simulation.coupled().map(Coupled::in_fluid);
+        in_fluid.unwrap_or_default() + self.simulation.scene().solids.len()
     }
 
     /// Bytes a second that the device copies.
@@ -98,6 +124,21 @@ impl Engine for Flow {
         self.simulation.time()
     }
 
+    fn rock(&self) -> Option<Rock<'_>> {
+        let simulation = &self.simulation;
+        let coupled = simulation.coupled()?;
+        let in_fluid = coupled.in_fluid();
+        Some(Rock {
+            step: simulation.step(),
+            time: simulation.time(),
+            setup: &coupled.setup().setup,
+            blocks: coupled.blocks(),
+            felt: &coupled.felt()[..in_fluid],
+            shown: self.shown(),
+            start: &self.start,
+        })
+    }
+
     fn is_good(&self) -> bool {
         false
     }
@@ -118,20 +159,36 @@ impl Engine for Flow {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        let totals = self.totals()?;
+        let totals = match quantities.iter().all(|quantity| quantity.is_of_blocks()) {
+            true => Totals::default(),
+            false => self.totals()?,
+        };
         notes.max_speed = notes.max_speed.max(totals.max_speed);
-        Ok(quantities.iter().map(|q| value(*q, &totals)).collect())
+        let of_fluid = |quantity| value(quantity, &totals);
+        Ok(rock::values(self.rock(), quantities, notes, of_fluid))
     }
 
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
         let scene = self.scene().clone();
         let mut recorders: Recorders<Self> = vec![Box::new(Watch::new(self, last))];
         for probe in &scene.probes {
-            recorders.push(Box::new(ProbeTable::new(self, folder, last, probe)?));
+            recorders.push(match &probe.place {
+                ProbePlace::Block { block } => {
+                    Box::new(BlockProbe::new(self, folder, last, (probe, block))?)
+                }
+                _ => Box::new(ProbeTable::new(self, folder, last, probe)?),
+            });
         }
         recorders.push(Box::new(Fields::new(self, folder, last)?));
         for slice in &scene.output.slices {
             recorders.push(Box::new(Pictures::new(self, folder, last, slice)));
+        }
+        if scene.has_blocks() {
+            recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
+        }
+        for view in &scene.views {
+            let adapter = Some(self.adapter.name.clone());
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
         }
         Ok(recorders)
     }
@@ -166,6 +223,8 @@ impl Engine for Flow {
                 .iter()
                 .map(ToString::to_string)
                 .collect(),
+            rocks: Rocks::of(self),
+            coupling: Coupling::of(simulation, 0),
             ..Summary::default()
         })
     }
@@ -176,7 +235,11 @@ impl Engine for Flow {
 
     fn pace(&self, summary: &Summary, steps: u64, time: Duration) -> String {
         let (mlups, share) = speed(summary, steps, time);
-        format!("{mlups:.1} MLUPS, {:.0} % of memory speed", 100.0 * share)
+        let fluid = format!("{mlups:.1} MLUPS, {:.0} % of memory speed", 100.0 * share);
+        match self.rock() {
+            Some(rock) => format!("{fluid}; {}", rock.activity()),
+            None => fluid,
+        }
     }
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
@@ -186,6 +249,9 @@ impl Engine for Flow {
         }
         (summary.mlups, summary.bandwidth_share) = speed(summary, steps, time);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
+        summary.rocks = Rocks::concluded(self, notes, (steps, time));
+        summary.coupling = Coupling::of(&self.simulation, steps);
+        self.look_at_walls(summary);
     }
 }
 

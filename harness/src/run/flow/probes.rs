@@ -4,6 +4,7 @@ use super::super::{
     history::table,
     recorder::{Notes, Recorder},
     schedule::Schedule,
+    views::Shown,
 };
 use super::Flow;
 use anyhow::Result;

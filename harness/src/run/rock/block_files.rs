@@ -5,7 +5,6 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::Dry;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vtp, write_vtu},
@@ -22,7 +21,7 @@ pub struct BlockFiles {
 
 impl BlockFiles {
     /// Begins the collections, or goes on with them after a restart.
-    pub fn new(engine: &Dry, folder: &Path, last: u64) -> Result<Self> {
+    pub fn new(engine: &impl Engine, folder: &Path, last: u64) -> Result<Self> {
         let output = &engine.scene().output;
         let collection = |name: &str| {
             let path = folder.join(name);
@@ -41,25 +40,25 @@ impl BlockFiles {
     }
 }
 
-impl Recorder<Dry> for BlockFiles {
+impl<E: Engine> Recorder<E> for BlockFiles {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Dry, notes: &mut Notes) -> Result<()> {
-        let (step, time) = (engine.step(), engine.time());
-        let simulation = &engine.simulation;
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let Some(rock) = engine.rock() else {
+            return Ok(());
+        };
+        let (step, time) = (rock.step, rock.time);
         let path = self.folder.join(format!("blocks_{step:06}.vtu"));
-        write_vtu(
-            &path,
-            &block_polyhedra(simulation.setup(), simulation.blocks()),
-        )?;
+        let shown = &rock.setup.blocks[..rock.shown];
+        write_vtu(&path, &block_polyhedra(shown, rock.blocks, rock.felt))?;
         self.blocks.add(time, &path)?;
         notes.file(self.folder.join("blocks.pvd"));
         notes.file(path);
         if let Some(contacts) = &mut self.contacts {
             let path = self.folder.join(format!("contacts_{step:06}.vtp"));
-            write_vtp(&path, &contact_cloud(simulation.blocks()))?;
+            write_vtp(&path, &contact_cloud(rock.blocks))?;
             contacts.add(time, &path)?;
             notes.file(self.folder.join("contacts.pvd"));
             notes.file(path);

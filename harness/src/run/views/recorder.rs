@@ -1,13 +1,12 @@
-//! Pictures of the blocks: `NAME_000123.png`, some of them side by side as `NAME_strip.png`, and all
+//! Pictures in space: `NAME_000123.png`, some of them side by side as `NAME_strip.png`, and all
 //! of them in turn as `NAME.png`.
 
 use super::super::{
-    engine::Engine,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::{Dry, stage::Stage};
-use crate::render::{Instance, Picture, animate};
+use super::{fluid::Fluid, frame::Frame, shown::Shown, stage::Stage};
+use crate::render::{Picture, animate};
 use anyhow::{Result, bail};
 use riprap::scene::View;
 use std::{
@@ -22,31 +21,36 @@ const BRIEFEST: Duration = Duration::from_millis(40);
 /// Longest time for a frame.
 const LONGEST: Duration = Duration::from_millis(500);
 
+/// The pictures of a view.
 pub struct Views {
     schedule: Schedule,
     view: View,
+    fluid: Fluid,
     adapter: Option<String>,
     folder: PathBuf,
     last: u64,
     /// Made with the first picture; None once it could not be made.
     stage: Option<Stage>,
     failed: bool,
-    /// Frames for the strip: time (s) and bodies.
-    strip: Vec<(f64, Vec<Instance>)>,
+    /// Frames for the strip.
+    strip: Vec<Frame>,
 }
 
 impl Views {
+    /// The pictures of `view` until the step `last`, drawn on the adapter called `adapter`, or the best one.
     pub fn new(
-        engine: &Dry,
+        engine: &impl Shown,
         folder: &Path,
         last: u64,
         view: &View,
         adapter: Option<String>,
     ) -> Self {
-        let every = view.every.or(engine.scene().output.every);
+        let scene = engine.scene();
+        let every = view.every.or(scene.output.every);
         Self {
             schedule: Schedule::of(every, engine.time_step(), last),
             view: view.clone(),
+            fluid: Fluid::new(scene, view),
             adapter,
             folder: folder.to_owned(),
             last,
@@ -60,13 +64,14 @@ impl Views {
         self.folder.join(format!("{}{ending}.png", self.view.name))
     }
 
-    fn stage(&mut self, engine: &Dry) -> Result<&Stage> {
+    fn stage(&mut self, engine: &impl Shown, frame: &Frame) -> Result<&Stage> {
         if self.failed {
             bail!("there is no device to draw on");
         }
         if self.stage.is_none() {
             self.failed = true;
-            self.stage = Some(Stage::new(engine, &self.view, self.adapter.as_deref())?);
+            let adapter = self.adapter.as_deref();
+            self.stage = Some(Stage::new(engine, &self.view, adapter, frame)?);
             self.failed = false;
         }
         match &self.stage {
@@ -75,18 +80,11 @@ impl Views {
         }
     }
 
-    fn draw(&mut self, engine: &Dry, path: &Path) -> Result<()> {
-        self.stage(engine)?.draw(engine)?.save(path)
-    }
-
-    /// Keeps the present frame if the strip wants one by now.
-    fn keep(&mut self, engine: &Dry) {
+    /// Whether the strip wants a frame by now.
+    fn wanted(&self, step: u64) -> bool {
         let count = u64::from(self.view.strip);
-        let wanted = self.strip.len() as u64;
-        if wanted < count && engine.step() * (count - 1).max(1) >= wanted * self.last {
-            let frame = (engine.time(), super::stage::bodies(engine));
-            self.strip.push(frame);
-        }
+        let next = self.strip.len() as u64;
+        next < count && step * (count - 1).max(1) >= next * self.last
     }
 
     /// The pictures in the folder, in the order of their steps, that this run or those that it goes on
@@ -115,27 +113,30 @@ impl Views {
     }
 }
 
-impl Recorder<Dry> for Views {
+impl<E: Shown> Recorder<E> for Views {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Dry, notes: &mut Notes) -> Result<()> {
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
         let path = self.path(&format!("_{:06}", engine.step()));
-        let drawn = self.draw(engine, &path);
+        let frame = Frame::of(engine, &self.fluid)?;
+        let kept = self.wanted(engine.step()).then(|| frame.clone());
+        let stage = self.stage(engine, &frame);
+        let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));
         notes.picture(path, drawn);
-        self.keep(engine);
+        self.strip.extend(kept);
         Ok(())
     }
 
-    fn finish(&mut self, engine: &Dry, notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
         let Some(stage) = &self.stage else {
             return Ok(());
         };
         if self.strip.len() > 1 {
             let path = self.path("_strip");
-            let drawn = stage.strip(engine, &self.strip).and_then(|p| p.save(&path));
-            notes.picture(path, drawn);
+            let drawn = stage.strip(self.strip.clone());
+            notes.picture(path.clone(), drawn.and_then(|strip| strip.save(&path)));
         }
         let step = engine.step();
         if self.view.animation && self.frames(step).len() > 1 {

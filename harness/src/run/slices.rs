@@ -1,12 +1,12 @@
 //! Pictures of planes: `NAME_000123.png`.
 
-use super::super::{
-    engine::Engine,
+use super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
+    slice_field::SliceQuantity,
+    views::{Shown, immersed},
 };
-use super::Flow;
-use crate::picture::{Plane, Quantity, Slice};
+use crate::picture::{Plane, Slice};
 use anyhow::Result;
 use riprap::{
     output::Image,
@@ -15,6 +15,7 @@ use riprap::{
 };
 use std::path::{Path, PathBuf};
 
+/// The pictures of a slice.
 pub struct Pictures {
     schedule: Schedule,
     slice: scene::Slice,
@@ -26,16 +27,16 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    pub fn new(engine: &Flow, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
-        let simulation = &engine.simulation;
-        let scene = simulation.scene();
+    /// The pictures of `slice` until the step `last`.
+    pub fn new(engine: &impl Shown, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
+        let scene = engine.scene();
         let axis = slice.axis.index();
         let position = slice.position.unwrap_or(scene.domain.middle()[axis]);
-        let mut fields = vec![shown(slice.field).field];
+        let mut fields = vec![SliceQuantity::of(slice.field).field];
         if slice.streamlines && slice.field != SliceField::Speed {
             fields.push(Field::Velocity);
         }
-        if !simulation.solid().is_empty() && slice.field != SliceField::Solid {
+        if !scene.solids.is_empty() && slice.field != SliceField::Solid {
             fields.push(Field::Solid);
         }
         let place = match scene.cells()[axis] {
@@ -43,7 +44,7 @@ impl Pictures {
             _ => format!(", {} = {position} m", slice.axis.name()),
         };
         Self {
-            schedule: Schedule::new(slice.every.or(scene.output.every), simulation.units(), last),
+            schedule: Schedule::of(slice.every.or(scene.output.every), engine.time_step(), last),
             slice: slice.clone(),
             layer: Layer::new(scene, slice.axis, position),
             place,
@@ -53,37 +54,19 @@ impl Pictures {
     }
 }
 
-/// How a quantity is shown.
-struct Shown {
-    field: Field,
-    label: &'static str,
-    unit: &'static str,
-}
-
-fn shown(field: SliceField) -> Shown {
-    let (field, label, unit) = match field {
-        SliceField::Speed => (Field::Velocity, "speed", "m/s"),
-        SliceField::Pressure => (Field::Pressure, "pressure", "Pa"),
-        SliceField::Density => (Field::Density, "density", "kg/m³"),
-        SliceField::EddyViscosity => (Field::EddyViscosity, "eddy viscosity", "m²/s"),
-        SliceField::QCriterion => (Field::QCriterion, "Q", "s⁻²"),
-        SliceField::Solid => (Field::Solid, "solid", ""),
-    };
-    Shown { field, label, unit }
-}
-
-impl Recorder<Flow> for Pictures {
+impl<E: Shown> Recorder<E> for Pictures {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
-        let (step, time) = (engine.simulation.step(), engine.simulation.time());
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let (step, time) = (engine.step(), engine.time());
         let image = Image {
             arrays: engine.read(&self.fields, self.layer.cells())?,
             ..self.layer.frame()
         };
-        let Shown { field, label, unit } = shown(self.slice.field);
+        let shown = SliceQuantity::of(self.slice.field);
+        let poses = engine.poses();
         let title = format!("{}{}", engine.scene().title, self.place);
         let axis = self.slice.axis.index();
         let slice = Slice {
@@ -93,14 +76,12 @@ impl Recorder<Flow> for Pictures {
                 normal: axis,
                 position: image.origin[axis] + 0.5 * image.spacing,
             },
-            quantity: match self.slice.field {
-                SliceField::Speed => Quantity::Magnitude(field.name()),
-                _ => Quantity::Scalar(field.name()),
-            },
-            label,
-            unit,
+            quantity: shown.quantity(),
+            label: shown.label,
+            unit: shown.unit,
             range: self.slice.range,
             streamlines: self.slice.streamlines,
+            blocks: &immersed(engine, &poses),
         };
         let path = self
             .folder

@@ -1,8 +1,8 @@
 //! A run of blocks in numbers.
 
-use super::{dry::Dry, engine::Engine};
+use super::super::{engine::Engine, recorder::Notes};
 use serde::Serialize;
-use std::fmt;
+use std::{fmt, time::Duration};
 
 /// What blocks did.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -53,19 +53,20 @@ pub struct Energies {
 }
 
 impl Rocks {
-    /// The present state.
-    pub fn of(engine: &Dry) -> Self {
-        let blocks = engine.simulation.blocks();
+    /// The present state of the blocks of `engine`, if it has any.
+    pub fn of(engine: &impl Engine) -> Option<Self> {
+        let rock = engine.rock()?;
+        let blocks = rock.blocks;
         let ledger = blocks.ledger();
-        Self {
-            blocks: blocks.len(),
-            awake: engine.awake(),
+        Some(Self {
+            blocks: rock.shown,
+            awake: rock.awake(),
             contacts: blocks.contacts().count(),
             pairs: blocks.candidates(),
             sub_step: blocks.time_step().min(engine.time_step()),
-            max_speed: engine.max_speed(),
-            max_speed_seen: engine.max_speed(),
-            energy_error: engine.energy_error(&ledger),
+            max_speed: rock.max_speed(),
+            max_speed_seen: rock.max_speed(),
+            energy_error: rock.energy_error(&ledger),
             ledger: Energies {
                 kinetic: ledger.kinetic,
                 potential: ledger.potential,
@@ -78,7 +79,21 @@ impl Rocks {
                 loads: ledger.loads,
             },
             steps_a_second: 0.0,
-        }
+        })
+    }
+
+    /// The state at the end of a run that took `steps` in `time`.
+    pub fn concluded(
+        engine: &impl Engine,
+        notes: &Notes,
+        (steps, time): (u64, Duration),
+    ) -> Option<Self> {
+        let now = Self::of(engine)?;
+        Some(Self {
+            max_speed_seen: notes.block_speed.max(now.max_speed),
+            steps_a_second: steps as f64 / time.as_secs_f64().max(1e-9),
+            ..now
+        })
     }
 }
 

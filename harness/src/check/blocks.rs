@@ -1,0 +1,159 @@
+//! The blocks of a scene, with or without a fluid around them.
+
+use super::super::{print::bytes, search::left_out};
+use riprap::{
+    block::{Form, Shape},
+    bodies::{Block, Blocks, Motion},
+    simulation::LeftOut,
+};
+use serde::Serialize;
+use std::{collections::HashMap, sync::Arc};
+
+/// What `riprap check` says of blocks.
+#[derive(Debug, Serialize)]
+pub struct BlockFacts {
+    /// Blocks in all, solids included.
+    pub blocks: usize,
+    /// Those that forces move.
+    pub free: usize,
+    /// Those that formulas move.
+    pub driven: usize,
+    /// Those that nothing moves.
+    pub fixed: usize,
+    /// Different shapes.
+    pub shapes: usize,
+    /// Convex parts of all blocks.
+    pub parts: usize,
+    /// Spheres among them.
+    pub spheres: usize,
+    /// Faces of the others.
+    pub faces: usize,
+    /// Pieces of rock masses that are too small for a block, a line for each mass.
+    pub left_out: Vec<String>,
+    /// Mass of the free blocks, kg.
+    pub mass: f64,
+    /// Lightest free block: its name and mass, kg.
+    pub lightest: Option<(String, f64)>,
+    /// Pairs of parts that may touch after the trial.
+    pub pairs: usize,
+    /// Contacts after the trial.
+    pub contacts: usize,
+    /// Distance at which parts are candidates, m.
+    pub skin: f64,
+    /// Longest sub-step after the trial, s.
+    pub sub_step: f64,
+    /// Sub-steps of a step.
+    pub sub_steps: u64,
+    /// Bytes of the blocks' state and shapes, about.
+    pub host_memory: u64,
+}
+
+impl BlockFacts {
+    /// Of the blocks of which those `shown` are the first, and that move in steps of `time_step` s.
+    pub fn of(shown: &[Block], blocks: &Blocks, left: &[LeftOut], time_step: f64) -> Self {
+        let count = |wanted: fn(&Motion) -> bool| {
+            let motions = shown.iter().map(|block| &block.motion);
+            motions.filter(|motion| wanted(motion)).count()
+        };
+        let shapes: HashMap<*const Shape, &Shape> = shown
+            .iter()
+            .map(|block| (Arc::as_ptr(&block.shape), &*block.shape))
+            .collect();
+        let parts = || shown.iter().flat_map(|block| block.shape.parts());
+        let faces = |form: &Form| match form {
+            Form::Convex(shape) => shape.faces().len(),
+            Form::Sphere { .. } => 0,
+        };
+        let free: Vec<usize> = (0..shown.len())
+            .filter(|block| shown[*block].motion == Motion::Free)
+            .collect();
+        let mass = |block: &usize| blocks.mass(*block);
+        let lightest = free.iter().min_by(|a, b| mass(a).total_cmp(&mass(b)));
+        let sub_steps = (time_step / blocks.time_step() * (1.0 - 1e-12)).ceil();
+        Self {
+            blocks: shown.len(),
+            free: free.len(),
+            driven: count(|motion| matches!(motion, Motion::Driven { .. })),
+            fixed: count(|motion| *motion == Motion::Fixed),
+            shapes: shapes.len(),
+            parts: parts().count(),
+            spheres: parts()
+                .filter(|part| matches!(part.form, Form::Sphere { .. }))
+                .count(),
+            faces: parts().map(|part| faces(&part.form)).sum(),
+            left_out: left_out(left).collect(),
+            mass: free.iter().map(mass).sum(),
+            lightest: lightest.map(|block| (blocks.name(*block).into(), mass(block))),
+            pairs: blocks.candidates(),
+            contacts: blocks.contacts().count(),
+            skin: blocks.skin(),
+            sub_step: blocks.time_step().min(time_step),
+            sub_steps: sub_steps.max(1.0) as u64,
+            host_memory: blocks.snapshot().to_bytes().len() as u64
+                + shapes.values().map(|shape| size(shape)).sum::<u64>(),
+        }
+    }
+
+    /// Lines of a name and what there is of it.
+    pub fn lines(&self, line: &mut impl FnMut(&str, String)) {
+        line(
+            "blocks",
+            format!(
+                "{}: {} free, {} driven, {} fixed",
+                self.blocks, self.free, self.driven, self.fixed
+            ),
+        );
+        line(
+            "shapes",
+            format!(
+                "{} different ones; {} convex parts, {} of them spheres; {} faces",
+                self.shapes, self.parts, self.spheres, self.faces
+            ),
+        );
+        for left_out in &self.left_out {
+            line("left out", left_out.clone());
+        }
+        let lightest = self.lightest.as_ref();
+        line(
+            "mass",
+            format!(
+                "{:.4e} kg free{}",
+                self.mass,
+                lightest.map_or(String::new(), |(name, mass)| format!(
+                    "; the lightest is {name} with {mass:.3e} kg"
+                ))
+            ),
+        );
+        line(
+            "contacts",
+            format!(
+                "{} in {} pairs within {:.3e} m",
+                self.contacts, self.pairs, self.skin
+            ),
+        );
+        line(
+            "sub-steps",
+            format!(
+                "{} of at most {:.4e} s a step",
+                self.sub_steps, self.sub_step
+            ),
+        );
+        line("on the host", bytes(self.host_memory));
+    }
+}
+
+/// Bytes of a shape's faces, corners, edges and rings.
+fn size(shape: &Shape) -> u64 {
+    let parts = shape.parts().iter().map(|part| match &part.form {
+        Form::Convex(block) => {
+            let corners: usize = block.loops().iter().map(Vec::len).sum();
+            size_of_val(block.faces())
+                + size_of_val(block.vertices())
+                + size_of_val(block.edges())
+                + size_of_val(block.loops())
+                + 4 * corners
+        }
+        Form::Sphere { .. } => 0,
+    });
+    parts.map(|bytes| bytes as u64).sum()
+}

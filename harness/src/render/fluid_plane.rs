@@ -1,0 +1,95 @@
+//! A plane through a fluid, and what it shows.
+
+use super::drawing::{Colours, check_finite};
+use crate::picture::colour_bar::ColourBar;
+use crate::picture::{Plane, Section};
+use anyhow::Result;
+use glam::DVec3;
+
+/// A quantity on the cells that a plane passes through. Its colours are exactly those of the colour bar: neither light
+/// nor shadow falls on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FluidPlane {
+    /// The plane.
+    pub plane: Plane,
+    /// Lower corner along the two other axes in their order, m.
+    pub origin: [f64; 2],
+    /// Cell size, m.
+    pub spacing: f64,
+    /// Number of cells along both axes.
+    pub cells: [usize; 2],
+    /// The quantity, the first axis running fastest; not a number where there is no fluid, which leaves a hole.
+    pub values: Vec<f32>,
+    /// What the values are.
+    pub colours: Colours,
+}
+
+impl FluidPlane {
+    /// What `section` shows, which `plane` has cut; its solid cells are left out, and those deep in blocks.
+    pub fn of(section: &Section, plane: Plane, colours: Colours) -> Self {
+        let value = |cell: usize| match section.values[cell] as f32 {
+            _ if section.solid[cell] => f32::NAN,
+            // To be seen as the fault that it is.
+            value if value.is_nan() && section.is_fluid(cell) => f32::INFINITY,
+            value => value,
+        };
+        Self {
+            plane,
+            origin: section.origin,
+            spacing: section.spacing,
+            cells: section.cells,
+            values: (0..section.values.len()).map(value).collect(),
+            colours,
+        }
+    }
+
+    /// Its lower corner, and the edges that begin there, m.
+    pub(super) fn rectangle(&self) -> [DVec3; 3] {
+        let others = self.plane.others();
+        let mut corner = DVec3::ZERO;
+        corner[self.plane.normal] = self.plane.position;
+        let mut edges = [DVec3::ZERO; 2];
+        for (along, axis) in others.into_iter().enumerate() {
+            corner[axis] = self.origin[along];
+            edges[along][axis] = self.spacing * self.cells[along] as f64;
+        }
+        [corner, edges[0], edges[1]]
+    }
+
+    /// Its corners in their order around it, m.
+    pub(super) fn corners(&self) -> [DVec3; 4] {
+        let [corner, along, up] = self.rectangle();
+        [corner, corner + along, corner + along + up, corner + up]
+    }
+
+    pub(super) fn bar(&self) -> Result<ColourBar> {
+        let Colours { label, unit, range } = &self.colours;
+        let values = self.values.iter().map(|value| f64::from(*value));
+        ColourBar::fitting(label, unit, *range, values, false)
+    }
+
+    pub(super) fn check(&self) -> Result<(), String> {
+        if self.plane.normal > 2 {
+            let axis = self.plane.normal;
+            return Err(format!(
+                "it is normal to axis {axis}; give 0 (x), 1 (y) or 2 (z)"
+            ));
+        }
+        let count = self.cells[0] * self.cells[1];
+        if count == 0 || self.values.len() != count {
+            return Err(format!(
+                "it has {} values for {} × {} cells; give each cell one, and one cell at least",
+                self.values.len(),
+                self.cells[0],
+                self.cells[1]
+            ));
+        }
+        if !(self.spacing.is_finite() && self.spacing > 0.0) {
+            return Err(format!(
+                "its cells have {} m; give a positive size",
+                self.spacing
+            ));
+        }
+        check_finite(&self.corners())
+    }
+}

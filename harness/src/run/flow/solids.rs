@@ -1,0 +1,43 @@
+//! Static solids as they are drawn.
+
+use riprap::{
+    bodies::{Block, Pose},
+    scene::{Material, Scene},
+    simulation::block_setup,
+};
+
+/// The solids of a scene as fixed blocks. What encloses no volume, or cannot be cut into convex parts, is left to the
+/// cells to show, and so are the holes of meshes.
+pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
+    let one = |index: usize| {
+        let mut alone = scene.clone();
+        alone.solids = vec![scene.solids[index].clone()];
+        alone.solids[0].material = None;
+        // Nothing depends on it: nothing moves.
+        alone.materials = vec![Material {
+            name: String::new(),
+            density: 1.0,
+            normal_stiffness: 1.0,
+            shear_stiffness: None,
+            friction: 0.0,
+            cohesion: 0.0,
+            tensile_strength: 0.0,
+            damping: 0.0,
+        }];
+        alone.material_pairs.clear();
+        alone.blocks.clear();
+        alone.rock_masses.clear();
+        alone.probes.clear();
+        block_setup(&alone).map(|made| made.setup.blocks)
+    };
+    let drawn = (0..scene.solids.len()).filter(|index| !scene.solids[*index].void);
+    drawn
+        .filter_map(|index| one(index).ok())
+        .flatten()
+        .collect()
+}
+
+/// Where a block is that does not move.
+pub fn pose(block: &Block) -> Pose {
+    Pose::rigid(block.centre, block.rotation, block.velocity, block.spin)
+}

@@ -1,0 +1,94 @@
+//! A table for each block that a probe follows: `NAME.csv`.
+
+use super::super::{
+    engine::Engine,
+    history::table,
+    recorder::{Notes, Recorder},
+    schedule::Schedule,
+};
+use super::Rock;
+use anyhow::Result;
+use glam::DVec3;
+use riprap::{Error, output::Csv, scene::Probe};
+use std::path::{Path, PathBuf};
+
+/// What is measured of every block, each along x, y and z.
+const MEASURED: [&str; 6] = [
+    "position", "velocity", "rotation", "spin", "force", "torque",
+];
+/// What is measured of a block in a fluid as well.
+const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+
+pub struct BlockProbe {
+    schedule: Schedule,
+    block: usize,
+    path: PathBuf,
+    table: Csv,
+}
+
+impl BlockProbe {
+    /// Begins the table of the block called `name`, or goes on with it after a restart.
+    pub fn new(
+        engine: &impl Engine,
+        folder: &Path,
+        last: u64,
+        (probe, name): (&Probe, &str),
+    ) -> Result<Self> {
+        let rock = engine.rock();
+        let found = rock.as_ref().and_then(|rock| {
+            let mut blocks = rock.setup.blocks.iter();
+            Some((rock, blocks.position(|block| block.name == name)?))
+        });
+        let (rock, block) = found.ok_or_else(|| {
+            Error::scene(
+                format!("probes.{}", probe.name),
+                format!("there is no block `{name}`"),
+            )
+        })?;
+        let mut measured = MEASURED.to_vec();
+        if block < rock.felt.len() {
+            measured.extend(IN_FLUID);
+        }
+        let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
+        let columns: Vec<String> = measured.iter().flat_map(along).collect();
+        let path = folder.join(format!("{}.csv", probe.name));
+        Ok(Self {
+            schedule: Schedule::of(probe.every, engine.time_step(), last),
+            table: table(engine, &path, &columns)?,
+            block,
+            path,
+        })
+    }
+}
+
+/// The vectors of `MEASURED`, and of `IN_FLUID` where there is one.
+fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
+    let blocks = rock.blocks;
+    let pose = blocks.poses()[block];
+    let at_start = rock.setup.blocks[block].rotation;
+    let turned = (blocks.rotation(block) * at_start.conjugate()).to_scaled_axis();
+    let mut all = vec![pose.centre, pose.velocity, turned.map(f64::to_degrees)];
+    all.extend(blocks.spins().nth(block));
+    all.extend(blocks.contact_forces().nth(block));
+    all.extend(blocks.contact_torques().nth(block));
+    if let Some(felt) = rock.felt.get(block) {
+        all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
+    }
+    all
+}
+
+impl<E: Engine> Recorder<E> for BlockProbe {
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        if let Some(rock) = engine.rock() {
+            let vectors = measure(&rock, self.block).into_iter();
+            let values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            self.table.append(rock.step, rock.time, &values)?;
+            notes.file(self.path.clone());
+        }
+        Ok(())
+    }
+}

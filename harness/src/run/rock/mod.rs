@@ -1,0 +1,82 @@
+//! The blocks of a run, with or without a fluid around them.
+
+mod block_files;
+mod block_probe;
+mod rocks;
+mod values;
+
+pub use block_files::BlockFiles;
+pub use block_probe::BlockProbe;
+pub use rocks::Rocks;
+pub use values::values;
+
+use riprap::{
+    bodies::{Blocks, Ledger, Motion, Setup},
+    coupling::Felt,
+};
+
+/// The blocks of an engine as they are now.
+#[derive(Clone, Copy)]
+pub struct Rock<'a> {
+    /// Steps done.
+    pub step: u64,
+    /// Simulated time, s.
+    pub time: f64,
+    /// The blocks as they were made.
+    pub setup: &'a Setup,
+    /// The blocks as they are.
+    pub blocks: &'a Blocks,
+    /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
+    pub felt: &'a [Felt],
+    /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.
+    pub shown: usize,
+    /// Energies at the start, those that a restart has not seen included.
+    pub start: &'a Ledger,
+}
+
+impl Rock<'_> {
+    /// Blocks that move or might.
+    pub fn awake(&self) -> usize {
+        let all = self.blocks.asleep().enumerate();
+        all.filter(|(block, asleep)| !asleep && self.blocks.moves(*block))
+            .count()
+    }
+
+    /// Largest speed of a centroid, m/s.
+    pub fn max_speed(&self) -> f64 {
+        let poses = self.blocks.poses();
+        poses
+            .iter()
+            .map(|pose| pose.velocity.length())
+            .fold(0.0, f64::max)
+    }
+
+    /// Number of blocks whose motion is one of those `wanted`.
+    pub fn count(&self, wanted: fn(&Motion) -> bool) -> usize {
+        let shown = self.setup.blocks[..self.shown].iter();
+        shown.filter(|block| wanted(&block.motion)).count()
+    }
+
+    /// How much moves and touches, in words.
+    pub fn activity(&self) -> String {
+        format!(
+            "{} of {} blocks awake, {} contacts",
+            self.awake(),
+            self.shown,
+            self.blocks.contacts().count()
+        )
+    }
+
+    /// Free, driven and fixed blocks, in words.
+    pub fn counted(&self) -> String {
+        let parts = self.setup.blocks[..self.shown].iter();
+        let parts: usize = parts.map(|block| block.shape.parts().len()).sum();
+        format!(
+            "{}: {} free, {} driven, {} fixed; {parts} parts",
+            self.shown,
+            self.count(|motion| *motion == Motion::Free),
+            self.count(|motion| matches!(motion, Motion::Driven { .. })),
+            self.count(|motion| *motion == Motion::Fixed),
+        )
+    }
+}

@@ -1,0 +1,100 @@
+//! What a view shows of a fluid.
+
+use super::super::slice_field::SliceQuantity;
+use super::coarse::Coarse;
+use super::shown::{Shown, immersed};
+use crate::{
+    picture::{Plane, Section, Trace, traces},
+    render::{Colours, FluidPlane, Traces},
+};
+use anyhow::Result;
+use riprap::{
+    bodies::Pose,
+    output::Image,
+    probe::Layer,
+    scene::{Field, Scene, SliceField, View, ViewSlice},
+};
+
+/// The cells that a view shows.
+pub struct Fluid {
+    slices: Vec<(ViewSlice, Layer)>,
+    coarse: Option<Coarse>,
+    /// Number of lines.
+    count: u32,
+    /// Ends of the colours of speeds that have none of their own, m/s.
+    speeds: Option<[f64; 2]>,
+    solids: bool,
+}
+
+impl Fluid {
+    /// What `view` shows of `scene`.
+    pub fn new(scene: &Scene, view: &View) -> Self {
+        let layer = |slice: &ViewSlice| {
+            let middle = scene.domain.middle()[slice.axis.index()];
+            let layer = Layer::new(scene, slice.axis, slice.position.unwrap_or(middle));
+            (slice.clone(), layer)
+        };
+        // Slices and lines of one quantity share a colour bar.
+        let of_speed = view.slices.iter().filter(|s| s.field == SliceField::Speed);
+        let given = of_speed.filter_map(|slice| slice.range).next();
+        Self {
+            slices: view.slices.iter().map(layer).collect(),
+            coarse: (view.traces > 0).then(|| Coarse::new(scene)),
+            count: view.traces,
+            speeds: given.or(view.speed.map(|speed| [0.0, speed])),
+            solids: !scene.solids.is_empty(),
+        }
+    }
+
+    /// The present planes through the fluid among blocks at `poses`.
+    pub fn planes<E: Shown>(&self, engine: &mut E, poses: &[Pose]) -> Result<Vec<FluidPlane>> {
+        let slices = self.slices.iter();
+        slices
+            .map(|(slice, layer)| {
+                let shown = SliceQuantity::of(slice.field);
+                let image = self.image(engine, shown.field, layer.cells(), layer.frame())?;
+                let axis = slice.axis.index();
+                let plane = Plane {
+                    normal: axis,
+                    position: image.origin[axis] + 0.5 * image.spacing,
+                };
+                let mut section = Section::new(&image, plane, shown.quantity())?;
+                section.leave_out(&immersed(engine, poses), plane);
+                let range = match slice.field {
+                    SliceField::Speed => slice.range.or(self.speeds),
+                    _ => slice.range,
+                };
+                Ok(FluidPlane::of(&section, plane, shown.colours(range)))
+            })
+            .collect()
+    }
+
+    /// The present lines along the flow among blocks at `poses`, if the view shows any.
+    pub fn traces<E: Shown>(&self, engine: &mut E, poses: &[Pose]) -> Result<Option<Traces>> {
+        let Some(coarse) = &self.coarse else {
+            return Ok(None);
+        };
+        let image = self.image(engine, Field::Velocity, coarse.cells(), coarse.frame())?;
+        let lines: Vec<Trace> = traces(&image, &immersed(engine, poses), self.count);
+        let colours: Colours = SliceQuantity::of(SliceField::Speed).colours(self.speeds);
+        Ok(Some(Traces { lines, colours }))
+    }
+
+    /// `field` and what is solid on `cells`, which `frame` is made of.
+    fn image<E: Shown>(
+        &self,
+        engine: &mut E,
+        field: Field,
+        cells: &[u32],
+        frame: Image,
+    ) -> Result<Image> {
+        let mut fields = vec![field];
+        if self.solids {
+            fields.push(Field::Solid);
+        }
+        Ok(Image {
+            arrays: engine.read(&fields, cells)?,
+            ..frame
+        })
+    }
+}

@@ -1,0 +1,181 @@
+//! What a view shows: the meshes of the blocks, the camera and the colours, the same in every picture.
+
+use super::frame::{Frame, share_ranges};
+use super::shown::{Shown, each_shape};
+use crate::{
+    gpu,
+    render::{Camera, Colours, Drawing, Ground, Line, Look, Mesh, Picture, Renderer, View},
+};
+use anyhow::Result;
+use glam::DVec3;
+use riprap::{
+    block::Form,
+    bodies::Motion,
+    scene::{self, Domain},
+    wgpu,
+};
+
+/// Cuts of an edge of the icosahedron that a sphere is drawn as.
+const CUTS: u32 = 4;
+
+/// Colour and width (pixels) of the edges of the domain.
+const EDGE: ([u8; 3], f64) = ([150, 150, 150], 1.0);
+
+/// Everything for the pictures of a view but what moves.
+pub struct Stage {
+    renderer: Renderer,
+    /// Of half the size, for strips.
+    small: Renderer,
+    title: String,
+    meshes: Vec<Mesh>,
+    /// Edges of the domain, where lines run through all of it.
+    edges: Vec<Line>,
+    camera: Camera,
+    ground: Option<Ground>,
+    /// Speed of a block's last colour, m/s; none where blocks have no colours.
+    speed: Option<f64>,
+}
+
+impl Stage {
+    /// Opens the adapter called `adapter`, or the best one, and places the camera for the first `frame` of `engine`.
+    pub fn new(
+        engine: &impl Shown,
+        view: &scene::View,
+        adapter: Option<&str>,
+        frame: &Frame,
+    ) -> Result<Self> {
+        let adapter = gpu::pick(adapter)?;
+        let limits = wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits());
+        let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits)?;
+        let renderer = Renderer::new(&device, &queue, view.size)?;
+        let small = Renderer::new(&device, &queue, view.size.map(|edge| edge / 2))?;
+        let scene = engine.scene();
+        let meshes = meshes(engine);
+        let edges = match frame.traces {
+            Some(_) => edges(&scene.domain),
+            None => Vec::new(),
+        };
+        let up = DVec3::from(scene.up_of(view));
+        let field_of_view = view.field_of_view.to_radians();
+        let camera = match (view.from, view.to) {
+            (Some(from), Some(to)) => Camera {
+                from: from.into(),
+                to: to.into(),
+                up,
+                field_of_view,
+            },
+            _ => {
+                let direction = view.direction.unwrap_or(scene::View::USUAL_DIRECTION);
+                let look = Look {
+                    direction: direction.into(),
+                    up,
+                    field_of_view,
+                };
+                let mut instances = frame.bodies.clone();
+                // A ground that reaches far would push the camera away from what moves on it.
+                if view.shows_fluid() || instances.iter().any(|body| !body.fixed) {
+                    instances.retain(|body| !body.fixed);
+                }
+                let drawing = Drawing {
+                    meshes: &meshes,
+                    instances,
+                    planes: frame.planes.clone(),
+                    lines: edges.clone(),
+                    ..Drawing::default()
+                };
+                renderer.framing(&[drawing], look)?
+            }
+        };
+        let speed = || view.speed.unwrap_or_else(|| usual_speed(engine));
+        Ok(Self {
+            renderer,
+            small,
+            title: scene.title.clone(),
+            camera,
+            ground: view.ground.map(|height| Ground { height }),
+            speed: (!view.shows_fluid()).then(speed),
+            meshes,
+            edges,
+        })
+    }
+
+    /// The picture of a frame.
+    pub fn draw(&self, mut frame: Frame) -> Result<Picture> {
+        share_ranges(std::slice::from_mut(&mut frame));
+        self.renderer.render(&self.drawing(frame))
+    }
+
+    /// The frames side by side, two in a row.
+    pub fn strip(&self, mut frames: Vec<Frame>) -> Result<Picture> {
+        share_ranges(&mut frames);
+        let drawings = frames.into_iter().map(|frame| self.drawing(frame));
+        self.small.strip(&drawings.collect::<Vec<_>>(), 2)
+    }
+
+    fn drawing(&self, frame: Frame) -> Drawing<'_> {
+        Drawing {
+            meshes: &self.meshes,
+            instances: frame.bodies,
+            planes: frame.planes,
+            traces: frame.traces,
+            lines: self.edges.clone(),
+            view: View::From(self.camera),
+            ground: self.ground,
+            scale_bar: true,
+            title: self.title.clone(),
+            time: Some(frame.time),
+            colours: self.speed.map(|speed| Colours {
+                label: "speed".into(),
+                unit: "m/s".into(),
+                range: Some([0.0, speed]),
+            }),
+            ..Drawing::default()
+        }
+    }
+}
+
+/// A mesh for each part of each different shape.
+fn meshes(engine: &impl Shown) -> Vec<Mesh> {
+    let mut made = Vec::new();
+    each_shape(engine.blocks(), |shape| {
+        made.extend(shape.parts().iter().map(|part| match &part.form {
+            Form::Convex(block) => Mesh::of(block),
+            Form::Sphere { radius } => Mesh::sphere(*radius, CUTS),
+        }));
+    });
+    made
+}
+
+/// The edges of a box.
+fn edges(domain: &Domain) -> Vec<Line> {
+    let ends = [domain.origin, domain.end()];
+    // Corner n has the upper coordinate along the axes whose bits are set.
+    let corner = |n: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[n >> axis & 1][axis]));
+    let pairs = (0..8).flat_map(|n| [0, 1, 2].map(|axis| (n, n | 1 << axis)));
+    pairs
+        .filter(|(from, to)| from != to)
+        .map(|(from, to)| Line {
+            ends: [corner(from), corner(to)],
+            colour: EDGE.0,
+            width: EDGE.1,
+        })
+        .collect()
+}
+
+/// √(2gL), L the largest extent of a block that moves; without gravity the largest speed now, m/s.
+fn usual_speed(engine: &impl Shown) -> f64 {
+    let blocks = engine.blocks().iter();
+    let moving = blocks.filter(|block| block.motion != Motion::Fixed);
+    let extent = moving
+        .map(|block| 2.0 * block.shape.radius())
+        .fold(0.0, f64::max);
+    let gravity = DVec3::from(engine.scene().rock.gravity).length();
+    let speed = if gravity > 0.0 {
+        (2.0 * gravity * extent).sqrt()
+    } else {
+        let poses = engine.poses();
+        let speeds = poses.iter().map(|pose| pose.velocity.length());
+        speeds.fold(0.0, f64::max)
+    };
+    if speed > 0.0 { speed } else { 1.0 }
+}

@@ -1,0 +1,86 @@
+//! How well the grid resolves the shear at walls and blocks.
+//!
+//! Walls and blocks hold the fluid (no slip), and there is no wall model: the shear stress that they feel
+//! is what the cells beside them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
+//! units y⁺ = u_τ y/ν with the friction velocity u_τ = √(τ_w/ρ). Here τ_w follows from the linear profile of
+//! the viscous sublayer, u⁺ = y⁺ (Pope 2000, section 7.1.4), with the velocity u along the wall at the
+//! first centre: u_τ = √(ν u/y).
+//!
+//! Up to y⁺ ≈ 5 that profile is there and the number is the true one. Above, the first cell lies outside of
+//! the sublayer: the number is a lower bound, since u⁺ < y⁺ there, friction at walls is too small, and
+//! where a flow separates from a smooth surface is uncertain. Pressure, and with it the drag of bodies with
+//! edges at which the flow separates anyway, does not depend on it much.
+
+use super::{Simulation, beside::BesideWall};
+use crate::{Result, scene::Field};
+use glam::DVec3;
+
+/// Above this y⁺ the viscous sublayer lies within the first cell.
+pub const SUBLAYER: f64 = 5.0;
+
+/// The cell with the largest y⁺.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstCell {
+    /// y⁺ half a cell from the wall.
+    pub y_plus: f64,
+    /// Friction velocity u_τ, m/s.
+    pub friction_velocity: f64,
+    /// Centre of the cell, m.
+    pub position: [f64; 3],
+    /// The block beside it; none: a wall, or a solid.
+    pub block: Option<usize>,
+}
+
+/// The cells with the largest y⁺ beside walls and solids, and beside blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WallUnits {
+    /// Beside walls and solids; none where there are none.
+    pub walls: Option<FirstCell>,
+    /// Beside blocks; none where there are none.
+    pub blocks: Option<FirstCell>,
+}
+
+impl Simulation {
+    /// Estimates y⁺ at all walls, solids and blocks from the present velocity. Beside blocks, which cut
+    /// through cells, the velocity is that of the cells whose centres are ½ to 3/2 Δx away, and the profile
+    /// that to their distance.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn wall_units(&mut self) -> Result<WallUnits> {
+        let beside = self.cells_beside();
+        let cells: Vec<u32> = beside.iter().map(|beside| beside.cell).collect();
+        if cells.is_empty() {
+            return Ok(WallUnits::default());
+        }
+        let arrays = self.read(&[Field::Velocity], &cells).await?;
+        let values = arrays.iter().flat_map(|array| array.values.chunks_exact(3));
+        let mut found = WallUnits::default();
+        for (beside, velocity) in beside.iter().zip(values) {
+            let velocity = DVec3::from_array([0, 1, 2].map(|a| f64::from(velocity[a])));
+            let cell = self.first_cell(beside, velocity);
+            let place = match beside.block {
+                None => &mut found.walls,
+                Some(_) => &mut found.blocks,
+            };
+            if place.is_none_or(|largest| cell.y_plus > largest.y_plus) {
+                *place = Some(cell);
+            }
+        }
+        Ok(found)
+    }
+
+    fn first_cell(&self, beside: &BesideWall, velocity: DVec3) -> FirstCell {
+        let cell = self.units.cell;
+        let nu = self.scene.fluid.viscosity;
+        let slip = velocity - beside.wall_velocity;
+        let along = slip.reject_from_normalized(beside.normal).length();
+        let friction_velocity = (nu * along / (beside.distance * cell)).sqrt();
+        FirstCell {
+            y_plus: friction_velocity * 0.5 * cell / nu,
+            friction_velocity,
+            position: self.centre_of(beside.cell).to_array(),
+            block: beside.block,
+        }
+    }
+}

@@ -79,7 +79,7 @@ fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
         println!("{summary}");
     }
     if let Some(divergence) = &summary.divergence {
-        eprintln!("error: {divergence}");
+        eprintln!("error: {divergence}; {}", summary.kept());
         return Ok(ExitCode::from(1));
     }
     Ok(ExitCode::SUCCESS)

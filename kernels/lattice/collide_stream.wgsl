@@ -20,7 +20,8 @@ fn collide_stream(
     let cell = cell_class(p);
     // First, while few values are held.
     let saturation = saturation_of(turn, local);
-    let shear_rate = 1.0 / relaxation_time(p, cell, saturation);
+    let excess = relaxation_excess(p, cell, saturation);
+    let shear_rate = 1.0 / (0.5 + excess);
     var f = load(p);
     var h = f;
     to_moments(&h);
@@ -38,7 +39,7 @@ fn collide_stream(
     var change: array<Real, 27>;
     relax(cell, saturation, shear_rate, &d, &change);
     add_source(p, u, &change);
-    saturate(turn, local, cell, saturation, shear_rate, rho, u, &h, &change);
+    saturate(turn, local, cell, saturation, excess, rho, u, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];

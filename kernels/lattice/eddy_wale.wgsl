@@ -4,10 +4,11 @@
 
 @group(0) @binding(30) var<storage, read> velocity_before: array<Reals>;
 
-override TAU: f32;
+// tau - 1/2, which tau itself would round away at low viscosity.
+override EXCESS: f32;
 override C_WALE: f32;
 
-fn relaxation_time(p: Place, cell: u32, saturation: Saturation) -> Real {
+fn relaxation_excess(p: Place, cell: u32, saturation: Saturation) -> Real {
     let elements = NX * NY * SLICES;
     let g = Gradient(
         component_gradient(p, cell, 0u),
@@ -15,7 +16,7 @@ fn relaxation_time(p: Place, cell: u32, saturation: Saturation) -> Real {
         component_gradient(p, cell, 2u * elements),
     );
     let nu_t = outside_solids(saturation, wale(g, C_WALE));
-    return select(TAU + 3.0 * nu_t, Real(TAU), solid(cell));
+    return select(EXCESS + 3.0 * nu_t, Real(EXCESS), solid(cell));
 }
 
 fn component_gradient(p: Place, cell: u32, start: u32) -> Vector {

@@ -51,21 +51,21 @@ fn saturate(
     local: u32,
     cell: u32,
     saturation: Saturation,
-    shear_rate: Real,
+    excess: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
     change: ptr<function, array<Real, 27>>,
 ) {
     let e = min(saturation.fraction, Real(1.0));
-    let excess = 1.0 / shear_rate - 0.5;
-    let weight = select(e * excess / ((1.0 - e) + excess), Real(1.0), saturation.deep);
+    // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
+    let weight = select(e / (1.0 + (1.0 - e) / excess), Real(1.0), saturation.deep);
     let v = saturation.velocity;
     var s = equilibrium(rho, v);
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
-    let factor = solid_operator(shear_rate, rho, u, h, saturation.deep, &s);
+    let factor = solid_operator(1.0 / (0.5 + excess), rho, u, h, saturation.deep, &s);
     for (var k = 1u; k < 27u; k++) { // unroll
         (*change)[k] += weight * (s[k] - (*change)[k]);
     }

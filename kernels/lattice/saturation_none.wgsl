@@ -22,7 +22,7 @@ fn saturate(
     local: u32,
     cell: u32,
     saturation: Saturation,
-    shear_rate: Real,
+    excess: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,

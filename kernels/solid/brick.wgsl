@@ -16,5 +16,5 @@ fn place_in_brick(local: u32) -> vec3<u32> {
 
 // Whether that is a cell of the domain, in the tile whose packed number of cells is `inside`.
 fn in_domain(place: vec3<u32>, inside: u32) -> bool {
-    return all(place < (vec3(inside) >> vec3(0u, 8u, 16u) & vec3(255u)));
+    return all(place < ((vec3(inside) >> vec3(0u, 8u, 16u)) & vec3(255u)));
 }

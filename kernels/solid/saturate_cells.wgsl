@@ -27,39 +27,38 @@ fn saturate_cells(
     if (slot == NOTHING) {
         return;
     }
-    for (var lane = 0u; lane < LANES_OF_ELEMENT; lane++) {
-        let solid = solid_in(slot, lane, local);
-        for (var plane = 0u; plane < 4u; plane++) {
-            saturation[((slot * PLANES + plane) * WORKGROUP + local) * LANES_OF_ELEMENT + lane] = solid[plane];
-        }
-    }
-}
-
-// Sum of the shares, with its marks, and velocity of the solid.
-fn solid_in(slot: u32, lane: u32, local: u32) -> vec4<f32> {
-    var sum = 0.0;
-    var flux = vec3(0.0);
-    var deep = false;
-    var near = false;
+    // Of each lane: velocity weighed by the shares, and their sum; whether a part is deep, or near.
+    var sums: array<vec4<f32>, 4>;
+    var deep: vec4<bool>;
+    var near: vec4<bool>;
     for (var k = slot_first[slot]; k < slot_first[slot + 1u]; k++) {
-        let tile = tiles[slot_tiles[k]];
-        if (tile.lane != lane) {
-            continue;
-        }
-        let mark = shares[slot_tiles[k] * WORKGROUP + local];
-        near = near || mark < 0.0;
-        if (mark <= 0.0) {
-            continue;
-        }
-        deep = deep || mark == DEEP;
-        let share = min(mark, 1.0);
+        let number = slot_tiles[k];
+        let tile = tiles[number];
+        let mark = shares[number * WORKGROUP + local];
         let motion = motions[tile.block];
         let cell = tile.cell + vec3<i32>(place_in_brick(local));
-        sum += share;
-        flux += share * velocity_at(motion, centre_from(cell, motion.base, motion.fraction));
+        let u = velocity_at(motion, centre_from(cell, motion.base, motion.fraction));
+        let added = clamp(mark, 0.0, 1.0) * vec4(u, 1.0);
+        let here = vec4(tile.lane) == vec4(0u, 1u, 2u, 3u);
+        for (var lane = 0u; lane < 4u; lane++) { // unroll
+            sums[lane] += select(vec4(0.0), added, here[lane]);
+        }
+        deep = deep | (here & vec4(mark == DEEP));
+        near = near | (here & vec4(mark < 0.0));
     }
-    if (sum == 0.0) {
-        return vec4(select(0.0, NEAR, near), vec3(0.0));
+    for (var lane = 0u; lane < 4u; lane++) { // unroll
+        if (lane < LANES_OF_ELEMENT) {
+            let share = sums[lane].w;
+            let some = share > 0.0;
+            let first = (slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + lane;
+            let stride = WORKGROUP * LANES_OF_ELEMENT;
+            let solid = share + select(0.0, DEEP_SUM, deep[lane]);
+            let empty = select(0.0, NEAR, near[lane]);
+            let u = select(vec3(0.0), sums[lane].xyz / share, some);
+            saturation[first] = select(empty, solid, some);
+            saturation[first + stride] = u.x;
+            saturation[first + 2u * stride] = u.y;
+            saturation[first + 3u * stride] = u.z;
+        }
     }
-    return vec4(sum + select(0.0, DEEP_SUM, deep), flux / sum);
 }

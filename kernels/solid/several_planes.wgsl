@@ -1,102 +1,160 @@
 // Lasserre 1983, J. Optim. Theory Appl. 39:363: the volume of a convex polyhedron from its planes alone. With the
-// origin at a corner of the cell, V = sum of d_a A_a / 3, the area of face a being A_a = sum of d_e L_e / 2 over its
-// edges e, seen from the foot of the origin. Every A_a depends on its planes without jumps, however many meet in a
-// point, and so does V.
+// origin at a corner of the cell, V = sum of d A / 3 over the faces, and A = sum of d L / 2 over the sides of a face.
+// The three faces and two sides of the cell through the origin add nothing. Every A depends on its planes without
+// jumps, however many meet in a point, and so does V. Planes lie in vectors, not in arrays: those would be memory.
+// needs axes
 
-// Faces of a convex part that may cut a cell.
-const CUTS = 8u;
-// The faces of the cell and the cuts.
-const MOST_PLANES = 14u;
+// Planes that may cut a cell; one place more is for a face of the cell.
+const CUTS = 7u;
 // Sine of the angle below which two planes count as parallel: what that neglects, and the rounding of where they meet
 // otherwise, are both below 1e-4 of the cell.
 const PARALLEL = 3e-4;
 
-// n.x <= w from the lower corner of the cell. The first three pass through it.
-var<private> planes: array<vec4<f32>, MOST_PLANES>;
-// The same in the plane of one of them.
-var<private> lines: array<vec4<f32>, MOST_PLANES>;
-
-// Begins with the faces of the cell.
-fn begin_planes() {
-    planes[0] = vec4(-1.0, 0.0, 0.0, 0.0);
-    planes[1] = vec4(0.0, -1.0, 0.0, 0.0);
-    planes[2] = vec4(0.0, 0.0, -1.0, 0.0);
-    planes[3] = vec4(1.0, 0.0, 0.0, 1.0);
-    planes[4] = vec4(0.0, 1.0, 0.0, 1.0);
-    planes[5] = vec4(0.0, 0.0, 1.0, 1.0);
+// Four planes x X + y Y + z Z <= d, from the lower corner of the cell.
+struct Planes {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    z: vec4<f32>,
+    d: vec4<f32>,
 }
 
-// What `cuts` planes, the sixth and later ones, leave of the unit cell.
-fn several_planes_volume(cuts: u32) -> f32 {
+struct Cuts {
+    low: Planes,
+    high: Planes,
+}
+
+// Four lines x X + y Y <= d in a plane, x x + y y = 1.
+struct Lines {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    d: vec4<f32>,
+}
+
+const LOW = vec4(0u, 1u, 2u, 3u);
+const HIGH = vec4(4u, 5u, 6u, 7u);
+const EVERYWHERE = Planes(vec4(0.0), vec4(0.0), vec4(0.0), vec4(1.0));
+const NO_CUTS = Cuts(EVERYWHERE, EVERYWHERE);
+// The sides of the unit square.
+const SQUARE = Lines(vec4(-1.0, 0.0, 1.0, 0.0), vec4(0.0, -1.0, 0.0, 1.0), vec4(0.0, 0.0, 1.0, 1.0));
+
+fn with_cut(cuts: Cuts, number: u32, plane: vec4<f32>) -> Cuts {
+    return Cuts(with_plane(cuts.low, LOW == vec4(number), plane), with_plane(cuts.high, HIGH == vec4(number), plane));
+}
+
+fn with_plane(p: Planes, here: vec4<bool>, plane: vec4<f32>) -> Planes {
+    return Planes(
+        select(p.x, vec4(plane.x), here),
+        select(p.y, vec4(plane.y), here),
+        select(p.z, vec4(plane.z), here),
+        select(p.d, vec4(plane.w), here),
+    );
+}
+
+fn cut_of(cuts: Cuts, number: u32) -> vec4<f32> {
+    let k = number & 3u;
+    let low = vec4(cuts.low.x[k], cuts.low.y[k], cuts.low.z[k], cuts.low.d[k]);
+    let high = vec4(cuts.high.x[k], cuts.high.y[k], cuts.high.z[k], cuts.high.d[k]);
+    return select(low, high, number > 3u);
+}
+
+// What the first `count` cuts leave of the unit cell.
+fn several_planes_volume(cuts: Cuts, count: u32) -> f32 {
     var sum = 0.0;
-    for (var a = 3u; a < 6u + cuts; a++) {
-        sum += planes[a].w * twice_area(a, 6u + cuts);
+    for (var face = 0u; face < 3u + count; face++) {
+        let of_cell = face < 3u;
+        let cut = cut_of(cuts, select(face - 3u, 0u, of_cell));
+        let axis = select(main_axis(cut.xyz), face, of_cell);
+        let n = select(turned(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
+        // Both sides times the sign: the lines on the face keep their sense.
+        let own = select(vec4(n, cut.w) * sign(n.z), vec4(n, 1.0), of_cell);
+        let number = select(face - 3u, 8u, of_cell);
+        let next = select(count, 8u, of_cell);
+        let low = on_face(turned_planes(cuts.low, axis), own, LOW, number, next);
+        let high = on_face(turned_planes(cuts.high, axis), own, HIGH, number, next);
+        let area = twice_area(low, high, select(count + 1u, count, of_cell));
+        // Seen along the axis the face is smaller than it is.
+        sum += select(cut.w / abs(n.z), 1.0, of_cell) * area;
     }
     return clamp(sum / 6.0, 0.0, 1.0);
 }
 
-// Twice the area of the face that lies in plane a.
-fn twice_area(a: u32, count: u32) -> f32 {
-    let n = planes[a].xyz;
-    let d = planes[a].w;
-    var edges = 0u;
-    for (var b = 0u; b < count; b++) {
-        if (b == a) {
-            continue;
-        }
-        let other = planes[b];
-        let along = dot(n, other.xyz);
-        let across = other.xyz - along * n;
-        let sine = length(across);
-        if (sine > PARALLEL) {
-            lines[edges] = vec4(across, other.w - along * d) / sine;
-            edges++;
-        } else if (hides(other.w, d, along, b < a)) {
-            return 0.0;
-        }
+fn turned_planes(p: Planes, axis: u32) -> Planes {
+    if (axis == 0u) {
+        return Planes(p.y, p.z, p.x, p.d);
     }
-    var sum = 0.0;
-    for (var e = 0u; e < edges; e++) {
-        sum += lines[e].w * edge_length(e, edges, n);
+    if (axis == 1u) {
+        return Planes(p.z, p.x, p.y, p.d);
+    }
+    return p;
+}
+
+// Where planes meet the face own.xyz . X = own.w, own.z > 0, seen along Z. In its own place stands Z >= 0, in the place
+// `next` Z <= 1.
+fn on_face(p: Planes, own: vec4<f32>, numbers: vec4<u32>, number: u32, next: u32) -> Lines {
+    let lowest = numbers == vec4(number);
+    let highest = numbers == vec4(next);
+    let x = select(select(p.x * own.z - p.z * own.x, vec4(own.x), lowest), vec4(-own.x), highest);
+    let y = select(select(p.y * own.z - p.z * own.y, vec4(own.y), lowest), vec4(-own.y), highest);
+    let d = select(select(p.d * own.z - p.z * own.w, vec4(own.w), lowest), vec4(own.z - own.w), highest);
+    let length = sqrt(x * x + y * y);
+    let parallel = length <= vec4(PARALLEL);
+    // Parallel ones become lines that leave all of the unit square or nothing; of two faces that are the same the first
+    // cut counts.
+    let all = (d > vec4(0.0)) | ((d == vec4(0.0)) & (numbers > vec4(number)));
+    return Lines(
+        select(x / length, vec4(1.0), parallel),
+        select(y / length, vec4(0.0), parallel),
+        select(d / length, select(vec4(-2.0), vec4(2.0), all), parallel),
+    );
+}
+
+// Twice the area that the first `count` lines leave of the unit square.
+fn twice_area(low: Lines, high: Lines, count: u32) -> f32 {
+    let right = stretch_between(vec2(0.0, 1.0), low, high, vec3(1.0, 0.0, 1.0), 8u);
+    let top = stretch_between(vec2(-1.0, 0.0), low, high, vec3(0.0, 1.0, 1.0), 8u);
+    var sum = right.y - right.x + top.y - top.x;
+    for (var e = 0u; e < count; e++) {
+        let k = e & 3u;
+        let line = select(vec3(low.x[k], low.y[k], low.d[k]), vec3(high.x[k], high.y[k], high.d[k]), e > 3u);
+        // No line is longer in the square, from wherever its foot is.
+        let inside = stretch_beside(vec2(-2.0, 2.0), SQUARE, line, vec4(true), vec4(false));
+        let side = stretch_between(inside, low, high, line, e);
+        sum += line.z * (side.y - side.x);
     }
     return sum;
 }
 
-// Length of line e between all others, in the plane with normal n.
-fn edge_length(e: u32, edges: u32, n: vec3<f32>) -> f32 {
-    let line = lines[e];
-    let direction = cross(n, line.xyz);
-    // The cell is not longer from any foot.
-    var low = -2.0;
-    var high = 2.0;
-    for (var c = 0u; c < edges; c++) {
-        if (c == e) {
-            continue;
-        }
-        let other = lines[c];
-        let along = dot(line.xyz, other.xyz);
-        let rate = dot(direction, other.xyz);
-        if (abs(rate) <= PARALLEL) {
-            if (hides(other.w, line.w, along, c < e)) {
-                return 0.0;
-            }
-            continue;
-        }
-        let reach = (other.w - along * line.w) / rate;
-        if (rate > 0.0) {
-            high = min(high, reach);
-        } else {
-            low = max(low, reach);
-        }
-    }
-    return max(high - low, 0.0);
+// What all lines but number e leave of a stretch of that.
+fn stretch_between(stretch: vec2<f32>, low: Lines, high: Lines, line: vec3<f32>, e: u32) -> vec2<f32> {
+    let number = vec4(e);
+    let first = vec4(e < 8u);
+    let left = stretch_beside(stretch, low, line, (LOW < number) & first, LOW == number);
+    return stretch_beside(left, high, line, (HIGH < number) & first, HIGH == number);
 }
 
-// Whether nothing of a plane (or line) at distance d is inside a parallel one at distance `other`. Of two that are the
-// same the first one counts.
-fn hides(other: f32, d: f32, along: f32, first: bool) -> bool {
-    if (along < 0.0) {
-        return other + d <= 0.0;
+// What lines that are not `skipped` leave of a stretch of line x X + y Y = d. A parallel one may hide all of it; of two
+// that are the same the first one counts, and of two with nothing between them none.
+fn stretch_beside(
+    stretch: vec2<f32>,
+    l: Lines,
+    line: vec3<f32>,
+    first: vec4<bool>,
+    skipped: vec4<bool>,
+) -> vec2<f32> {
+    let along = l.x * line.x + l.y * line.y;
+    let rate = l.y * line.x - l.x * line.y;
+    let parallel = abs(rate) <= vec4(PARALLEL);
+    // Compared, not subtracted: a device may fuse a difference with the product that l.d is, and then two lines would
+    // not agree about which of them is the lower one.
+    let behind = (l.d < vec4(line.z)) | ((l.d == vec4(line.z)) & first);
+    let hides = select(l.d <= vec4(-line.z), behind, along >= vec4(0.0));
+    if (any(parallel & hides & !skipped)) {
+        return vec2(0.0);
     }
-    return other < d || (other == d && first);
+    let reach = (l.d - along * line.z) / select(rate, vec4(1.0), parallel);
+    let high = select(vec4(stretch.y), reach, rate > vec4(PARALLEL));
+    let low = select(vec4(stretch.x), reach, rate < vec4(-PARALLEL));
+    let end = min(min(min(high.x, high.y), min(high.z, high.w)), stretch.y);
+    let begin = max(max(max(low.x, low.y), max(low.z, low.w)), stretch.x);
+    return vec2(begin, max(begin, end));
 }

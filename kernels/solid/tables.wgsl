@@ -49,6 +49,8 @@ struct Motion {
 const DEEP = 2.0;
 // Share of a part in a cell that it leaves empty, beside a cell that it does not.
 const NEAR = -1.0;
+// Share of a cell that is left to voxelise_edges.
+const UNDECIDED = 4.0;
 // Added to the shares of all parts in a cell that is deep in one of them.
 const DEEP_SUM = 8.0;
 // Numbers that a cell of a saturated brick has: sum of the shares, velocity of the solid (3), beta, a, G (3).

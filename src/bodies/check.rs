@@ -106,5 +106,8 @@ pub(super) fn joints(setup: &Setup) -> Joints {
         table[a * materials + b] = pair.joint;
         table[b * materials + a] = pair.joint;
     }
-    Joints { materials, table }
+    Joints {
+        materials: materials as u32,
+        table,
+    }
 }

@@ -50,6 +50,8 @@ pub struct Coupled {
     gaps: Vec<Gap>,
     interval: u64,
     average: bool,
+    /// Steps for which the blocks are held.
+    hold: u64,
     /// What the fluid did to the blocks in the last step that was read.
     pub(super) last: Vec<Load>,
     pub(super) felt: Vec<Felt>,
@@ -115,6 +117,7 @@ impl Coupled {
             gaps,
             interval: scene.coupling.interval.into(),
             average: scene.coupling.average,
+            hold: (scene.coupling.hold / units.time_step).round() as u64,
             last: vec![Load::default(); in_fluid],
             felt: vec![Felt::default(); setup.setup.blocks.len()],
             followers: vec![Follower::default(); setup.setup.blocks.len()],
@@ -229,6 +232,11 @@ impl Coupled {
     /// # Errors
     /// Those of [`Blocks::advance`].
     pub async fn advance(&mut self, until: f64) -> Result<()> {
+        let dt = self.immersed.frame().units.time_step;
+        if until < (self.hold as f64 + 0.5) * dt {
+            self.blocks.wait(until);
+            return Ok(());
+        }
         let dt = until - self.blocks.time();
         let poses = self.blocks.poses();
         for ((block, follower), pose) in self.followers.iter_mut().enumerate().zip(&poses) {

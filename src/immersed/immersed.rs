@@ -209,7 +209,7 @@ impl Immersed {
     }
 
     fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
-        self.kernels.set_work(queue, [tiles, slots]);
+        self.kernels.set_work(queue, tiles, slots);
         self.work.tiles += tiles.len() as u64;
         self.work.bricks += slots.len() as u64;
     }
@@ -260,12 +260,12 @@ impl Immersed {
     /// Records what the solid is in each cell, after [`Immersed::place`]; nothing where no block has
     /// changed since the last time.
     pub fn record_cells(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernels.record(pass, 0..2);
+        self.kernels.record(pass, 0..3);
     }
 
     /// Records the sums of what the fluid did to the blocks, after [`Lattice::record_saturated`].
     pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernels.record(pass, 2..4);
+        self.kernels.record(pass, 3..5);
     }
 
     /// The sums, [`WRENCH`] f32 for each block with loads: see [`Immersed::loads`]. Another buffer after

@@ -5,7 +5,7 @@
 //! the block. The device works on tiles: the part of one convex part of a block in one lane of one brick,
 //! which is what a workgroup of the fluid kernel runs.
 //!
-//! 1. `voxelise` writes the solid fraction of one part in each cell of a tile,
+//! 1. `voxelise` and `voxelise_edges` write the solid fraction of one part in each cell of a tile,
 //! 2. `saturate_cells` adds the parts that share a cell,
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
@@ -25,7 +25,7 @@ pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{
     MOST_BINDINGS, MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells,
-    voxelise,
+    voxelise, voxelise_edges,
 };
 pub use shell::NearCell;
 pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};

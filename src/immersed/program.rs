@@ -28,9 +28,16 @@ impl TileSum {
     }
 }
 
-/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`.
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
+/// which the first word must be 0 before, and which has room for a word more than `shares`.
 pub fn voxelise(grid: &Grid) -> Program {
     base("voxelise", grid)
+}
+
+/// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
+/// `parts`, `faces`, `shares`, `edges`.
+pub fn voxelise_edges(grid: &Grid) -> Program {
+    base("voxelise_edges", grid)
 }
 
 /// `saturate_cells`: a workgroup a slot of `work`. Binds `work`, `tiles`, `motions`, `slot_first`,

@@ -7,6 +7,7 @@ use super::{
     streams::Streams,
 };
 use crate::{Error, Result, kernel::Kernel, link::Program};
+use std::collections::HashSet;
 use wgpu::util::DeviceExt;
 
 /// A dispatch that is ready to be recorded.
@@ -218,6 +219,12 @@ impl Lattice {
         } = self;
         if let Some(bad) = bricks.iter().find(|&&brick| !geometry.runs(brick)) {
             let message = format!("brick {bad} has no fluid cell, or does not exist");
+            return Err(Error::scene("bricks", message));
+        }
+        // Two workgroups would share a brick and write over each other.
+        let mut seen = HashSet::with_capacity(bricks.len());
+        if let Some(bad) = bricks.iter().find(|&&brick| !seen.insert(brick)) {
+            let message = format!("brick {bad} is listed twice; list each brick once");
             return Err(Error::scene("bricks", message));
         }
         streams.set(device, queue, (setup, grid, geometry, buffers), bricks)

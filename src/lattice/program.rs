@@ -148,6 +148,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("GUARD_ODD", f64::from(u8::from(odd))),
         ("MAX_SPEED_SQUARED", setup.max_speed * setup.max_speed),
         ("TAU", setup.tau()),
+        ("EXCESS", 3.0 * setup.nu),
         ("S4", rates.s4),
         ("S10", bulk(rates.s10)),
         ("S13", bulk(rates.s13)),

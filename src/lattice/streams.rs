@@ -162,7 +162,7 @@ fn sorted(setup: &Setup, geometry: &Geometry, saturated: &[u32]) -> Vec<(Reach, 
         return fixed.map(|(reach, list)| (reach, list.clone())).collect();
     }
     // The guard counts steps in the first dispatch, which needs a brick: without a block in it the
-    // kernel for blocks gives the bits of its own.
+    // kernel for blocks gives what its own would.
     let spare = geometry.mixed.first().or(geometry.plain.first());
     let first: Vec<u32> = match saturated {
         [] => spare.into_iter().copied().collect(),

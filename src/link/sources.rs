@@ -27,9 +27,9 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";
     "solid":
-        "ball_share", "brick", "cell_load", "columns", "hull_share", "one_plane", "reduce_blocks", "reduce_tiles",
+        "axes", "ball_quick", "ball_share", "brick", "cell_load", "columns", "half_width", "hull_quick", "hull_share", "one_plane", "reduce_blocks", "reduce_tiles",
         "saturate_cells", "several_planes", "sum_of_all", "tables", "tile_sum_parallel", "tile_sum_serial",
-        "turn", "voxelise", "wrench";
+        "turn", "voxelise", "voxelise_edges", "wrench";
 };
 
 /// The text of the file `name`.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// How often fluid and blocks exchange poses and loads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Coupling {
     /// Time steps of the fluid from one exchange to the next, at least 1: between two the blocks stand
@@ -14,6 +14,9 @@ pub struct Coupling {
     /// Cells that a block fills reflect what is in them from step to step, so that single loads swing with
     /// a period of two steps, which the mean takes out. Default true.
     pub average: bool,
+    /// Time for which all blocks are held where they start, s, while the flow settles around them and their
+    /// loads are recorded; driven ones too. Default 0.
+    pub hold: f64,
 }
 
 impl Default for Coupling {
@@ -21,6 +24,7 @@ impl Default for Coupling {
         Self {
             interval: 1,
             average: true,
+            hold: 0.0,
         }
     }
 }

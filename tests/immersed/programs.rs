@@ -1,7 +1,7 @@
 //! The kernels are valid in all variants, and bind what they need and nothing else.
 
 use riprap::{
-    immersed::{TileSum, reduce_blocks, reduce_tiles, saturate_cells, voxelise},
+    immersed::{TileSum, reduce_blocks, reduce_tiles, saturate_cells, voxelise, voxelise_edges},
     kernel::bindings,
     lattice::Grid,
     link::Program,
@@ -24,7 +24,11 @@ fn bindings_by_name() {
     };
     assert_eq!(
         names(&voxelise(&grid), "voxelise"),
-        ["work", "tiles", "parts", "faces", "shares"]
+        ["work", "tiles", "parts", "faces", "shares", "edges"]
+    );
+    assert_eq!(
+        names(&voxelise_edges(&grid), "voxelise_edges"),
+        ["tiles", "parts", "faces", "shares", "edges"]
     );
     assert_eq!(
         names(&saturate_cells(&grid), "saturate_cells"),

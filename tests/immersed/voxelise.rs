@@ -7,23 +7,34 @@ use crate::{
     workbench::{POISON, Workbench},
 };
 use glam::{DQuat, DVec3};
-use riprap::immersed::{DEEP, NEAR, Tile, constants, voxelise};
+use riprap::{
+    block::HalfSpace,
+    immersed::{DEEP, NEAR, Tile, constants, voxelise, voxelise_edges},
+};
 
 /// The shares of the listed tiles; what is not listed stays poison.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> Vec<f32> {
     let shares = bench.poisoned(tiling.tiles.len() * tiling.workgroup());
+    // A list without an entry yet, in memory full of rubbish.
+    let mut list = vec![POISON; tiling.tiles.len() * tiling.workgroup() + 1];
+    list[0] = 0;
+    let edges = bench.buffer(&list);
     let buffers = [
         ("work", &bench.buffer(work)),
         ("tiles", &bench.buffer(&tiling.tiles)),
         ("parts", &bench.buffer(&tiling.parts)),
         ("faces", &bench.buffer(&tiling.faces)),
         ("shares", &shares),
+        ("edges", &edges),
     ];
     let mut numbers = constants(&tiling.grid);
     numbers.extend(jobs.map(|n| ("TILES", f64::from(n))));
     let groups = jobs.unwrap_or(work.len() as u32) as usize;
     let program = voxelise(&tiling.grid);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * groups);
+    let program = voxelise_edges(&tiling.grid);
+    // Fewer invocations than there are cells at edges: each does several.
+    bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
     bench.read(&shares)
 }
 
@@ -85,6 +96,16 @@ const ROUNDING: f64 = 2e-6;
 /// The same where a face of the part is almost parallel to one of the cell: what the kernel neglects.
 const ALMOST_PARALLEL: f64 = 1e-4;
 
+/// Columns: at an edge of the part their lengths have a kink. Between columns 1/8 apart a change of slope
+/// by 2 costs 2/8/8² of a cell at most; faces that are steep on the columns, and several edges, more.
+const COLUMNS: f64 = 1e-2;
+
+/// Faces that cut the cell about r.
+fn cuts(placed: &Placed, r: DVec3) -> usize {
+    let cut = |face: &&HalfSpace| face.height(r).abs() < face.normal.abs().element_sum() / 2.0;
+    placed.faces.iter().filter(cut).count()
+}
+
 /// Every cell of every tile; `most` is the largest error of a fraction.
 fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
     let mut worst = 0f64;
@@ -106,10 +127,11 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
             check_marks(placed, r, share, exact);
             let known = share == DEEP || share == NEAR || (0.0..=1.0).contains(&share);
             assert!(known, "{share}");
-            worst = worst.max((fraction(share) - exact).abs());
+            let most = if cuts(placed, r) > 7 { COLUMNS } else { most };
+            worst = worst.max((fraction(share) - exact).abs() / most);
         }
     }
-    assert!(worst < most, "{worst} of a cell");
+    assert!(worst < 1.0, "{worst} of what is allowed");
     worst
 }
 
@@ -160,6 +182,26 @@ fn each_cell_of_polyhedra() {
     assert!(worst > 0.0);
 }
 
+/// Faces that are almost along the grid and go through corners of cells, where f32 sees no difference.
+#[test]
+fn each_cell_of_a_cube_that_is_hardly_turned() {
+    let bench = Workbench::new(None);
+    let cube = cuboid(8.0, 8.0, 8.0);
+    let mut placed = Vec::new();
+    for angle in [1e-5, 3e-5, 1e-4, 2e-4, 2.9e-4, 3.1e-4, 1e-3] {
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE.normalize()] {
+            for at in [DVec3::splat(6.0), DVec3::new(6.5, 6.0, 5.5)] {
+                for turn in [angle, -angle] {
+                    let rotation = DQuat::from_axis_angle(axis, turn);
+                    placed.push(Placed::hull(0, &cube, at, rotation));
+                }
+            }
+        }
+    }
+    let tiling = Tiling::new(grid([13; 3], 1, [8, 8, 4]), [0; 3], placed);
+    check_cells(&tiling, &all(&bench, &tiling), ALMOST_PARALLEL);
+}
+
 /// Far from the origin of the coordinates, as blocks beside a periodic face are, nothing is lost.
 #[test]
 fn each_cell_far_from_the_origin() {
@@ -182,14 +224,24 @@ fn sums_are_the_volume_at_any_rotation() {
         ("icosahedron", icosahedron(16.0)),
     ];
     for (name, shape) in &shapes {
-        for rotation in rotations(12, &mut noise) {
+        let rotations = rotations(12, &mut noise);
+        let turned = rotations.iter().map(|rotation| {
             let at = DVec3::splat(16.0) + noise.point();
-            let placed = vec![Placed::hull(0, shape, at, rotation)];
-            let volume = placed[0].volume;
-            let tiling = Tiling::new(grid([33; 3], 1, [8, 4, 4]), [0; 3], placed);
-            let error = sum(&all(&bench, &tiling)) / volume - 1.0;
-            // Every cell is exact; f32 leaves some 1e-7 of each, and as much of the faces.
-            assert!(error.abs() < ROUNDING, "{name}, {rotation}: {error:e}");
+            Placed::hull(0, shape, at, *rotation)
+        });
+        let tiling = Tiling::new(grid([33; 3], 1, [8, 4, 4]), [0; 3], turned.collect());
+        let shares = all(&bench, &tiling);
+        let mut sums = vec![0.0; rotations.len()];
+        for (tile, shares) in tiling.tiles.iter().zip(shares.chunks(tiling.workgroup())) {
+            sums[tile.part as usize] += sum(shares);
+        }
+        for (n, sum) in sums.into_iter().enumerate() {
+            let error = sum / tiling.placed[n].volume - 1.0;
+            assert!(
+                error.abs() < ROUNDING,
+                "{name}, {}: {error:e}",
+                rotations[n]
+            );
         }
     }
 }
@@ -221,11 +273,7 @@ fn a_part_with_sixty_faces() {
     let bench = Workbench::new(None);
     let mut noise = Noise(4);
     // At 1.2 cells most cells have dozens of cuts, at 8 none has.
-    for (radius, most, most_sum) in [
-        (1.2, 1e-2, 2e-3),
-        (3.0, 1e-2, 5e-4),
-        (8.0, ROUNDING, ROUNDING),
-    ] {
+    for (radius, most) in [(1.2, 2e-3), (3.0, 2e-4), (8.0, 2e-5)] {
         let shape = pebble(60, radius);
         assert_eq!(shape.faces().len(), 60);
         let at = DVec3::splat(10.0) + noise.point();
@@ -234,8 +282,8 @@ fn a_part_with_sixty_faces() {
         let tiling = Tiling::new(grid([21; 3], 1, [4; 3]), [0; 3], placed);
         let shares = all(&bench, &tiling);
         let error = sum(&shares) / volume - 1.0;
-        assert!(error.abs() < most_sum, "radius {radius}: {error:e}");
-        check_cells(&tiling, &shares, most);
+        assert!(error.abs() < most, "radius {radius}: {error:e}");
+        check_cells(&tiling, &shares, ROUNDING);
     }
 }
 

@@ -4,6 +4,7 @@ use super::collide::collide;
 use super::domain::{Domain, Link};
 use super::lattice::{OPPOSITE, Q, W, c_dot, macroscopic};
 use super::rates::{Config, OddClass};
+use super::solid::{Solid, SolidOperator, solid_change};
 use super::{start, wale};
 
 /// Force per cell.
@@ -24,6 +25,8 @@ pub struct Twin {
     pub config: Config,
     /// Body force.
     pub force: Force,
+    /// How blocks act, and what they leave of each cell; `None`: there are no blocks.
+    pub blocks: Option<(SolidOperator, Vec<Solid>)>,
     /// Shifted populations before collision; 0 in solids.
     pub f: Vec<[f64; Q]>,
     /// Velocity of the step before, which WALE reads.
@@ -40,6 +43,7 @@ impl Twin {
             domain,
             config,
             force: Force::Uniform([0.0; 3]),
+            blocks: None,
             previous_velocity: None,
         }
     }
@@ -76,7 +80,15 @@ impl Twin {
         self.cells().map(|cell| self.macroscopic(cell).1).collect()
     }
 
-    /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE.
+    /// What blocks leave of a cell.
+    pub fn solid_at(&self, cell: usize) -> Solid {
+        self.blocks
+            .as_ref()
+            .map_or_else(Solid::default, |(_, cells)| cells[cell])
+    }
+
+    /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE. Blocks take their share of it,
+    /// because their rotation would have one.
     pub fn nu_t(&self) -> Vec<f64> {
         let Some(c_w) = self.config.c_w else {
             return vec![0.0; self.domain.len()];
@@ -90,13 +102,17 @@ impl Twin {
                 if self.domain.solid[cell] {
                     return 0.0;
                 }
-                wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w)
+                let nu_t = wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w);
+                nu_t * (1.0 - self.solid_at(cell).share())
             })
             .collect()
     }
 
-    /// Whether a cell is beside a bounce-back wall.
+    /// Whether a cell is beside a bounce-back wall, or in or beside a block.
     pub fn odd_class(&self, cell: usize) -> OddClass {
+        if self.solid_at(cell).is_near() {
+            return OddClass::Block;
+        }
         let wall = self.links[cell]
             .iter()
             .any(|link| matches!(link, Link::Bounce | Link::Moving(_)));
@@ -111,20 +127,45 @@ impl Twin {
                 if self.domain.solid[cell] {
                     return [0.0; Q];
                 }
-                collide(
-                    &self.config,
-                    &self.f[cell],
-                    self.force_at(cell),
-                    nu_t[cell],
-                    self.odd_class(cell),
-                )
+                let (f, force) = (&self.f[cell], self.force_at(cell));
+                let odd = self.odd_class(cell);
+                let fluid = collide(&self.config, f, force, nu_t[cell], odd);
+                self.saturate(cell, &fluid, self.config.tau_eff(nu_t[cell]))
             })
             .collect()
     }
 
+    /// f* = f + (1 − B)(fluid − f) + B Ω^s.
+    fn saturate(&self, cell: usize, fluid: &[f64; Q], tau: f64) -> [f64; Q] {
+        let solid = self.solid_at(cell);
+        let b = solid.weight(tau);
+        let change = self.solid_change(cell, solid.velocity, tau);
+        let f = &self.f[cell];
+        std::array::from_fn(|i| f[i] + (1.0 - b) * (fluid[i] - f[i]) + b * change[i])
+    }
+
+    /// Ω^s of a solid in a cell that moves with `u_s`; 0 without blocks.
+    pub fn solid_change(&self, cell: usize, u_s: [f64; 3], tau: f64) -> [f64; Q] {
+        let Some((operator, cells)) = &self.blocks else {
+            return [0.0; Q];
+        };
+        let how = (*operator, cells[cell].deep);
+        solid_change(
+            &self.config,
+            how,
+            &self.f[cell],
+            self.force_at(cell),
+            tau,
+            u_s,
+        )
+    }
+
     /// Collide, then stream.
     pub fn step(&mut self) {
-        let velocity = self.velocity();
+        let velocity = self
+            .cells()
+            .map(|cell| self.solid_at(cell).mean_velocity(self.macroscopic(cell).1))
+            .collect();
         let collided = self.collided();
         self.f = self
             .cells()

@@ -23,6 +23,7 @@ pub mod lattice;
 pub mod moments;
 pub mod noise;
 pub mod rates;
+pub mod solid;
 pub mod start;
 pub mod wale;
 
@@ -30,3 +31,4 @@ pub use collide::collide;
 pub use domain::{Domain, Face, Profile};
 pub use flow::{Force, Twin};
 pub use rates::{Config, Equilibrium, OddClass, Operator, Rates};
+pub use solid::{Solid, SolidOperator};

@@ -29,6 +29,8 @@ pub enum OddClass {
     Bulk,
     /// At least one of the 26 neighbours is a wall, a solid or a velocity face.
     Wall,
+    /// A block is in the cell or in one of the 26 neighbours; decides before walls do.
+    Block,
 }
 
 /// Rates of the moments that carry neither mass, momentum nor shear (Suga et al. 2015, §2).
@@ -98,7 +100,9 @@ pub struct Config {
     pub rates: Rates,
     /// Λ of cells beside bounce-back walls, `Hermite` only.
     pub lambda_wall: f64,
-    /// Λ of every cell, `Hermite` only, instead of the constants and of `lambda_wall`.
+    /// Λ of cells with a block and of their neighbours, `Hermite` only; `None` keeps the constants.
+    pub lambda_solid: Option<f64>,
+    /// Λ of every cell, `Hermite` only, instead of the constants and of the two above.
     pub lambda_everywhere: Option<f64>,
     /// Lowest odd rate that a Λ may ask for.
     pub floor: f64,
@@ -107,7 +111,8 @@ pub struct Config {
 }
 
 impl Config {
-    /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 beside walls but no odd rate below 0.8.
+    /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 beside walls and 1/10 in and beside blocks, but no
+    /// odd rate below 0.8.
     pub const fn new(tau: f64) -> Self {
         Self {
             tau,
@@ -115,6 +120,7 @@ impl Config {
             operator: Operator::Hermite,
             rates: Rates::SUGA,
             lambda_wall: 3.0 / 16.0,
+            lambda_solid: Some(0.1),
             lambda_everywhere: None,
             floor: 0.8,
             c_w: None,
@@ -170,6 +176,7 @@ fn odd_override(config: &Config, odd: OddClass) -> Option<f64> {
     let lambda = match (config.operator, config.lambda_everywhere, odd) {
         (Operator::Hermite, Some(lambda), _) => lambda,
         (Operator::Hermite, None, OddClass::Wall) => config.lambda_wall,
+        (Operator::Hermite, None, OddClass::Block) => config.lambda_solid?,
         _ => return None,
     };
     Some(odd_rate(config.tau, lambda, config.floor))

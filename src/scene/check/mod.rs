@@ -44,6 +44,12 @@ impl Scene {
                 "fluid and blocks would never meet; give a whole number of time steps, at least 1",
             );
         }
+        if !(self.coupling.hold.is_finite() && self.coupling.hold >= 0.0) {
+            return refuse(
+                "coupling.hold",
+                format!("is {}; give a time in s from 0 on", self.coupling.hold),
+            );
+        }
         self.check_solids()?;
         self.check_initial()?;
         self.check_run()?;

@@ -1,0 +1,97 @@
+//! Collision and streaming with given solid fractions.
+
+use crate::{
+    subject::Subject,
+    twin_of::{limit, noise, walled},
+};
+use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, Storage};
+
+/// Against the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights are 1 in sum:
+/// they have the rounding of those.
+fn assert_equal_to_twin(name: &str, setup: &Setup) {
+    let mut subject = Subject::new(setup);
+    let bricks = subject.some_bricks();
+    subject.fill(&bricks);
+    for steps in [1, 1, 3] {
+        subject.rig.run(&mut subject.lattice, steps);
+        subject.twin.run(steps - 1);
+        let forces = subject.force_error(&bricks);
+        subject.twin.step();
+        let populations = subject.population_error();
+        let step = subject.lattice.step();
+        println!("{name}, step {step}: populations {populations:e}, forces {forces:e}");
+        assert!(
+            populations < limit(setup),
+            "{name}, step {step}: {populations:e}"
+        );
+        assert!(
+            forces < limit(setup),
+            "{name}, step {step}: forces {forces:e}"
+        );
+    }
+}
+
+/// Odd and prime sizes; z divides by the lanes, and there are bricks that stand over the border.
+fn box_of(nu: f64, operator: SolidOperator) -> Setup {
+    let mut setup = Setup::periodic([5, 7, 4], nu);
+    setup.solid_operator = Some(operator);
+    setup.brick = [4, 4, 2];
+    setup
+}
+
+#[test]
+fn operators_collisions_and_equilibria() {
+    use {Collision::*, Equilibrium::*, SolidOperator::*};
+    let all = [
+        (Holdych, Hermite, Product, Some(0.1)),
+        (Noble, Hermite, SecondOrder, Some(0.125)),
+        (Superposition, Bgk, Product, None),
+        (Noble, Suga, SecondOrder, None),
+    ];
+    for (operator, collision, equilibrium, lambda) in all {
+        let mut setup = box_of(0.015, operator);
+        (setup.collision, setup.equilibrium) = (collision, equilibrium);
+        setup.solid_lambda = lambda;
+        setup.force = Force::Constant([1e-3, -2e-3, 5e-4]);
+        assert_equal_to_twin(
+            &format!("{operator:?} {collision:?} {equilibrium:?}"),
+            &setup,
+        );
+    }
+}
+
+/// (1/s − ½)(τ − ½) = Λ asks for less than the floor at this viscosity; the second has one Λ for all cells.
+#[test]
+fn odd_rates_beside_blocks_have_a_floor_and_one_magic_rate_has_none() {
+    let mut setup = box_of(0.004, SolidOperator::Holdych);
+    assert!(setup.odd_rate(0.1) < 0.5 * setup.odd_rate_floor);
+    assert_equal_to_twin("floored", &setup);
+    setup.lambda = Some(0.02);
+    assert_equal_to_twin("one rate", &setup);
+}
+
+#[test]
+fn layouts_with_walls_beside_blocks_and_everything_on() {
+    let cases = [
+        (Storage::F32, 1, 2, [4, 4, 2], SolidOperator::Noble),
+        (Storage::F32, 4, 5, [16, 2, 2], SolidOperator::Superposition),
+        (Storage::F16, 2, 3, [4, 2, 4], SolidOperator::Holdych),
+        (Storage::F16, 4, 2, [8, 4, 1], SolidOperator::Holdych),
+    ];
+    for (n, (storage, lanes, bindings, brick, operator)) in cases.into_iter().enumerate() {
+        let mut setup = walled(lanes, storage);
+        (setup.bindings, setup.brick) = (Some(bindings), brick);
+        setup.solid_operator = Some(operator);
+        setup.wale = Some(0.5);
+        setup.force = match n % 2 {
+            0 => Force::Constant([0.0, -1e-3, 5e-4]),
+            _ => Force::Field(
+                (0..6 * 5 * 7)
+                    .map(|n| [0, 1, 2].map(|a| 1e-3 * noise(3 * n + a) as f32))
+                    .collect(),
+            ),
+        };
+        let name = format!("{storage:?}, {lanes} lanes, {bindings} bindings, {operator:?}");
+        assert_equal_to_twin(&name, &setup);
+    }
+}

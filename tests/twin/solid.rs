@@ -1,0 +1,90 @@
+//! Partially saturated cells: the fluid of a cell, and the solid that fills a part of it (Noble & Torczynski 1998).
+
+use super::equilibrium::equilibrium;
+use super::lattice::{C, OPPOSITE, Q, macroscopic};
+use super::rates::Config;
+
+/// Ω^s, what the solid would do to populations that it had for itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SolidOperator {
+    /// f_ī − f_ī^eq(ρ, u_s) − f_i + f_i^eq(ρ, u_s) (Holdych 2003).
+    Holdych,
+    /// f_ī − f_ī^eq(ρ, u) − f_i + f_i^eq(ρ, u_s) (Noble & Torczynski 1998).
+    Noble,
+    /// f_i^eq(ρ, u_s) − f_i + (1 − 1/τ)(f_i − f_i^eq(ρ, u)) (Noble & Torczynski 1998).
+    Superposition,
+}
+
+/// What blocks leave of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Solid {
+    /// Sum of the fractions of all blocks, more than 1 where they overlap.
+    pub fraction: f64,
+    /// Mean velocity of the blocks, weighted by their fractions.
+    pub velocity: [f64; 3],
+    /// Whether a direct neighbour holds solid, where the cell itself holds none.
+    pub beside: bool,
+    /// Whether the cell and all within two layers of it are full of one block.
+    pub deep: bool,
+}
+
+impl Solid {
+    /// Part of the cell that no fluid fills.
+    pub fn share(&self) -> f64 {
+        self.fraction.min(1.0)
+    }
+
+    /// Whether the odd moments relax as beside the surface of a block.
+    pub fn is_near(&self) -> bool {
+        self.beside || self.fraction > 0.0
+    }
+
+    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside.
+    pub fn weight(&self, tau: f64) -> f64 {
+        let (e, excess) = (self.share(), tau - 0.5);
+        if self.deep {
+            1.0
+        } else {
+            e * excess / ((1.0 - e) + excess)
+        }
+    }
+
+    /// What the eddy viscosity sees of the cell: the solid where it is solid.
+    pub fn mean_velocity(&self, u: [f64; 3]) -> [f64; 3] {
+        let e = self.share();
+        [0, 1, 2].map(|a| (1.0 - e) * u[a] + e * self.velocity[a])
+    }
+}
+
+/// Ω^s of a solid that moves with `u_s`, in a cell with the relaxation time `tau`. Deep inside the
+/// equilibrium of the solid takes the place of all populations.
+pub fn solid_change(
+    config: &Config,
+    (operator, deep): (SolidOperator, bool),
+    f: &[f64; Q],
+    force: [f64; 3],
+    tau: f64,
+    u_s: [f64; 3],
+) -> [f64; Q] {
+    let (rho, u) = macroscopic(f, force);
+    let fluid = equilibrium(config.equilibrium, rho, u);
+    let solid = equilibrium(config.equilibrium, rho, u_s);
+    std::array::from_fn(|i| {
+        let r = OPPOSITE[i];
+        if deep {
+            return solid[i] - f[i];
+        }
+        match operator {
+            SolidOperator::Holdych => f[r] - solid[r] - f[i] + solid[i],
+            SolidOperator::Noble => f[r] - fluid[r] - f[i] + solid[i],
+            SolidOperator::Superposition => solid[i] - f[i] + (1.0 - 1.0 / tau) * (f[i] - fluid[i]),
+        }
+    })
+}
+
+/// Force on one of the blocks in a cell, −B_p Σ_i c_i Ω^s_i, of which the cell holds the fraction `part` and
+/// which moves there with `u_p` (Gardner & Sitar 2018, eq. 11, with the sign of their text).
+pub fn force_on(weight: f64, solid: &Solid, part: f64, change: &[f64; Q]) -> [f64; 3] {
+    let own = weight * part / solid.fraction;
+    [0, 1, 2].map(|a| -own * (0..Q).map(|i| f64::from(C[i][a]) * change[i]).sum::<f64>())
+}

@@ -1,12 +1,6 @@
 // Share of a convex polyhedron in a cell.
-// needs tables, one_plane, several_planes, columns
+// needs tables, faces, one_plane, several_planes, columns
 
-// Outward unit normal, and distance from the part's centroid.
-@group(0) @binding(3) var<storage, read> faces: array<vec4<f32>>;
-
-// Height over a cell's corner within which a face does not cut it, cells: the rounding of heights some 100 cells from
-// the centroid. Faces that lie along the grid then cost nothing.
-const TOUCH = 1e-5;
 // A share that is all rounding.
 const EMPTY = 1e-6;
 
@@ -32,7 +26,7 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
         deep = deep && s <= -5.0 * w;
         if (s > TOUCH - w) {
             last = vec4(face.xyz, s);
-            planes = with_cut(planes, cuts, vec4(face.xyz, dot(face.xyz, vec3(0.5)) - s));
+            planes = with_cut(planes, cuts, plane_from_corner(face.xyz, s));
             cuts++;
         }
     }
@@ -51,11 +45,6 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
         share = many_planes_volume(part, r);
     }
     return select(NEAR, share, share > EMPTY);
-}
-
-// How far the corners of a cell are from its centre along n.
-fn half_width(n: vec3<f32>) -> f32 {
-    return 0.5 * (abs(n.x) + abs(n.y) + abs(n.z));
 }
 
 // By columns through all faces of the part.

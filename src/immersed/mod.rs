@@ -8,12 +8,14 @@
 //! 1. `voxelise` writes the solid fraction of one part in each cell of a tile,
 //! 2. `saturate_cells` adds the parts that share a cell,
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
-//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
+//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
+//!    `reduce_faces` and `sum_faces` to that on single faces, where someone asks.
 
 mod program;
 mod tables;
 
 pub use program::{
-    MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells, voxelise,
+    MOST_FACES, TileSum, constants, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells,
+    sum_faces, voxelise,
 };
-pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
+pub use tables::{DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH};

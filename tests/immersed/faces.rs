@@ -10,7 +10,7 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Polyhedron,
+    block::{HalfSpace, Polyhedron},
     immersed::{DEEP, FACE_LOAD, FaceJob, PLANES, Tile, constants, reduce_faces, sum_faces},
 };
 
@@ -100,7 +100,9 @@ impl Case {
         let at = |plane| f64::from(self.saturation[self.tiling.scalar(tile, plane, local)]);
         let area = if passes && at(4) > 0.0 {
             let inside = placed.faces.iter().fold(Solid::cell(r), Solid::cut);
-            inside.area_in(own)
+            // Within rounding beyond the cell it counts as its side.
+            let distance = own.distance.min(own.normal.dot(r) + half);
+            inside.area_in(&HalfSpace { distance, ..*own })
         } else {
             0.0
         };
@@ -209,6 +211,8 @@ fn faces_together_are_the_block() {
     for (at, rotation) in [
         (DVec3::new(8.0, 8.0, 8.5), DQuat::IDENTITY),
         (DVec3::new(8.25, 8.5, 8.0), DQuat::IDENTITY),
+        // Within rounding of it.
+        (DVec3::new(8.000003, 8.0, 8.5), DQuat::IDENTITY),
         (DVec3::new(8.1, 8.2, 8.3), noise.rotation()),
     ] {
         let placed = vec![Placed::hull(0, &shape, at, rotation)];

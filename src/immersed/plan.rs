@@ -52,6 +52,16 @@ impl Plan {
         ((pose.centre - then.centre).length() + square.sqrt() * radius) / cell
     }
 
+    /// Where the tiles of a block were found.
+    pub fn found_at(&self, block: usize) -> Option<Pose> {
+        self.found[block].0
+    }
+
+    /// Forgets the tiles of a block.
+    pub fn forget(&mut self, block: usize) {
+        self.found[block] = (None, Vec::new());
+    }
+
     /// Finds the tiles of a block anew if it has gone far enough for that to be due soon.
     pub fn find(
         &mut self,

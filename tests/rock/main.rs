@@ -1,5 +1,6 @@
 //! Dry blocks against exact solutions.
 
+mod continuity;
 mod faults;
 mod free_body;
 mod incline;

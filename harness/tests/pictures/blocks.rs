@@ -93,11 +93,19 @@ fn blocks_are_drawn_over_the_slice_and_their_cells_do_not_stretch_the_colours() 
         origin: [0.0, 0.0, 0.7],
         spacing: 0.1,
         cells,
-        arrays: vec![Array {
-            name: "pressure".into(),
-            components: 1,
-            values,
-        }],
+        arrays: vec![
+            // As a fluid with immersed blocks is written.
+            Array {
+                name: "solid".into(),
+                components: 1,
+                values: values.iter().map(|v| f32::from(*v == 1e6)).collect(),
+            },
+            Array {
+                name: "pressure".into(),
+                components: 1,
+                values,
+            },
+        ],
     };
     let blocks = cut_blocks();
     let blocks: Vec<Placed<'_>> = blocks.iter().map(placed).collect();

@@ -71,6 +71,10 @@ pub fn sum(a: Load, b: Load) -> Load {
 
 /// The fluid inside a block, which goes where the block goes: the block feels its inertia through the cells, and
 /// gets it back from here, since the water inside is not part of what the block's mass stands for.
+///
+/// That is the water within the block's surface, ρ Σε, and not only what the cells hold with the weight B: what
+/// flows around a sphere moves as if the surface were where it is, at any viscosity, though B is small in cells
+/// that are partly solid where the viscosity is low. A sphere released from rest shows it by its acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Follower {
     /// Velocity and spin at the last exchange, m/s and rad/s.
@@ -96,13 +100,14 @@ impl Follower {
         self.last = Some(now);
     }
 
-    /// What the fluid inside a block takes of its load: ρ ΣB times the acceleration, and the same of the turn,
+    /// What the fluid inside a block takes of its load: ρ Σε times the acceleration, and the same of the turn,
     /// with the block's tensor of inertia for a density of one (m⁵, world) and its volume (m³).
     pub fn load(&self, density: f64, load: &Load, inertia: DMat3, volume: f64) -> Load {
         let [linear, angular] = self.rate;
-        let filled = load.entrained / volume;
-        let torque = density * filled * (inertia * angular);
-        let force = density * load.entrained * linear;
+        // Less than the block's volume where it reaches out of the domain.
+        let inside = load.entrained + load.missing;
+        let torque = density * inside / volume * (inertia * angular);
+        let force = density * inside * linear;
         Load {
             force,
             // A torque is the skew part of a moment.
@@ -146,7 +151,8 @@ mod tests {
             follower.follow(&pose(DVec3::new(0.0, 0.5, 2.0) * f64::from(n)), 1.0);
         }
         let inside = Load {
-            entrained: 0.75,
+            entrained: 0.5,
+            missing: 0.25,
             ..Load::default()
         };
         let inertia = DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0));

@@ -7,6 +7,7 @@ mod dry;
 mod fields;
 mod lattice_setup;
 mod needs;
+mod start;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
@@ -20,7 +21,7 @@ use crate::{
     Error, Result,
     checkpoint::Checkpoint,
     coupling::Coupled,
-    lattice::{self, Collision, Derived, Lattice, Observer, State},
+    lattice::{self, Collision, Derived, Lattice, Observer},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
@@ -54,7 +55,12 @@ impl Simulation {
         let advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
-        let start = start(scene, &units)?;
+        let blocks = match scene.has_blocks() {
+            true => Some(block_setup(scene)?),
+            false => None,
+        };
+        let in_fluid = blocks.as_ref().map(|all| &all.setup.blocks[..all.in_fluid]);
+        let start = start::start(scene, &units, in_fluid.unwrap_or_default())?;
         let changing = |(face, boundary): (Face, &Boundary)| match boundary {
             Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
             _ => None,
@@ -74,18 +80,11 @@ impl Simulation {
                 lattice.grid().cell_count()
             )));
         }
-        let coupled = match scene.has_blocks() {
-            true => Some(
-                Coupled::new(
-                    device,
-                    queue,
-                    &lattice,
-                    (scene, &units),
-                    block_setup(scene)?,
-                )
-                .await?,
-            ),
-            false => None,
+        let coupled = match blocks {
+            Some(blocks) => {
+                Some(Coupled::new(device, queue, &lattice, (scene, &units), blocks).await?)
+            }
+            None => None,
         };
         Ok(Self {
             device: device.clone(),
@@ -318,18 +317,4 @@ impl Simulation {
         let changed = self.changed_faces()?;
         self.set_faces(changed)
     }
-}
-
-/// The initial state in lattice units; cells of static solids are at rest.
-fn start(scene: &Scene, units: &Units) -> Result<State> {
-    let fields = scene.initial_fields()?;
-    let excess = |p: &f32| (units.pressure_to_lattice((*p).into()) - 1.0) as f32;
-    let speed = |u: &f32| units.velocity_to_lattice((*u).into()) as f32;
-    Ok(State {
-        excess: fields.pressure.iter().map(excess).collect(),
-        velocity: fields
-            .velocity
-            .each_ref()
-            .map(|u| u.iter().map(speed).collect()),
-    })
 }

@@ -12,7 +12,8 @@ pub struct Coupling {
     pub interval: u32,
     /// Whether blocks feel the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
     /// Cells that a block fills reflect what is in them from step to step, so that single loads swing with
-    /// a period of two steps, which the mean takes out. Default true.
+    /// a period of two steps, which the mean takes out. Without it that swing grows until free blocks fly
+    /// off: only driven and fixed blocks can do without. Default true.
     pub average: bool,
     /// Time for which all blocks are held where they start, s, while the flow settles around them and their
     /// loads are recorded; driven ones too. Default 0.

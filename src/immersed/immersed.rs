@@ -133,7 +133,8 @@ impl Immersed {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
             return Err(Error::scene("poses", message));
         }
-        if let Some(bad) = poses.iter().position(|pose| !finite(pose)) {
+        let nowhere = |pose: &Pose| !finite(&self.frame, pose);
+        if let Some(bad) = poses.iter().position(nowhere) {
             return Err(Error::NotFinite {
                 block: format!("{bad}"),
                 time: lattice.step() as f64 * self.frame.units.time_step,
@@ -382,8 +383,12 @@ impl Immersed {
     }
 }
 
-fn finite(pose: &Pose) -> bool {
-    pose.centre.is_finite()
+/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
+const FARTHEST: f64 = 1e9;
+
+/// Whether a block can be placed.
+fn finite(frame: &Frame, pose: &Pose) -> bool {
+    frame.place(pose.centre).abs().max_element() < FARTHEST
         && pose.deformation.is_finite()
         && pose.velocity.is_finite()
         && pose.deformation_rate.is_finite()

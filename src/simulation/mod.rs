@@ -23,7 +23,7 @@ use crate::{
     Error, Result,
     checkpoint::Checkpoint,
     coupling::Coupled,
-    lattice::{self, Collision, Derived, Lattice, Observer},
+    lattice::{self, Collision, Derived, Lattice, Observer, State},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
@@ -334,4 +334,18 @@ impl Simulation {
         let changed = self.changed_faces()?;
         self.set_faces(changed)
     }
+}
+
+/// The initial state in lattice units; cells of static solids are at rest.
+fn start(scene: &Scene, units: &Units) -> Result<State> {
+    let fields = scene.initial_fields()?;
+    let excess = |p: &f32| (units.pressure_to_lattice((*p).into()) - 1.0) as f32;
+    let speed = |u: &f32| units.velocity_to_lattice((*u).into()) as f32;
+    Ok(State {
+        excess: fields.pressure.iter().map(excess).collect(),
+        velocity: fields
+            .velocity
+            .each_ref()
+            .map(|u| u.iter().map(speed).collect()),
+    })
 }

@@ -1,8 +1,5 @@
 // Share of a convex polyhedron in a cell that at most one of its faces cuts.
-// needs tables, half_width, one_plane
-
-// Outward unit normal, and distance from the part's centroid.
-@group(0) @binding(3) var<storage, read> faces: array<vec4<f32>>;
+// needs tables, faces, one_plane
 
 // r: the centre of the cell from the part's centroid.
 fn hull_quick(part: Part, r: vec3<f32>) -> f32 {

@@ -1,8 +1,5 @@
 // Share of a convex polyhedron in a cell that several of its faces cut.
-// needs tables, half_width, several_planes, columns
-
-// Outward unit normal, and distance from the part's centroid.
-@group(0) @binding(3) var<storage, read> faces: array<vec4<f32>>;
+// needs tables, faces, several_planes, columns
 
 // r: the centre of the cell from the part's centroid.
 fn hull_share(part: Part, r: vec3<f32>) -> f32 {
@@ -12,7 +9,7 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
         let face = faces[part.first_face + k];
         let s = dot(face.xyz, r) - face.w;
         if (s > TOUCH - half_width(face.xyz)) {
-            planes = with_cut(planes, cuts, vec4(face.xyz, dot(face.xyz, vec3(0.5)) - s));
+            planes = with_cut(planes, cuts, plane_from_corner(face.xyz, s));
             cuts++;
         }
     }

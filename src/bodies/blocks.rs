@@ -60,6 +60,7 @@ pub struct Blocks {
     pub(super) sleep: Option<Sleep>,
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
+    pub(super) corner_area: f64,
     pub(super) resolvers: Resolvers,
 
     pub(super) time: f64,
@@ -131,6 +132,7 @@ impl Blocks {
             sleep: setup.sleep,
             start_overlap: setup.start_overlap,
             largest_overlap: setup.largest_overlap,
+            corner_area: setup.corner_area,
             resolvers: Resolvers::new(options),
             time: 0.0,
             steps: 0,

@@ -29,6 +29,8 @@ pub(super) struct Scene<'a> {
     pub bonding: bool,
     /// Largest overlap, as a share of the smaller distance from centroid to face.
     pub largest_overlap: f64,
+    /// Least area of a contact's springs, as a share of the square of twice that distance.
+    pub corner_area: f64,
 }
 
 /// The joint of every two materials.
@@ -174,10 +176,12 @@ impl Scene<'_> {
             time_step: self.time_step,
             mass: 1.0 / (a.inverse_mass + b.inverse_mass),
         };
+        let square = (2.0 * TENTHS * contact.limit).powi(2);
         let section = law::Section {
             normal: contact.normal,
             overlap: contact.overlap,
             area: contact.area,
+            elastic_area: contact.area.max(self.corner_area * square),
         };
         let fresh = History {
             bonded: self.bonding,
@@ -191,7 +195,7 @@ impl Scene<'_> {
             pressure_centre: at,
             normal: contact.normal,
             overlap: contact.overlap,
-            area: contact.area,
+            area: section.elastic_area,
             width: contact.width,
             limit: contact.limit,
             force: law::force(joint, &section, &motion, &history),

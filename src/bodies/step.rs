@@ -197,6 +197,7 @@ impl Blocks {
             } else {
                 self.largest_overlap
             },
+            corner_area: self.corner_area,
         };
         narrow::resolve(
             &scene,

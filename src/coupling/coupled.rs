@@ -1,6 +1,6 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Ambient, Follower, Gap, Reading, gaps::gaps, loads::sum};
+use super::{Ambient, Gap, Gathered, InnerFluid, Matter, Reading, gaps::gaps, loads::sum};
 use crate::{
     Result,
     bodies::{Block, Blocks, Load, Motion, Pose},
@@ -19,13 +19,13 @@ const REST: u64 = 16;
 /// How often fluid and blocks met since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exchanges {
-    /// Loads read back: those of the steps after which blocks moved, and of the steps before these.
+    /// Times that the host waited for loads: at the ends of steps after which blocks moved, or were asked for.
     pub readings: u64,
     /// What was computed of the blocks' cells.
     pub cells: Work,
 }
 
-/// What a block feels of the fluid.
+/// What a block feels of the fluid, the mean since the exchange before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Felt {
     /// What the flow does: zero at rest. Without buoyancy.
@@ -40,9 +40,8 @@ pub struct Coupled {
     setup: BlockSetup,
     pub(super) blocks: Blocks,
     finder: AutoBroadphase,
-    immersed: Immersed,
-    /// Of the last two steps.
-    readings: [Reading; 2],
+    pub(super) immersed: Immersed,
+    pub(super) reading: Reading,
     ambient: Ambient,
     /// Blocks in the fluid, the first ones; the others are walls and solids, which the lattice has already.
     in_fluid: usize,
@@ -52,12 +51,9 @@ pub struct Coupled {
     average: bool,
     /// Steps for which the blocks are held.
     hold: u64,
-    /// What the fluid did to the blocks in the last step that was read.
-    pub(super) last: Vec<Load>,
+    pub(super) gathered: Gathered,
     pub(super) felt: Vec<Felt>,
-    pub(super) followers: Vec<Follower>,
-    /// Whether loads have been read, so that `last` is of the step before.
-    pub(super) begun: bool,
+    pub(super) inner: Vec<InnerFluid>,
     read: u64,
     /// Whether the cells have been computed for the present poses.
     pub(super) placed: bool,
@@ -107,7 +103,7 @@ impl Coupled {
         };
         Ok(Self {
             immersed: Immersed::new(device, lattice, frame, submerged.collect())?,
-            readings: [Reading::default(), Reading::default()],
+            reading: Reading::default(),
             ambient: Ambient {
                 density: scene.fluid.density,
                 acceleration: scene.fluid.acceleration.clone(),
@@ -118,10 +114,9 @@ impl Coupled {
             interval: scene.coupling.interval.into(),
             average: scene.coupling.average,
             hold: (scene.coupling.hold / units.time_step).round() as u64,
-            last: vec![Load::default(); in_fluid],
+            gathered: Gathered::default(),
             felt: vec![Felt::default(); setup.setup.blocks.len()],
-            followers: vec![Follower::default(); setup.setup.blocks.len()],
-            begun: false,
+            inner: vec![InnerFluid::default(); setup.setup.blocks.len()],
             read: 0,
             placed: false,
             setup,
@@ -142,7 +137,7 @@ impl Coupled {
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<()> {
         if !self.placed {
-            let poses = self.blocks.poses();
+            let poses = self.poses();
             self.immersed
                 .place(device, queue, lattice, &poses[..self.in_fluid])?;
             let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -151,6 +146,17 @@ impl Coupled {
             self.placed = true;
         }
         Ok(())
+    }
+
+    /// Where the blocks are and how they move: not at all while they are held.
+    pub(super) fn poses(&self) -> Vec<Pose> {
+        let mut poses = self.blocks.poses();
+        if self.holds(self.blocks.time() + self.time_step()) {
+            for pose in &mut poses {
+                (pose.velocity, pose.deformation_rate) = (DVec3::ZERO, DMat3::ZERO);
+            }
+        }
+        poses
     }
 
     /// Whether fluid and blocks meet at the end of the step `step`, counted from 1, of those until `last`.
@@ -164,10 +170,22 @@ impl Coupled {
         step.is_multiple_of(interval)
     }
 
-    /// Whether the loads of the step `step`, counted from 1, are wanted beside those of the next one, for
-    /// their mean.
-    pub fn prepares(&self, step: u64, last: u64) -> bool {
-        self.average && !self.meets(step, last) && self.meets(step + 1, last)
+    /// Whether the loads of the step `step`, counted from 1, are wanted: of all steps while a block moves, else
+    /// for their mean also of the step before fluid and blocks meet.
+    pub fn wants(&self, step: u64, last: u64) -> bool {
+        self.moves() && !self.rests()
+            || self.meets(step, last)
+            || self.average && self.meets(step + 1, last)
+    }
+
+    /// Length of a step of the fluid, s.
+    fn time_step(&self) -> f64 {
+        self.immersed.frame().units.time_step
+    }
+
+    /// Whether the blocks are held until the time `until` (s).
+    fn holds(&self, until: f64) -> bool {
+        until < (self.hold as f64 + 0.5) * self.time_step()
     }
 
     /// Whether a block can move at all.
@@ -181,94 +199,91 @@ impl Coupled {
         all.all(|(block, asleep)| asleep || !self.blocks.moves(block))
     }
 
-    /// Records the sums of what the fluid did to the blocks in this step, and their way to the host;
-    /// `early` for the step before that of [`Coupled::read_loads`].
+    /// Records the sums of what the fluid did to the blocks in the step `step`, and their way to the host.
     pub fn record_loads(
         &mut self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        early: bool,
+        step: u64,
     ) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         self.immersed.record_loads(&mut pass);
         drop(pass);
-        let (buffer, count) = (self.immersed.wrenches(), self.immersed.wrench_count());
-        self.readings[usize::from(early)].record(device, encoder, buffer, count);
+        let sums = (self.immersed.wrenches(), self.immersed.wrench_count());
+        self.reading.record(device, encoder, sums, step);
     }
 
-    /// Waits for the loads that were recorded and takes them over.
+    /// Waits for the loads that were recorded and adds them to those since the last exchange.
     ///
     /// # Errors
     /// If the device is lost.
     pub async fn read_loads(&mut self) -> Result<()> {
-        let [last, early] = &mut self.readings;
-        if early.is_pending() {
-            self.last = self.immersed.loads(&early.finish().await?)?;
-            self.begun = true;
-            self.read += 1;
+        for (step, sums) in self.reading.finish().await? {
+            let poses = self.blocks.poses();
+            let flow =
+                |(load, pose): (Load, &Pose)| sum(load, self.ambient.push(&load, pose.centre));
+            let loads = self.immersed.loads(&sums)?.into_iter().zip(&poses);
+            self.gathered
+                .add(step, loads.map(flow).collect(), self.average);
         }
-        let loads = self.immersed.loads(&last.finish().await?)?;
-        let poses = self.blocks.poses();
-        for (block, load) in loads.iter().enumerate() {
-            let single = !self.begun || !self.average;
-            let load = if single {
-                *load
-            } else {
-                mean(load, &self.last[block])
-            };
-            self.felt[block] = Felt {
-                flow: sum(load, self.ambient.push(&load, poses[block].centre)),
-                buoyancy: self.ambient.buoyancy(&load),
-            };
-        }
-        self.last = loads;
-        self.begun = true;
-        self.read += 1;
         Ok(())
     }
 
-    /// Moves the blocks under the loads of the last reading until the time `until` (s).
+    /// Ends the time since the last exchange: the blocks feel the mean of its loads.
+    pub fn exchange(&mut self) {
+        self.read += 1;
+        let flows = self.gathered.take().unwrap_or_default();
+        for (felt, flow) in self.felt.iter_mut().zip(flows) {
+            let buoyancy = self.ambient.buoyancy(&flow);
+            *felt = Felt { flow, buoyancy };
+        }
+    }
+
+    /// Moves the blocks under what they feel until the time `until` (s).
     ///
     /// # Errors
-    /// Those of [`Blocks::advance`].
+    /// Those of [`Blocks::advance`]. The blocks then are where they were.
     pub async fn advance(&mut self, until: f64) -> Result<()> {
-        let dt = self.immersed.frame().units.time_step;
-        if until < (self.hold as f64 + 0.5) * dt {
+        if self.holds(until) {
             self.blocks.wait(until);
+            // The last of it lets the fluid know how they move.
+            self.placed = self.holds(until + self.time_step());
             return Ok(());
         }
         let dt = until - self.blocks.time();
+        let (start, inner) = (self.blocks.snapshot(), self.inner.clone());
         let poses = self.blocks.poses();
-        for ((block, follower), pose) in self.followers.iter_mut().enumerate().zip(&poses) {
-            if self.blocks.moves(block) {
-                follower.follow(pose, dt);
-            }
-        }
-        let loads: Vec<Load> = (0..self.blocks.len())
-            .map(|block| self.load(block, &poses[block]))
+        let loads: Vec<Load> = (0..poses.len())
+            .map(|block| self.load(block, &poses[block], dt))
             .collect();
-        self.blocks.load(&loads)?;
-        self.blocks.advance(&mut self.finder, until).await?;
+        let moved = match self.blocks.load(&loads) {
+            Ok(()) => self.blocks.advance(&mut self.finder, until).await,
+            refused => refused,
+        };
+        if moved.is_err() {
+            self.inner = inner;
+            self.blocks.restore(&start)?;
+        }
         self.placed = false;
-        Ok(())
+        moved
     }
 
-    /// The whole load on a block.
-    fn load(&self, block: usize, pose: &Pose) -> Load {
+    /// The whole load on a block, from the fluid around it and inside it, over the last `dt` (s).
+    fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
         let felt = &self.felt[block];
         let all = sum(felt.flow, felt.buoyancy);
-        if felt.flow.entrained == 0.0 {
+        let made = &self.setup.setup.blocks[block];
+        if made.motion != Motion::Free {
             return all;
         }
-        let shape = &self.setup.setup.blocks[block].shape;
         let turn: DMat3 = pose.deformation;
-        let inertia = turn * shape.inertia() * turn.transpose();
-        let density = self.ambient.density;
-        let follower = &self.followers[block];
-        sum(
-            all,
-            follower.load(density, &felt.flow, inertia, shape.volume()),
-        )
+        let matter = Matter {
+            mass: self.blocks.mass(block),
+            volume: made.shape.volume(),
+            inertia: turn * made.shape.inertia() * turn.transpose(),
+            gravity: self.ambient.gravity,
+        };
+        self.inner[block].load(&all, pose, &matter, self.ambient.density, dt)
     }
 
     /// What each block feels of the fluid, of the last reading.
@@ -307,14 +322,5 @@ impl Coupled {
             readings: self.read,
             cells: self.immersed.work(),
         }
-    }
-}
-
-/// The mean of two loads (Owen, Leonardi & Feng 2011); volumes are those of the first.
-fn mean(a: &Load, b: &Load) -> Load {
-    Load {
-        force: 0.5 * (a.force + b.force),
-        moment: 0.5 * (a.moment + b.moment),
-        ..*a
     }
 }

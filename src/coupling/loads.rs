@@ -1,10 +1,6 @@
 //! From what the fluid did to the solid in its cells to the load on a block.
 
-use crate::{
-    bodies::{Load, Pose},
-    formula::Formula,
-    immersed::spin,
-};
+use crate::{bodies::Load, formula::Formula};
 use glam::{DMat3, DVec3};
 
 /// What acts on fluid and rock everywhere.
@@ -66,105 +62,5 @@ pub fn sum(a: Load, b: Load) -> Load {
         force: a.force + b.force,
         moment: a.moment + b.moment,
         ..a
-    }
-}
-
-/// The fluid inside a block, which goes where the block goes: the block feels its inertia through the cells, and
-/// gets it back from here, since the water inside is not part of what the block's mass stands for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Follower {
-    /// Velocity and spin at the last exchange, m/s and rad/s.
-    last: Option<[DVec3; 2]>,
-    /// Smoothed acceleration, m/s² and rad/s².
-    rate: [DVec3; 2],
-}
-
-/// Share of the newest acceleration in the smoothed one: contacts make accelerations rough, and the smoothing
-/// must not last longer than the fluid needs to answer, a few steps.
-const NEWEST: f64 = 0.5;
-
-impl Follower {
-    /// Notes how the block moves, `dt` (s) after the last time.
-    pub fn follow(&mut self, pose: &Pose, dt: f64) {
-        let now = [pose.velocity, spin(pose)];
-        if let Some(last) = self.last {
-            for k in 0..2 {
-                let rate = (now[k] - last[k]) / dt;
-                self.rate[k] += NEWEST * (rate - self.rate[k]);
-            }
-        }
-        self.last = Some(now);
-    }
-
-    /// What the fluid inside a block takes of its load: ρ ΣB times the acceleration, and the same of the turn,
-    /// with the block's tensor of inertia for a density of one (m⁵, world) and its volume (m³).
-    pub fn load(&self, density: f64, load: &Load, inertia: DMat3, volume: f64) -> Load {
-        let [linear, angular] = self.rate;
-        let filled = load.entrained / volume;
-        let torque = density * filled * (inertia * angular);
-        let force = density * load.entrained * linear;
-        Load {
-            force,
-            // A torque is the skew part of a moment.
-            moment: 0.5 * crate::bodies::skew(torque),
-            ..Load::default()
-        }
-    }
-
-    /// As numbers, for a checkpoint.
-    pub fn to_numbers(self) -> [f64; 13] {
-        let [velocity, spin] = self.last.unwrap_or_default();
-        let mut all = [0.0; 13];
-        all[0] = f64::from(u8::from(self.last.is_some()));
-        let vectors = [velocity, spin, self.rate[0], self.rate[1]];
-        for (place, vector) in all[1..].chunks_exact_mut(3).zip(vectors) {
-            place.copy_from_slice(&vector.to_array());
-        }
-        all
-    }
-
-    /// From what [`Follower::to_numbers`] gave.
-    pub fn from_numbers(numbers: &[f64; 13]) -> Self {
-        let vector = |n: usize| DVec3::new(numbers[n], numbers[n + 1], numbers[n + 2]);
-        Self {
-            last: (numbers[0] != 0.0).then(|| [vector(1), vector(4)]),
-            rate: [vector(7), vector(10)],
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_torque_of_the_inner_fluid_is_that_of_its_inertia() {
-        let mut follower = Follower::default();
-        let pose = |spin: DVec3| Pose::rigid(DVec3::ZERO, glam::DQuat::IDENTITY, DVec3::ZERO, spin);
-        follower.follow(&pose(DVec3::ZERO), 1.0);
-        for n in 1..200 {
-            follower.follow(&pose(DVec3::new(0.0, 0.5, 2.0) * f64::from(n)), 1.0);
-        }
-        let inside = Load {
-            entrained: 0.75,
-            ..Load::default()
-        };
-        let inertia = DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0));
-        let load = follower.load(1000.0, &inside, inertia, 1.0);
-        let expected = DVec3::new(0.0, 750.0, 4500.0);
-        assert!(
-            (load.torque() - expected).length() < 1e-9,
-            "{}",
-            load.torque()
-        );
-    }
-
-    #[test]
-    fn a_follower_survives_its_numbers() {
-        let mut follower = Follower::default();
-        assert_eq!(Follower::from_numbers(&follower.to_numbers()), follower);
-        let pose = Pose::rigid(DVec3::ONE, glam::DQuat::IDENTITY, DVec3::X, DVec3::Y);
-        follower.follow(&pose, 0.1);
-        assert_eq!(Follower::from_numbers(&follower.to_numbers()), follower);
     }
 }

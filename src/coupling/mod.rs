@@ -7,6 +7,8 @@
 mod advice;
 mod coupled;
 mod gaps;
+mod gathered;
+mod inner_fluid;
 mod loads;
 mod near;
 mod reading;
@@ -14,7 +16,9 @@ mod state;
 
 pub use coupled::{Coupled, Exchanges, Felt};
 pub use gaps::Gap;
-pub use loads::{Ambient, Follower};
+pub use gathered::Gathered;
+pub use inner_fluid::{InnerFluid, Matter};
+pub use loads::Ambient;
 pub use near::BlockCell;
 pub use reading::Reading;
 pub use state::CoupledState;

@@ -2,6 +2,8 @@
 
 use super::Coupled;
 use crate::immersed::{NearCell, near, outline};
+use crate::lattice::State;
+use crate::scene::Domain;
 use glam::DVec3;
 
 /// A cell in or beside a block.
@@ -37,10 +39,36 @@ impl Coupled {
         all
     }
 
-    /// Velocity of a block's solid at the place `x` (m), m/s.
+    /// Velocity of a block's solid at the place `x` (m) or its image next to the block, m/s.
     pub fn solid_velocity(&self, block: usize, x: DVec3) -> DVec3 {
-        let pose = self.blocks().poses()[block];
+        let pose = self.poses()[block];
         let gradient = pose.deformation_rate * pose.deformation.inverse();
-        pose.velocity + gradient * (x - pose.centre)
+        let (cells, periodic) = self.immersed().domain();
+        let mut r = x - pose.centre;
+        for axis in (0..3).filter(|&axis| periodic[axis]) {
+            let period = f64::from(cells[axis]) * self.immersed().frame().units.cell;
+            r[axis] -= period * (r[axis] / period).round();
+        }
+        pose.velocity + gradient * r
+    }
+
+    /// Has the fluid inside the blocks move as they do: it is part of them, and what would bring it up to their
+    /// speed would be taken from them.
+    pub fn fill(&self, domain: &Domain, state: &mut State) {
+        let units = self.immersed().frame().units;
+        let cells = domain.cells();
+        for found in self.near(0.0) {
+            let at = found.near.cell;
+            let ijk = [
+                at % cells[0],
+                at / cells[0] % cells[1],
+                at / (cells[0] * cells[1]),
+            ];
+            let centre = DVec3::from(domain.centre(ijk));
+            let velocity = self.solid_velocity(found.block, centre).to_array();
+            for (field, velocity) in state.velocity.iter_mut().zip(velocity) {
+                field[at as usize] = units.velocity_to_lattice(velocity) as f32;
+            }
+        }
     }
 }

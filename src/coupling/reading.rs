@@ -1,49 +1,61 @@
-//! A copy that the device makes while it goes on, and the host waits for.
+//! Copies that the device makes while it goes on, and the host waits for.
 
 use crate::{Result, readback};
 
-/// Numbers on their way from the device. The staging buffer is kept for the next ones.
+/// Numbers of some steps on their way from the device. The staging buffers are kept for the next ones.
 #[derive(Debug, Default)]
 pub struct Reading {
-    staging: Option<wgpu::Buffer>,
+    staging: Vec<wgpu::Buffer>,
+    /// Steps whose numbers are on their way, each in the staging buffer of its place.
+    steps: Vec<u64>,
     bytes: u64,
-    pending: bool,
 }
 
 impl Reading {
-    /// Records the copy of the first `count` f32 of `buffer`.
+    /// Records the copy of the first `count` f32 of `buffer` at the end of the step `step`; `count` stays the
+    /// same until they have come.
     pub fn record(
         &mut self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        buffer: &wgpu::Buffer,
-        count: usize,
+        (buffer, count): (&wgpu::Buffer, usize),
+        step: u64,
     ) {
         self.bytes = 4 * count as u64;
+        let place = self.steps.len();
+        self.steps.push(step);
         if self.bytes == 0 {
             return;
         }
-        let kept = self.staging.take().filter(|kept| kept.size() >= self.bytes);
-        let staging = kept.unwrap_or_else(|| readback::staging(device, self.bytes));
-        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, self.bytes);
-        self.staging = Some(staging);
-        self.pending = true;
+        if place == self.staging.len() {
+            self.staging.push(readback::staging(device, self.bytes));
+        }
+        let staging = &mut self.staging[place];
+        if staging.size() < self.bytes {
+            *staging = readback::staging(device, self.bytes);
+        }
+        encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, self.bytes);
     }
 
-    /// Whether numbers are on their way.
-    pub fn is_pending(&self) -> bool {
-        self.pending
-    }
-
-    /// The numbers, once what was submitted with the copy is done; somebody must poll the device.
+    /// The numbers of each step in their order, once what was submitted with the copies is done; somebody
+    /// must poll the device.
     ///
     /// # Errors
     /// [`crate::Error::DeviceLost`] if they cannot be mapped.
-    pub async fn finish(&mut self) -> Result<Vec<f32>> {
-        self.pending = false;
-        match &self.staging {
-            Some(staging) if self.bytes > 0 => readback::map(staging, self.bytes).await,
-            _ => Ok(Vec::new()),
+    pub async fn finish(&mut self) -> Result<Vec<(u64, Vec<f32>)>> {
+        let mut all = Vec::new();
+        for (place, step) in std::mem::take(&mut self.steps).into_iter().enumerate() {
+            let numbers = match self.bytes {
+                0 => Vec::new(),
+                bytes => readback::map(&self.staging[place], bytes).await?,
+            };
+            all.push((step, numbers));
         }
+        Ok(all)
+    }
+
+    /// Lets go of what is on its way.
+    pub fn forget(&mut self) {
+        self.steps.clear();
     }
 }

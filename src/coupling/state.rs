@@ -1,40 +1,53 @@
 //! The blocks in a fluid between two steps, whole.
 
-use super::{Coupled, Felt, Follower};
+use super::{Coupled, Felt, Gathered, InnerFluid};
 use crate::{
     Error, Result,
-    bodies::{Load, Snapshot},
+    bodies::{Load, Pose, Snapshot},
 };
 use glam::{DMat3, DVec3};
 
 /// Numbers of a load.
 const LOAD: usize = 20;
-/// Numbers of a block: how its water follows, its last load, and what it feels.
-const BLOCK: usize = 13 + 3 * LOAD;
+/// Numbers of a pose at rest, with one that says whether there is one.
+const POSE: usize = 13;
+/// Numbers of a block: its inner fluid, four loads, a pose.
+const BLOCK: usize = 13 + 4 * LOAD + POSE;
+/// Bytes before the blocks: the last step that was read, the steps since the last exchange, the blocks.
+const HEADER: usize = 24;
 
 /// Everything that the next steps of blocks in a fluid depend on beside the fluid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoupledState {
     /// The blocks.
     snapshot: Snapshot,
-    /// Whether loads have been read.
-    begun: bool,
-    blocks: Vec<(Follower, Load, Felt)>,
+    /// Step of the last loads that were read; 0 if there are none.
+    last: u64,
+    /// Steps read since the last exchange.
+    steps: u64,
+    blocks: Vec<BlockState>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct BlockState {
+    inner: InnerFluid,
+    /// Of the last step that was read, and the sum since the last exchange.
+    last: Load,
+    sum: Load,
+    felt: Felt,
+    /// Where its tiles were found: sums of loads are rounded tile by tile.
+    tiled: Option<Pose>,
 }
 
 impl CoupledState {
     /// As bytes, the same on every machine.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
-        bytes.extend(u64::from(self.begun).to_le_bytes());
-        bytes.extend((self.blocks.len() as u64).to_le_bytes());
-        for (follower, last, felt) in &self.blocks {
-            let loads = [last, &felt.flow, &felt.buoyancy];
-            let numbers = follower
-                .to_numbers()
-                .into_iter()
-                .chain(loads.into_iter().flat_map(numbers));
-            bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        for word in [self.last, self.steps, self.blocks.len() as u64] {
+            bytes.extend(word.to_le_bytes());
+        }
+        for block in &self.blocks {
+            bytes.extend(block.to_numbers().into_iter().flat_map(f64::to_le_bytes));
         }
         bytes.extend(self.snapshot.to_bytes());
         bytes
@@ -46,51 +59,100 @@ impl CoupledState {
     /// [`Error::Scene`] if the bytes are none, or are cut short.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let cut = || Error::scene("blocks", "the state of the blocks is cut short");
-        let word = |at: usize| -> Result<[u8; 8]> {
+        let word = |at: usize| -> Result<u64> {
             let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
-            part.ok_or_else(cut)
+            part.map(u64::from_le_bytes).ok_or_else(cut)
         };
-        let begun = u64::from_le_bytes(word(0)?) != 0;
-        let count = u64::from_le_bytes(word(8)?) as usize;
+        let count = usize::try_from(word(16)?).map_err(|_| cut())?;
         let end = count
             .checked_mul(8 * BLOCK)
-            .and_then(|size| size.checked_add(16))
+            .and_then(|size| size.checked_add(HEADER))
             .ok_or_else(cut)?;
-        let rows = bytes.get(16..end).ok_or_else(cut)?;
+        let rows = bytes.get(HEADER..end).ok_or_else(cut)?;
+        let number = |word: &[u8]| f64::from_le_bytes(std::array::from_fn(|k| word[k]));
         let blocks = rows.chunks_exact(8 * BLOCK).map(|row| {
-            let mut values = row
-                .chunks_exact(8)
-                .map(|word| f64::from_le_bytes(std::array::from_fn(|k| word[k])));
-            let follower = std::array::from_fn(|_| values.next().unwrap_or_default());
-            let mut load =
-                || from_numbers(std::array::from_fn(|_| values.next().unwrap_or_default()));
-            let last = load();
-            let felt = Felt {
-                flow: load(),
-                buoyancy: load(),
-            };
-            (Follower::from_numbers(&follower), last, felt)
+            let mut numbers = row.chunks_exact(8).map(number);
+            BlockState::from_numbers(std::array::from_fn(|_| numbers.next().unwrap_or_default()))
         });
         Ok(Self {
-            begun,
+            last: word(0)?,
+            steps: word(8)?,
             blocks: blocks.collect(),
             snapshot: Snapshot::from_bytes(&bytes[end..])?,
         })
     }
 }
 
-impl Coupled {
-    /// The present state, for a later [`Coupled::restore`].
-    pub fn state(&self) -> CoupledState {
-        let blocks = self.felt.iter().enumerate().map(|(block, felt)| {
-            let last = self.last.get(block).copied().unwrap_or_default();
-            (self.followers[block], last, *felt)
-        });
-        CoupledState {
-            snapshot: self.blocks.snapshot(),
-            begun: self.begun,
-            blocks: blocks.collect(),
+impl BlockState {
+    fn to_numbers(self) -> [f64; BLOCK] {
+        let Self {
+            inner,
+            last,
+            sum,
+            felt,
+            tiled,
+        } = self;
+        let mut all = [0.0; BLOCK];
+        let (head, rest) = all.split_at_mut(13);
+        head.copy_from_slice(&inner.to_numbers());
+        let (loads, pose) = rest.split_at_mut(4 * LOAD);
+        let each = [last, sum, felt.flow, felt.buoyancy];
+        for (place, load) in loads.chunks_exact_mut(LOAD).zip(each) {
+            place.copy_from_slice(&load_numbers(&load));
         }
+        if let Some(tiled) = tiled {
+            pose[0] = 1.0;
+            pose[1..4].copy_from_slice(&tiled.centre.to_array());
+            pose[4..].copy_from_slice(&tiled.deformation.to_cols_array());
+        }
+        all
+    }
+
+    fn from_numbers(all: [f64; BLOCK]) -> Self {
+        let load = |n: usize| load_from(&all[13 + n * LOAD..][..LOAD]);
+        let pose = &all[13 + 4 * LOAD..];
+        Self {
+            inner: InnerFluid::from_numbers(&std::array::from_fn(|k| all[k])),
+            last: load(0),
+            sum: load(1),
+            felt: Felt {
+                flow: load(2),
+                buoyancy: load(3),
+            },
+            tiled: (pose[0] != 0.0).then(|| Pose {
+                centre: DVec3::from_slice(&pose[1..4]),
+                deformation: DMat3::from_cols_slice(&pose[4..]),
+                velocity: DVec3::ZERO,
+                deformation_rate: DMat3::ZERO,
+            }),
+        }
+    }
+}
+
+impl Coupled {
+    /// The present state, for a later [`Coupled::restore`]; waits for the loads that are on their way.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(&mut self) -> Result<CoupledState> {
+        self.read_loads().await?;
+        let Gathered { last, sum, steps } = &self.gathered;
+        let known = last.as_ref().map_or(&[][..], |(_, loads)| loads);
+        let of = |loads: &[Load], block: usize| loads.get(block).copied().unwrap_or_default();
+        let tiled = self.immersed.tiled();
+        let block = |block: usize| BlockState {
+            inner: self.inner[block],
+            last: of(known, block),
+            sum: of(sum, block),
+            felt: self.felt[block],
+            tiled: tiled.get(block).copied().flatten(),
+        };
+        Ok(CoupledState {
+            snapshot: self.blocks.snapshot(),
+            last: last.as_ref().map_or(0, |(step, _)| *step),
+            steps: *steps,
+            blocks: (0..self.blocks.len()).map(block).collect(),
+        })
     }
 
     /// Goes back, or on, to a state of the same blocks: the next steps give the same bits.
@@ -109,20 +171,28 @@ impl Coupled {
         self.blocks
             .restore(&state.snapshot)
             .map_err(|error| Error::scene("restart", error.to_string()))?;
-        self.begun = state.begun;
-        for (block, (follower, last, felt)) in state.blocks.iter().enumerate() {
-            self.followers[block] = *follower;
-            self.felt[block] = *felt;
-            if let Some(kept) = self.last.get_mut(block) {
-                *kept = *last;
-            }
-        }
+        self.reading.forget();
+        let in_fluid = &state.blocks[..self.in_fluid()];
+        self.gathered = Gathered {
+            last: (state.last > 0).then(|| {
+                (
+                    state.last,
+                    in_fluid.iter().map(|block| block.last).collect(),
+                )
+            }),
+            sum: in_fluid.iter().map(|block| block.sum).collect(),
+            steps: state.steps,
+        };
+        self.inner = state.blocks.iter().map(|block| block.inner).collect();
+        self.felt = state.blocks.iter().map(|block| block.felt).collect();
+        let tiled: Vec<_> = in_fluid.iter().map(|block| block.tiled).collect();
+        self.immersed.tile(&tiled);
         self.placed = false;
         Ok(())
     }
 }
 
-fn numbers(load: &Load) -> [f64; LOAD] {
+fn load_numbers(load: &Load) -> [f64; LOAD] {
     let mut all = [0.0; LOAD];
     all[..3].copy_from_slice(&load.force.to_array());
     all[3..12].copy_from_slice(&load.moment.to_cols_array());
@@ -133,14 +203,13 @@ fn numbers(load: &Load) -> [f64; LOAD] {
     all
 }
 
-fn from_numbers(all: [f64; LOAD]) -> Load {
-    let vector = |n: usize| DVec3::new(all[n], all[n + 1], all[n + 2]);
+fn load_from(all: &[f64]) -> Load {
     Load {
-        force: vector(0),
-        moment: DMat3::from_cols(vector(3), vector(6), vector(9)),
+        force: DVec3::from_slice(&all[..3]),
+        moment: DMat3::from_cols_slice(&all[3..12]),
         entrained: all[12],
         missing: all[13],
-        entrained_moment: vector(14),
-        missing_moment: vector(17),
+        entrained_moment: DVec3::from_slice(&all[14..17]),
+        missing_moment: DVec3::from_slice(&all[17..]),
     }
 }

@@ -120,7 +120,8 @@ impl Immersed {
     /// and lays down what is to be computed anew.
     ///
     /// # Errors
-    /// If the number of poses differs, one is not finite, or the device does not hold the cells.
+    /// If the number of poses differs, one is not finite or farther away than cells are counted, or the device
+    /// does not hold the cells; then nothing is in place, and the next call does everything anew.
     pub fn place(
         &mut self,
         device: &wgpu::Device,
@@ -132,18 +133,15 @@ impl Immersed {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
             return Err(Error::scene("poses", message));
         }
-        if let Some(bad) = poses.iter().position(|pose| !finite(pose)) {
+        let nowhere = |pose: &Pose| !finite(&self.frame, pose);
+        if let Some(bad) = poses.iter().position(nowhere) {
             return Err(Error::NotFinite {
                 block: format!("{bad}"),
                 time: lattice.step() as f64 * self.frame.units.time_step,
                 remedy: "look at its load and its drive; a shorter time step may help".into(),
             });
         }
-        let mut ordered = vec![poses[..].first().copied(); poses.len()];
-        for (pose, &place) in poses.iter().zip(&self.number) {
-            ordered[place] = Some(*pose);
-        }
-        let poses: Vec<Pose> = ordered.into_iter().flatten().collect();
+        let poses = self.ordered(poses);
         let start = self.poses.is_empty();
         let differs = |block: usize, what: fn(&Pose, &Pose) -> bool| {
             start || what(&poses[block], &self.poses[block])
@@ -163,9 +161,7 @@ impl Immersed {
             return Ok(());
         }
         for &block in &moved {
-            let parts = self.blocks[block].shape.parts().iter();
-            let outline = |part| outline(&self.frame, part, &poses[block]);
-            self.outlines[block] = parts.map(outline).collect();
+            self.outlines[block] = self.outlines_at(block, &poses[block]);
         }
         let cell = self.frame.units.cell;
         let strayed = moved.iter().any(|&block| {
@@ -173,29 +169,24 @@ impl Immersed {
             self.plan.has_strayed(block, &poses[block], radius, cell)
         });
         if strayed {
-            for &block in &moved {
-                let radius = self.blocks[block].shape.radius();
-                let at = (&poses[block], radius, cell);
-                let first = self.first_part[block];
-                self.plan
-                    .find(&self.tiling, block, at, &self.outlines[block], first);
+            // All blocks: what is found depends on where they are alone.
+            for (block, pose) in poses.iter().enumerate() {
+                let outlines = std::mem::take(&mut self.outlines[block]);
+                self.find(block, pose, &outlines);
+                self.outlines[block] = outlines;
             }
-            let bricks = lattice.grid().bricks().iter().product::<u32>() as usize;
-            self.plan.assemble(lattice.geometry(), bricks);
-            lattice.set_saturated(device, queue, &self.plan.bricks)?;
-            let counts = [
-                self.first_face.len() - 1,
-                self.faces,
-                self.blocks.len(),
-                self.loaded,
-            ];
-            self.kernels.hold(device, lattice, &self.plan, counts)?;
+        }
+        let anew = start || strayed;
+        if anew {
+            // Until all is in place.
+            self.poses.clear();
+            self.make_room(device, queue, lattice)?;
             self.upload_plan(queue);
             self.work.searches += 1;
         }
         self.poses = poses;
         self.upload_tables(queue);
-        if strayed {
+        if anew {
             let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
             let slots: Vec<u32> = (0..self.plan.bricks.len() as u32).collect();
             self.set_work(queue, &tiles, &slots);
@@ -206,6 +197,65 @@ impl Immersed {
             self.set_work(queue, &tiles, &slots);
         }
         Ok(())
+    }
+
+    /// The poses, or what goes with them, in the order of the device.
+    fn ordered<T: Copy>(&self, given: &[T]) -> Vec<T> {
+        let mut ordered = given.to_vec();
+        for (value, &place) in given.iter().zip(&self.number) {
+            ordered[place] = *value;
+        }
+        ordered
+    }
+
+    fn outlines_at(&self, block: usize, pose: &Pose) -> Vec<Outline> {
+        let parts = self.blocks[block].shape.parts().iter();
+        parts.map(|part| outline(&self.frame, part, pose)).collect()
+    }
+
+    /// Finds the tiles of a block anew, if that is due.
+    fn find(&mut self, block: usize, pose: &Pose, outlines: &[Outline]) {
+        let radius = self.blocks[block].shape.radius();
+        let at = (pose, radius, self.frame.units.cell);
+        let first = self.first_part[block];
+        self.plan.find(&self.tiling, block, at, outlines, first);
+    }
+
+    fn make_room(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<()> {
+        let bricks = lattice.grid().bricks().iter().product::<u32>() as usize;
+        self.plan.assemble(lattice.geometry(), bricks);
+        lattice.set_saturated(device, queue, &self.plan.bricks)?;
+        let counts = [
+            self.first_face.len() - 1,
+            self.faces,
+            self.blocks.len(),
+            self.loaded,
+        ];
+        self.kernels.hold(device, lattice, &self.plan, counts)
+    }
+
+    /// Where the tiles of each block were found, at or near its present pose; its velocity has no meaning.
+    pub fn tiled(&self) -> Vec<Option<Pose>> {
+        let found = self.number.iter();
+        found.map(|&place| self.plan.found_at(place)).collect()
+    }
+
+    /// Finds the tiles as they were when [`Immersed::tiled`] gave these poses, so that the loads are summed in
+    /// the same order; the next [`Immersed::place`] does all else anew.
+    pub fn tile(&mut self, tiled: &[Option<Pose>]) {
+        for (block, tiled) in self.ordered(tiled).into_iter().enumerate() {
+            self.plan.forget(block);
+            if let Some(pose) = tiled {
+                let outlines = self.outlines_at(block, &pose);
+                self.find(block, &pose, &outlines);
+            }
+        }
+        self.poses.clear();
     }
 
     fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
@@ -333,8 +383,12 @@ impl Immersed {
     }
 }
 
-fn finite(pose: &Pose) -> bool {
-    pose.centre.is_finite()
+/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
+const FARTHEST: f64 = 1e9;
+
+/// Whether a block can be placed.
+fn finite(frame: &Frame, pose: &Pose) -> bool {
+    frame.place(pose.centre).abs().max_element() < FARTHEST
         && pose.deformation.is_finite()
         && pose.velocity.is_finite()
         && pose.deformation_rate.is_finite()

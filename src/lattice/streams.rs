@@ -5,7 +5,7 @@ use super::{
     fluid::{Buffers, result_buffer, storage},
     program::{self, Reach},
 };
-use crate::{Result, kernel::Kernel};
+use crate::{Error, Result, kernel::Kernel};
 use std::collections::HashSet;
 
 /// Planes of values that a brick with blocks has: see `kernels/lattice/saturation_cells.wgsl`.
@@ -96,7 +96,8 @@ impl Streams {
         if let Some(kept) = &mut self.saturation {
             if kept.size() < saturation_bytes(grid, slots) {
                 // Half as much again, so that a block that turns does not ask again and again.
-                *kept = saturation_buffer(device, grid, slots + slots / 2);
+                let most = most_slots(device, grid, slots)?;
+                *kept = saturation_buffer(device, grid, most.min(slots + slots / 2));
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
                     stream.binds = bind(device, &stream.kernels, buffers, list, Some(kept))?;
@@ -205,6 +206,25 @@ fn bind(
 fn saturation_bytes(grid: &Grid, slots: usize) -> u64 {
     let brick: u64 = grid.brick.iter().map(|&n| u64::from(n)).product();
     4 * PLANES * brick * u64::from(grid.lanes) * slots as u64
+}
+
+/// Slots that a binding holds.
+fn most_slots(device: &wgpu::Device, grid: &Grid, wanted: usize) -> Result<usize> {
+    let limits = device.limits();
+    let has = limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size);
+    let most = has / saturation_bytes(grid, 1);
+    if wanted as u64 <= most {
+        return Ok(most as usize);
+    }
+    Err(Error::Limit {
+        name: "bytes of one storage binding (cells that blocks reach)".into(),
+        wants: saturation_bytes(grid, wanted),
+        has,
+        remedy: "use fewer or smaller blocks in the fluid, a larger cell, or another adapter"
+            .into(),
+    })
 }
 
 fn saturation_buffer(device: &wgpu::Device, grid: &Grid, slots: usize) -> wgpu::Buffer {

@@ -7,12 +7,13 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Coupling {
-    /// Time steps of the fluid from one exchange to the next, at least 1: between two the blocks stand
-    /// still for the fluid and feel the loads of the last one. Default 1.
+    /// Time steps of the fluid from one exchange to the next, at least 1: meanwhile the blocks stand still for
+    /// the fluid, and then they move under the mean of the loads since the last one. Default 1.
     pub interval: u32,
     /// Whether blocks feel the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
     /// Cells that a block fills reflect what is in them from step to step, so that single loads swing with
-    /// a period of two steps, which the mean takes out. Default true.
+    /// a period of two steps, which the mean takes out. Without it free blocks need another solid operator
+    /// than `holdych`. Default true.
     pub average: bool,
     /// Time for which all blocks are held where they start, s, while the flow settles around them and their
     /// loads are recorded; driven ones too. Default 0.

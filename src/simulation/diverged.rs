@@ -7,6 +7,9 @@ impl Simulation {
     /// The error of a fault, with its likely cause in numbers.
     pub(super) fn diverged(&self, fault: Fault) -> Error {
         let setup = self.lattice.setup();
+        if let Some((cause, remedy)) = self.fast_block() {
+            return self.fault(fault, cause, remedy);
+        }
         let excess = setup.tau() - 0.5;
         let Ok(scale) = self.scene.velocity_scale() else {
             return self.fault(
@@ -49,6 +52,31 @@ impl Simulation {
             )
         };
         self.fault(fault, cause, remedy)
+    }
+
+    /// The fastest block, if no flow can follow it.
+    fn fast_block(&self) -> Option<(String, String)> {
+        let coupled = self.coupled.as_ref()?;
+        let made = coupled.setup().setup.blocks[..coupled.in_fluid()].iter();
+        let moving = coupled.blocks().poses().into_iter();
+        let speeds = made.zip(moving).map(|(block, pose)| {
+            let spin = crate::immersed::spin(&pose).length();
+            (
+                &block.name,
+                pose.velocity.length() + spin * block.shape.radius(),
+            )
+        });
+        let (name, speed) = speeds.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let cells = self.units.velocity_to_lattice(speed);
+        (cells > self.lattice.setup().max_speed).then(|| {
+            (
+                format!("the block {name} moves at {speed:.3e} m/s, {cells:.2} cells a step"),
+                format!(
+                    "use a time step of {:.2e} s (Mach 0.1 at that speed) or less, or slow the block down",
+                    self.units.time_step * 0.1 / self.units.mach(speed)
+                ),
+            )
+        })
     }
 
     fn fault(&self, fault: Fault, cause: String, remedy: String) -> Error {

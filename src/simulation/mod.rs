@@ -57,41 +57,39 @@ impl Simulation {
         let mut advice = scene.advise(&units)?;
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
-        let start = start(scene, &units)?;
+        let mut start = start(scene, &units)?;
         let changing = |(face, boundary): (Face, &Boundary)| match boundary {
             Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
             _ => None,
         };
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = Lattice::new(device, setup).and_then(|mut lattice| {
-            lattice.start(device, queue, &start, true)?;
+        let made = async {
+            let mut lattice = Lattice::new(device, setup)?;
             let observer = Observer::new(device, &lattice)?;
-            Ok((lattice, observer))
-        });
+            let coupled = match scene.has_blocks() {
+                true => {
+                    let blocks = block_setup(scene)?;
+                    let scene = (scene, &units);
+                    Some(Coupled::new(device, queue, &lattice, scene, blocks).await?)
+                }
+                false => None,
+            };
+            if let Some(coupled) = &coupled {
+                advice.extend(coupled.advise(scene));
+                coupled.fill(&scene.domain, &mut start);
+            }
+            lattice.start(device, queue, &start, true)?;
+            Ok((lattice, observer, coupled))
+        };
+        let made = made.await;
         let refused = validity.pop().await.or(memory.pop().await);
-        let (lattice, observer) = made?;
+        let (lattice, observer, coupled) = made?;
         if let Some(error) = refused {
             return Err(Error::Device(format!(
                 "it does not hold {} cells ({error}); use a larger cell or 16-bit storage",
                 lattice.grid().cell_count()
             )));
-        }
-        let coupled = match scene.has_blocks() {
-            true => Some(
-                Coupled::new(
-                    device,
-                    queue,
-                    &lattice,
-                    (scene, &units),
-                    block_setup(scene)?,
-                )
-                .await?,
-            ),
-            false => None,
-        };
-        if let Some(coupled) = &coupled {
-            advice.extend(coupled.advise(scene));
         }
         Ok(Self {
             device: device.clone(),
@@ -109,7 +107,9 @@ impl Simulation {
     /// Takes `steps` steps and looks at the guard.
     ///
     /// # Errors
-    /// [`Error::Diverged`] if the flow left the range of the method; those of the blocks; a lost device.
+    /// [`Error::Diverged`] if the flow left the range of the method; those of the blocks; a lost device. If the
+    /// blocks cannot move, they are where they were at the last exchange, and the fluid is at the end of the
+    /// step; a checkpoint leads back to a state from which all can go on.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         let last = self.step() + steps;
         let mut done = Ok(());
@@ -146,22 +146,24 @@ impl Simulation {
             }
             self.lattice
                 .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.prepares(next, last)) {
-                coupled.record_loads(&device, &mut encoder, true);
+            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.wants(next, last)) {
+                coupled.record_loads(&device, &mut encoder, next);
             }
             self.lattice
                 .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
-            let coming = self.changed_faces()?;
-            if self.step() == last || !coming.is_empty() {
+            let coming = self.changed_faces();
+            let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
+            if self.step() == last || !goes_on {
+                // What is recorded counts as done, whatever the next step lacks.
                 queue.submit([encoder.finish()]);
                 // A velocity that changes is written between two submissions.
-                return self.set_faces(coming);
+                return self.set_faces(coming?);
             }
         }
     }
 
-    /// The last step of a stretch, at whose end the blocks move, or are asked what they feel: the fluid around them runs first, and the
-    /// rest of it while their loads are read.
+    /// The last step of a stretch, at whose end the blocks move, or are asked what they feel: the fluid around
+    /// them runs first, and the rest of it while their loads are read.
     async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
         let (device, queue) = (&self.device, &self.queue);
         let Some(coupled) = &mut self.coupled else {
@@ -169,13 +171,14 @@ impl Simulation {
         };
         self.lattice
             .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-        coupled.record_loads(device, &mut encoder, false);
+        coupled.record_loads(device, &mut encoder, self.lattice.step() + 1);
         queue.submit([encoder.finish()]);
         let mut encoder = device.create_command_encoder(&Default::default());
         self.lattice
             .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
         coupled.read_loads().await?;
+        coupled.exchange();
         if !coupled.moves() {
             return Ok(());
         }
@@ -280,11 +283,15 @@ impl Simulation {
     /// # Errors
     /// If the device is lost.
     pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
+        let blocks = match &mut self.coupled {
+            Some(coupled) => Some(coupled.state().await?),
+            None => None,
+        };
         Ok(Checkpoint {
             time_step: self.units.time_step,
             cell: self.units.cell,
             populations: self.lattice.populations(&self.device, &self.queue).await?,
-            blocks: self.coupled.as_ref().map(Coupled::state),
+            blocks,
         })
     }
 

@@ -38,7 +38,8 @@ fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> V
     bench.read(&shares)
 }
 
-fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
+/// The shares of all tiles.
+pub fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
     let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
     run(bench, tiling, &work, None)
 }

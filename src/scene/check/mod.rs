@@ -2,6 +2,7 @@
 
 mod blocks;
 mod boundaries;
+mod coupling;
 mod domain;
 mod dry;
 mod materials;
@@ -38,18 +39,7 @@ impl Scene {
         } else {
             self.check_dry()?;
         }
-        if self.coupling.interval == 0 {
-            return refuse(
-                "coupling.interval",
-                "fluid and blocks would never meet; give a whole number of time steps, at least 1",
-            );
-        }
-        if !(self.coupling.hold.is_finite() && self.coupling.hold >= 0.0) {
-            return refuse(
-                "coupling.hold",
-                format!("is {}; give a time in s from 0 on", self.coupling.hold),
-            );
-        }
+        self.check_coupling()?;
         self.check_solids()?;
         self.check_initial()?;
         self.check_run()?;

@@ -9,7 +9,7 @@ use riprap::{
 /// The solids of a scene as fixed blocks. What encloses no volume, or cannot be cut into convex parts, is left to the
 /// cells to show, and so are the holes of meshes.
 pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
-    let one = |index: usize| -> Option<Block> {
+    let one = |index: usize| {
         let mut alone = scene.clone();
         alone.solids = vec![scene.solids[index].clone()];
         alone.solids[0].material = None;
@@ -28,11 +28,14 @@ pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
         alone.blocks.clear();
         alone.rock_masses.clear();
         alone.probes.clear();
-        // Behind it come the faces of the domain, which would hide all that is in it.
-        block_setup(&alone).ok()?.setup.blocks.into_iter().next()
+        // After it come the faces of the domain that hold blocks, which are none to be seen.
+        block_setup(&alone).map(|made| made.setup.blocks.into_iter().next())
     };
     let drawn = (0..scene.solids.len()).filter(|index| !scene.solids[*index].void);
-    drawn.filter_map(one).collect()
+    drawn
+        .filter_map(|index| one(index).ok())
+        .flatten()
+        .collect()
 }
 
 /// Where a block is that does not move.

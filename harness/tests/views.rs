@@ -103,3 +103,46 @@ fn a_view_of_a_flow_shows_slices_traces_and_solids_and_makes_strip_and_animation
     }
     fs::remove_dir_all(folder).unwrap();
 }
+
+/// Pixels whose colour is that of sandstone in any light.
+fn sandstone(picture: &Picture) -> usize {
+    let pixels = picture
+        .rgba
+        .chunks(4)
+        .map(|p| [0, 1, 2].map(|channel| f64::from(p[channel])));
+    // Its channels have the ratios 205 : 190 : 165; grey and white have none, viridis other ones.
+    pixels
+        .filter(|[r, g, b]| {
+            *r < 215.0 && (g / r - 0.92).abs() < 0.03 && (b / r - 0.80).abs() < 0.05
+        })
+        .count()
+}
+
+#[test]
+fn blocks_in_a_flow_have_the_colour_of_stone_before_the_slice_behind_them() {
+    let folder = folder("views_blocks");
+    let block = r#"
+        [[materials]]
+        name = "rock"
+        density = 2600
+        normal_stiffness = 1e7
+        friction = 30
+        [[blocks]]
+        name = "cube"
+        kind = "box"
+        size = [0.04, 0.04, 0.04]
+        position = [0.22, 0.08, 0.1]
+        rotation = { axis = [1, 1, 0], angle = 30 }
+    "#;
+    let text = format!("{}{block}{VIEWS}", STEP.replace("steps = 40", "steps = 4"));
+    let summary = go(&args(&folder, &text, "out"));
+    assert!(summary.complete, "{summary}");
+    for name in ["both_000004", "bare_000004"] {
+        let picture = Picture::load(&folder.join(format!("out/{name}.png"))).unwrap();
+        // The domain is 0.32 m long over some 400 pixels, of which the cube's silhouette takes some 50².
+        let found = sandstone(&picture);
+        assert!(found > 1000, "{name}: {found} pixels of stone");
+        assert!(coloured(&picture) > 10_000, "{name}");
+    }
+    fs::remove_dir_all(folder).unwrap();
+}

@@ -225,6 +225,12 @@ impl Blocks {
         self.states.iter().map(|state| state.torque)
     }
 
+    /// External force, N, and torque about the centroid, N m, on each block.
+    pub fn loads(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
+        let each = self.states.iter();
+        each.map(|state| [state.load, state.load_torque])
+    }
+
     /// Which blocks sleep.
     pub fn asleep(&self) -> impl Iterator<Item = bool> + '_ {
         self.states.iter().map(|state| state.asleep)

@@ -3,7 +3,7 @@
 use super::{Ambient, Gap, Gathered, InnerFluid, Matter, Reading, gaps::gaps, loads::sum};
 use crate::{
     Result,
-    bodies::{Block, Blocks, Load, Motion, Pose},
+    bodies::{Block, Blocks, Load, Motion, Pose, skew},
     broadphase::AutoBroadphase,
     immersed::{Frame, Immersed, Submerged, Work},
     lattice::Lattice,
@@ -15,6 +15,9 @@ use glam::{DMat3, DVec3};
 
 /// Exchanges that are left out between two looks at the loads while every block rests.
 const REST: u64 = 16;
+/// Share of its weight by which the load on a sleeping block may change and leave it asleep: far above the rounding
+/// of sums over cells and the last swirls in still water, far below what moves a block.
+const STIR: f64 = 1e-3;
 
 /// How often fluid and blocks met since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -253,9 +256,10 @@ impl Coupled {
         let dt = until - self.blocks.time();
         let (start, inner) = (self.blocks.snapshot(), self.inner.clone());
         let poses = self.blocks.poses();
-        let loads: Vec<Load> = (0..poses.len())
+        let mut loads: Vec<Load> = (0..poses.len())
             .map(|block| self.load(block, &poses[block], dt))
             .collect();
+        self.calm(&mut loads);
         let moved = match self.blocks.load(&loads) {
             Ok(()) => self.blocks.advance(&mut self.finder, until).await,
             refused => refused,
@@ -266,6 +270,22 @@ impl Coupled {
         }
         self.placed = false;
         moved
+    }
+
+    /// Leaves sleeping blocks the loads that they have, unless theirs have changed so much that it matters.
+    fn calm(&self, loads: &mut [Load]) {
+        let asleep = self.blocks.asleep().zip(self.blocks.loads());
+        for (block, (load, (asleep, [force, torque]))) in loads.iter_mut().zip(asleep).enumerate() {
+            let weight = self.blocks.mass(block) * self.ambient.gravity.length();
+            let scale = STIR * if weight > 0.0 { weight } else { force.length() };
+            let radius = self.setup.setup.blocks[block].shape.radius();
+            if asleep
+                && (load.force - force).length() <= scale
+                && (load.torque() - torque).length() <= scale * radius
+            {
+                (load.force, load.moment) = (force, 0.5 * skew(torque));
+            }
+        }
     }
 
     /// The whole load on a block, from the fluid around it and inside it, over the last `dt` (s).

@@ -4,10 +4,12 @@ use crate::bodies::{Load, Pose, skew};
 use crate::immersed::spin;
 use glam::{DMat3, DVec3};
 
-/// m_v over m_f. Added masses are half of that for a sphere, two thirds for a cube;
-/// on blocks of a few cells the cells that they fill in part and the viscous layer around them, of turns to the
-/// fifth power of its radius, are as much again.
-const VIRTUAL: f64 = 2.0;
+/// Largest mass of the fluid outside that a block has to move, over that of the fluid it displaces. It is half of it
+/// for a sphere, two thirds for a cube, and more for plates; and on blocks of four cells the viscous layer, a cell
+/// thick, has the third power of 1.5 times their radius, (1.5³ − 1) + ½ 1.5³ = 4.
+const AROUND: f64 = 5.0;
+/// The same of the inertia of turns, which goes with the fifth power: 1.5⁵ − 1 = 7.
+const AROUND_TURNS: f64 = 10.0;
 
 /// What a block is made of.
 #[derive(Clone, Copy, Debug)]
@@ -24,12 +26,14 @@ pub struct Matter {
 
 /// The fluid inside a block goes where the block goes: the block feels its inertia through the cells, and gets
 /// it back from here, m_f dv/dt of the last exchange with m_f = ρ Σε, since its mass stands for the rock alone.
-/// Not ρ ΣB: the fluid in cells at the surface follows too, only later, and at low viscosity B is small there.
+/// Not ρ ΣB: the fluid in cells at the surface follows too, only later, and at low viscosity B is small there. What
+/// a block gets back before the fluid has followed drives it on, and a light one ever faster: m_f is at most
+/// ρ ΣB + m/2, and for turns, where cells at the surface weigh most, (ρ ΣB + m)/2. Rock has that to spare.
 ///
-/// The loads answer to what the block did in the last step. Fluid that has to make way, the added mass, then
-/// makes a block that is lighter than it swing ever more. So the block moves as if it had the mass m_v = 2 m_f
-/// more, and gets m_v times its last acceleration (Schwarz, Kempe & Fröhlich 2015, J. Comput. Phys.
-/// 281:591): (m + m_v) a = F + m_f dv/dt + m g + m_v a_before. That holds for an added mass up to m + 2 m_v, and
+/// The loads answer to what the block did in the last step. Fluid that has to make way, the added mass m_a, then
+/// makes a block that is lighter than it swing ever more. So the block moves as if it had the mass m_v more, and
+/// gets m_v times its last acceleration (Schwarz, Kempe & Fröhlich 2015, J. Comput. Phys. 281:591):
+/// (m + m_v) a = F + m_f dv/dt + m g + m_v a_before. That is stable for m_a < m + 2 m_v, from which m_v follows, and
 /// changes nothing once the acceleration is steady. Contacts are not in a: they act on the rock alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InnerFluid {
@@ -59,14 +63,18 @@ impl InnerFluid {
         self.last = Some(now);
 
         let rock = matter.mass / matter.volume;
-        // Over its volume: the fluid that goes with the block, and what it seems to have more.
-        let inner = density * (load.entrained + load.missing) / matter.volume;
-        let more = VIRTUAL * inner;
+        // Over its volume: the fluid that it displaces, what goes with it, and what it seems to have more.
+        let whole = density * (load.entrained + load.missing) / matter.volume;
+        let held = density * load.entrained / matter.volume;
+        let inner = whole.min(held + 0.5 * rock);
+        let inner_turning = whole.min(0.5 * (held + rock));
+        let [more, more_turning] =
+            [AROUND, AROUND_TURNS].map(|most| 0.5 * (most * whole - rock).max(0.0));
         let [before, turned] = self.given;
         let force = load.force / matter.volume + inner * linear + rock * matter.gravity;
         let acceleration = (force + more * before) / (rock + more);
-        let torque = load.torque() + inner * (matter.inertia * angular);
-        let turning = (torque + more * turned) / (rock + more);
+        let torque = load.torque() + inner_turning * (matter.inertia * angular);
+        let turning = (torque + more_turning * turned) / (rock + more_turning);
         self.given = [acceleration, turning];
         Load {
             force: matter.mass * (acceleration - matter.gravity),
@@ -103,10 +111,10 @@ mod tests {
     use super::*;
     use glam::DQuat;
 
-    /// A cube of 2 m³ and 500 kg/m³ in water.
-    fn light() -> (Matter, Load) {
+    /// 2 m³ in water, of half to three times its density.
+    fn block(ratio: f64) -> (Matter, Load) {
         let matter = Matter {
-            mass: 1000.0,
+            mass: 2000.0 * ratio,
             volume: 2.0,
             inertia: DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0)),
             gravity: DVec3::Z * -10.0,
@@ -125,12 +133,12 @@ mod tests {
 
     #[test]
     fn a_steady_load_comes_through_whole() {
-        let (matter, mut load) = light();
+        let (matter, mut load) = block(0.5);
         load.force = DVec3::new(3.0, 0.0, 20_000.0);
         load.moment = skew(DVec3::new(1.0, -2.0, 5.0)) * 0.5;
         let mut inner = InnerFluid::default();
         let mut felt = Load::default();
-        for _ in 0..200 {
+        for _ in 0..500 {
             felt = inner.load(&load, &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);
         }
         assert!((felt.force - load.force).length() < 1e-9, "{}", felt.force);
@@ -139,7 +147,7 @@ mod tests {
 
     #[test]
     fn the_fluid_inside_gives_back_what_its_inertia_takes() {
-        let (matter, mut load) = light();
+        let (matter, mut load) = block(2.5);
         let (dt, rate, turn) = (0.1, DVec3::new(2.0, 0.0, -1.0), DVec3::new(0.0, 0.5, 2.0));
         load.force = -1000.0 * 2.0 * rate;
         load.moment = 0.5 * skew(-1000.0 * (matter.inertia * turn));
@@ -156,7 +164,7 @@ mod tests {
     /// m v' = F − m_a v', the added mass answering one step late: it grows by m_a/m a step without a remedy.
     #[test]
     fn light_blocks_do_not_swing() {
-        let (matter, mut load) = light();
+        let (matter, mut load) = block(0.5);
         let (dt, added, pull) = (0.1, 2500.0, DVec3::X * 1000.0);
         let mut inner = InnerFluid::default();
         let (mut velocity, mut before) = (DVec3::ZERO, DVec3::ZERO);
@@ -176,7 +184,7 @@ mod tests {
 
     #[test]
     fn it_survives_its_numbers() {
-        let (matter, load) = light();
+        let (matter, load) = block(0.5);
         let mut inner = InnerFluid::default();
         assert_eq!(InnerFluid::from_numbers(&inner.to_numbers()), inner);
         inner.load(&load, &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);

@@ -70,16 +70,11 @@ impl Lattice {
         })
     }
 
-    /// Goes on from a state; the same setup on the same device goes on to the same bits.
+    /// Whether [`Lattice::set_populations`] takes a state.
     ///
     /// # Errors
-    /// If the state is of another grid, or lacks what the eddy viscosity needs.
-    pub fn set_populations(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        state: &Populations,
-    ) -> Result<()> {
+    /// If it is of another grid, or lacks what the eddy viscosity or the faces need.
+    pub fn check_populations(&self, state: &Populations) -> Result<()> {
         let cells = self.grid.cell_count();
         let wrong = |message: String| Err(Error::scene("restart", message));
         if state.cells != self.grid.cells || state.values.len() != 27 * cells {
@@ -96,6 +91,21 @@ impl Lattice {
         if state.carried.len() as u64 != carried {
             return wrong("the saved state has other pressure or outflow faces".into());
         }
+        Ok(())
+    }
+
+    /// Goes on from a state; the same setup on the same device goes on to the same bits.
+    ///
+    /// # Errors
+    /// If the state is of another grid, or lacks what the eddy viscosity needs.
+    pub fn set_populations(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        state: &Populations,
+    ) -> Result<()> {
+        self.check_populations(state)?;
+        let cells = self.grid.cell_count();
         self.step = state.step;
         self.closed = true;
         if let Some(guard) = &self.buffers.guard {

@@ -314,6 +314,8 @@ impl Simulation {
                 ),
             ));
         }
+        // All is looked at before anything is changed.
+        self.lattice.check_populations(&checkpoint.populations)?;
         match (&mut self.coupled, &checkpoint.blocks) {
             (Some(coupled), Some(state)) => coupled.restore(state)?,
             (None, None) => {}

@@ -10,4 +10,5 @@ pub mod render;
 pub mod run;
 pub mod schema;
 mod search;
+pub mod threshold;
 pub mod validate;

@@ -5,7 +5,7 @@ use riprap::Error;
 use riprap_harness::{
     adapters, bench, check,
     run::{self, Unfinished},
-    schema, validate,
+    schema, threshold, validate,
 };
 use std::{
     process::ExitCode,
@@ -25,6 +25,7 @@ enum Command {
     Check(check::Args),
     Adapters(adapters::Args),
     Schema(schema::Args),
+    Threshold(threshold::Args),
     Validate(validate::Args),
     Bench(bench::Args),
 }
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Adapters(args) => adapters::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Threshold(args) => bisected(&args),
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
     };
@@ -64,7 +66,8 @@ fn passed(all: bool) -> ExitCode {
     ExitCode::from(u8::from(!all))
 }
 
-fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
+/// Has the first Ctrl-C stop what runs, and the second one end it.
+fn listen() -> anyhow::Result<()> {
     ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
             // As a shell reports a process that SIGINT killed.
@@ -72,6 +75,22 @@ fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
         }
         eprintln!("stopping after this batch; Ctrl-C again ends at once");
     })?;
+    Ok(())
+}
+
+fn bisected(args: &threshold::Args) -> anyhow::Result<ExitCode> {
+    listen()?;
+    let report = threshold::run(args, &STOP)?;
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        println!("{report}");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
+    listen()?;
     let summary = run::run(args, &STOP)?;
     if args.json {
         println!("{}", serde_json::to_string_pretty(&summary.json()?)?);
@@ -79,7 +98,7 @@ fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
         println!("{summary}");
     }
     if let Some(divergence) = &summary.divergence {
-        eprintln!("error: {divergence}");
+        eprintln!("error: {divergence}; {}", summary.kept());
         return Ok(ExitCode::from(1));
     }
     Ok(ExitCode::SUCCESS)

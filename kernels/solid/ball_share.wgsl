@@ -1,4 +1,4 @@
-// Share of a sphere in a cell.
+// Share of a sphere in a cell on its surface.
 // needs tables, columns
 
 // Columns an axis: 1e-5 of the volume of a sphere of 10 cells.
@@ -7,15 +7,6 @@ const BALL_COLUMNS = 8u;
 // r: the centre of the cell from that of the sphere.
 fn ball_share(r: vec3<f32>, radius: f32) -> f32 {
     let far = abs(r);
-    if (length(max(far - 1.5, vec3(0.0))) >= radius) {
-        return 0.0;
-    }
-    if (length(max(far - 0.5, vec3(0.0))) >= radius) {
-        return NEAR;
-    }
-    if (length(far + 0.5) <= radius) {
-        return select(1.0, DEEP, length(far + 2.5) <= radius);
-    }
     // By symmetry in the octant where r is positive.
     let at = turned(far, main_axis(far));
     var sum = 0.0;

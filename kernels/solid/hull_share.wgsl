@@ -1,61 +1,25 @@
-// Share of a convex polyhedron in a cell.
-// needs tables, one_plane, several_planes, columns
-
-// Outward unit normal, and distance from the part's centroid.
-@group(0) @binding(3) var<storage, read> faces: array<vec4<f32>>;
-
-// Height over a cell's corner within which a face does not cut it, cells: the rounding of heights some 100 cells from
-// the centroid. Faces that lie along the grid then cost nothing.
-const TOUCH = 1e-5;
-// A share that is all rounding.
-const EMPTY = 1e-6;
+// Share of a convex polyhedron in a cell that several of its faces cut.
+// needs tables, faces, several_planes, columns
 
 // r: the centre of the cell from the part's centroid.
 fn hull_share(part: Part, r: vec3<f32>) -> f32 {
-    if (any(r + 1.5 <= part.low) || any(r - 1.5 >= part.high)) {
-        return 0.0;
-    }
-    var reached = all(r + 0.5 > part.low) && all(r - 0.5 < part.high);
-    var deep = true;
     var cuts = 0u;
-    var last: vec4<f32>;
     var planes = NO_CUTS;
     for (var k = 0u; k < part.faces; k++) {
         let face = faces[part.first_face + k];
         let s = dot(face.xyz, r) - face.w;
-        let w = half_width(face.xyz);
-        // A cell beside this one is at most 2 w lower, one two layers away at most 4 w higher.
-        if (s >= 3.0 * w) {
-            return 0.0;
-        }
-        reached = reached && s < w - TOUCH;
-        deep = deep && s <= -5.0 * w;
-        if (s > TOUCH - w) {
-            last = vec4(face.xyz, s);
-            planes = with_cut(planes, cuts, vec4(face.xyz, dot(face.xyz, vec3(0.5)) - s));
+        if (s > TOUCH - half_width(face.xyz)) {
+            planes = with_cut(planes, cuts, plane_from_corner(face.xyz, s));
             cuts++;
         }
     }
-    if (!reached) {
-        return NEAR;
-    }
-    if (cuts == 0u) {
-        return select(1.0, DEEP, deep);
-    }
     var share: f32;
-    if (cuts == 1u) {
-        share = one_plane_volume(last.xyz, last.w, half_width(last.xyz));
-    } else if (cuts <= CUTS) {
+    if (cuts <= CUTS) {
         share = several_planes_volume(planes, cuts);
     } else {
         share = many_planes_volume(part, r);
     }
     return select(NEAR, share, share > EMPTY);
-}
-
-// How far the corners of a cell are from its centre along n.
-fn half_width(n: vec3<f32>) -> f32 {
-    return 0.5 * (abs(n.x) + abs(n.y) + abs(n.z));
 }
 
 // By columns through all faces of the part.

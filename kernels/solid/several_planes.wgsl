@@ -61,21 +61,26 @@ fn cut_of(cuts: Cuts, number: u32) -> vec4<f32> {
 fn several_planes_volume(cuts: Cuts, count: u32) -> f32 {
     var sum = 0.0;
     for (var face = 0u; face < 3u + count; face++) {
-        let of_cell = face < 3u;
-        let cut = cut_of(cuts, select(face - 3u, 0u, of_cell));
-        let axis = select(main_axis(cut.xyz), face, of_cell);
-        let n = select(turned(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
-        // Both sides times the sign: the lines on the face keep their sense.
-        let own = select(vec4(n, cut.w) * sign(n.z), vec4(n, 1.0), of_cell);
-        let number = select(face - 3u, 8u, of_cell);
-        let next = select(count, 8u, of_cell);
-        let low = on_face(turned_planes(cuts.low, axis), own, LOW, number, next);
-        let high = on_face(turned_planes(cuts.high, axis), own, HIGH, number, next);
-        let area = twice_area(low, high, select(count + 1u, count, of_cell));
-        // Seen along the axis the face is smaller than it is.
-        sum += select(cut.w / abs(n.z), 1.0, of_cell) * area;
+        let d = select(cut_of(cuts, face - 3u).w, 1.0, face < 3u);
+        sum += d * twice_face(cuts, count, face);
     }
     return clamp(sum / 6.0, 0.0, 1.0);
+}
+
+// Twice the area of one of the three far faces of the cell, or of cut face - 3.
+fn twice_face(cuts: Cuts, count: u32, face: u32) -> f32 {
+    let of_cell = face < 3u;
+    let cut = cut_of(cuts, face - 3u);
+    let axis = select(main_axis(cut.xyz), face, of_cell);
+    let n = select(turned(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
+    // Both sides times the sign: the lines on the face keep their sense.
+    let own = select(vec4(n, cut.w) * sign(n.z), vec4(n, 1.0), of_cell);
+    let number = select(face - 3u, 8u, of_cell);
+    let next = select(count, 8u, of_cell);
+    let low = on_face(turned_planes(cuts.low, axis), own, LOW, number, next);
+    let high = on_face(turned_planes(cuts.high, axis), own, HIGH, number, next);
+    // Seen along the axis the face is smaller than it is.
+    return twice_area(low, high, select(count + 1u, count, of_cell)) / abs(n.z);
 }
 
 fn turned_planes(p: Planes, axis: u32) -> Planes {
@@ -100,7 +105,7 @@ fn on_face(p: Planes, own: vec4<f32>, numbers: vec4<u32>, number: u32, next: u32
     let parallel = length <= vec4(PARALLEL);
     // Parallel ones become lines that leave all of the unit square or nothing; of two faces that are the same the first
     // cut counts.
-    let all = (d > vec4(0.0)) | ((d == vec4(0.0)) & (numbers > vec4(number)));
+    let all = (d > vec4(0.0)) | ((d == vec4(0.0)) & (numbers >= vec4(number)));
     return Lines(
         select(x / length, vec4(1.0), parallel),
         select(y / length, vec4(0.0), parallel),

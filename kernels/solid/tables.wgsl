@@ -49,12 +49,16 @@ struct Motion {
 const DEEP = 2.0;
 // Share of a part in a cell that it leaves empty, beside a cell that it does not.
 const NEAR = -1.0;
+// Share of a cell that is left to voxelise_edges.
+const UNDECIDED = 4.0;
 // Added to the shares of all parts in a cell that is deep in one of them.
 const DEEP_SUM = 8.0;
 // Numbers that a cell of a saturated brick has: sum of the shares, velocity of the solid (3), beta, a, G (3).
 const PLANES = 9u;
 // Numbers that a block has: force (3), moment (9), held fluid, freed fluid, first moments of both (3 + 3).
 const WRENCH = 20u;
+// Numbers that a face has: force (3), moment (3), wetted area, cells.
+const FACE_LOAD = 8u;
 
 // The centre of a cell, from base + fraction.
 fn centre_from(cell: vec3<i32>, base: vec3<i32>, fraction: vec3<f32>) -> vec3<f32> {

@@ -1,12 +1,21 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction, volume of (cell and convex part) / volume of the cell, of one part
-// in each cell of the listed tiles. A workgroup is a tile.
-// needs workgroup, tables, brick, ball_share, hull_share
+// in each cell of the listed tiles. A workgroup is a tile. Cells at edges, and on spheres, are few and dear: they are
+// put on a list for voxelise_edges, in any order, since neighbours in a workgroup would wait for them.
+// needs workgroup, tables, brick, ball_quick, hull_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
 // WORKGROUP a tile.
 @group(0) @binding(4) var<storage, read_write> shares: array<f32>;
+
+struct Edges {
+    count: atomic<u32>,
+    // Places in `shares`.
+    cells: array<u32>,
+}
+
+@group(0) @binding(5) var<storage, read_write> edges: Edges;
 
 @compute @workgroup_size(WORKGROUP)
 fn voxelise(
@@ -19,19 +28,24 @@ fn voxelise(
         return;
     }
     let number = work[turn];
-    if (number != NOTHING) {
-        shares[number * WORKGROUP + local] = share_of(tiles[number], place_in_brick(local));
+    if (number == NOTHING) {
+        return;
+    }
+    let share = quick_share(tiles[number], place_in_brick(local));
+    shares[number * WORKGROUP + local] = share;
+    if (share == UNDECIDED) {
+        edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + local;
     }
 }
 
-fn share_of(tile: Tile, place: vec3<u32>) -> f32 {
+fn quick_share(tile: Tile, place: vec3<u32>) -> f32 {
     if (!in_domain(place, tile.inside)) {
         return 0.0;
     }
     let part = parts[tile.part];
     let r = centre_from(tile.cell + vec3<i32>(place), part.base, part.fraction);
     if (part.faces == 0u) {
-        return ball_share(r, part.radius);
+        return ball_quick(r, part.radius);
     }
-    return hull_share(part, r);
+    return hull_quick(part, r);
 }

@@ -1,21 +1,24 @@
 //! All blocks of a scene and their state.
 
 use super::{
-    Body, ContactPoint, Ledger, Load, Motion, Pose, Setup, Sleep,
-    body::{Flight, State},
+    Body, ContactPoint, Ledger, Load, Pose, Setup, Sleep,
+    body::{Drive, Flight, State},
     books::Books,
     bound, check,
-    narrow::{Joints, Resolvers},
+    narrow::Joints,
     pairs::{self, Mark},
-    parts::{Parts, place},
-    touch::{Pair, Touch},
+    parts::Parts,
+    resolvers::Resolvers,
+    sums::Sum,
+    touch::Pair,
+    touches::Touches,
 };
 use crate::{
     Error, Result,
     broadphase::{Broadphase, Item},
     contact::{Counts, Options},
     integrate::Principal,
-    law::{self, Stiffness},
+    law,
 };
 use glam::DVec3;
 
@@ -57,6 +60,7 @@ pub struct Blocks {
     pub(super) sleep: Option<Sleep>,
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
+    pub(super) corner_area: f64,
     pub(super) resolvers: Resolvers,
 
     pub(super) time: f64,
@@ -67,15 +71,16 @@ pub struct Blocks {
     /// Poses when the pairs were found; empty: never.
     pub(super) marks: Vec<Mark>,
     pub(super) pairs: Vec<Pair>,
-    pub(super) touches: Vec<Touch>,
+    pub(super) touches: Touches,
     pub(super) books: Books,
 
-    // What a step writes before it is known to be good.
+    // What a step writes before it is known to be good; then `next_…` change places with what they follow.
     pub(super) parts: Parts,
     pub(super) flights: Vec<Flight>,
-    pub(super) before: Vec<State>,
+    pub(super) sums: Vec<Sum>,
+    pub(super) next_states: Vec<State>,
     pub(super) next_pairs: Vec<Pair>,
-    pub(super) sums: Vec<Stiffness>,
+    pub(super) next_touches: Touches,
 }
 
 impl Blocks {
@@ -106,8 +111,9 @@ impl Blocks {
                 mass: density * block.shape.volume(),
                 inertia: Principal::of(block.shape.inertia()).scaled(density),
                 shape: block.shape.clone(),
-                material: block.material,
-                motion: block.motion.clone(),
+                radius: block.shape.radius(),
+                material: block.material as u32,
+                drive: Drive::of(&block.motion),
                 parts: first..first + count,
             };
             first += count;
@@ -126,6 +132,7 @@ impl Blocks {
             sleep: setup.sleep,
             start_overlap: setup.start_overlap,
             largest_overlap: setup.largest_overlap,
+            corner_area: setup.corner_area,
             resolvers: Resolvers::new(options),
             time: 0.0,
             steps: 0,
@@ -133,17 +140,18 @@ impl Blocks {
             started: false,
             marks: Vec::new(),
             pairs: Vec::new(),
-            touches: Vec::new(),
+            touches: Touches::default(),
             books: Books::default(),
             parts: Parts::new(&bodies),
             flights: vec![Flight::default(); bodies.len()],
-            before: Vec::new(),
-            next_pairs: Vec::new(),
             sums: Vec::new(),
+            next_states: states.clone(),
+            next_pairs: Vec::new(),
+            next_touches: Touches::default(),
             bodies,
             states,
         };
-        blocks.place(|_| true);
+        blocks.parts.put(&blocks.bodies, &blocks.states);
         Ok(blocks)
     }
 
@@ -230,14 +238,14 @@ impl Blocks {
 
     /// Whether a block can move: it is free or driven.
     pub fn moves(&self, block: usize) -> bool {
-        self.bodies[block].motion != Motion::Fixed
+        !self.bodies[block].is_fixed()
     }
 
     /// Speed of the fastest point of a free block, m/s.
     pub fn largest_speed(&self) -> f64 {
         let free = self.bodies.iter().zip(&self.states);
         free.filter(|(body, _)| body.is_free())
-            .map(|(body, state)| state.fastest(body.shape.radius()))
+            .map(|(body, state)| state.fastest(body.radius))
             .fold(0.0, f64::max)
     }
 
@@ -325,7 +333,7 @@ impl Blocks {
                 let pairs = finder.pairs(&self.items()).await?;
                 self.set_pairs(pairs)?;
             }
-            self.step_towards(until)?;
+            self.step_known(self.stride(until))?;
         }
         Ok(())
     }
@@ -355,19 +363,6 @@ impl Blocks {
     pub(super) fn label(&self, block: usize) -> String {
         super::narrow::label(block, &self.bodies[block].name)
     }
-
-    /// Places the parts of the blocks that `which` names.
-    pub(super) fn place(&mut self, which: impl Fn(usize) -> bool) {
-        for (i, (body, state)) in self.bodies.iter().zip(&self.states).enumerate() {
-            if which(i) {
-                place(
-                    body,
-                    &state.pose(),
-                    &mut self.parts.placed[body.parts.clone()],
-                );
-            }
-        }
-    }
 }
 
 fn start(body: &Body, block: &super::Block) -> State {
@@ -378,13 +373,13 @@ fn start(body: &Body, block: &super::Block) -> State {
         spin: block.spin,
         ..State::default()
     };
-    match &body.motion {
-        Motion::Free => {
+    match &body.drive {
+        Drive::Forces => {
             let frame = state.rotation * body.inertia.axes;
             state.momentum = frame * ((frame.conjugate() * block.spin) * body.inertia.moments);
         }
-        Motion::Fixed => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
-        Motion::Driven { .. } => [state.velocity, state.spin] = body.driven_at(0.0),
+        Drive::Nothing => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
+        Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
     }
     state
 }

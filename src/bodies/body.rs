@@ -1,6 +1,6 @@
 //! One block: what stays and what changes.
 
-use super::{Motion, Pose};
+use super::{Motion, Pose, sums::Sum};
 use crate::{
     block::Shape,
     formula::Formula,
@@ -14,33 +14,57 @@ use std::{ops::Range, sync::Arc};
 pub(super) struct Body {
     pub name: String,
     pub shape: Arc<Shape>,
-    pub material: usize,
-    pub motion: Motion,
+    pub material: u32,
+    pub drive: Drive,
     /// kg.
     pub mass: f64,
     /// kg m².
     pub inertia: Principal,
+    /// Of the ball about its centroid that holds it, m.
+    pub radius: f64,
     /// Its parts among all parts.
     pub parts: Range<usize>,
 }
 
+/// What moves it. Formulas are rare and elsewhere, so that a body is small: all are read in each step.
+#[derive(Clone, Debug)]
+pub(super) enum Drive {
+    Forces,
+    Nothing,
+    /// Velocity and spin.
+    Formulas(Box<[[Formula; 3]; 2]>),
+}
+
+impl Drive {
+    pub fn of(motion: &Motion) -> Self {
+        match motion {
+            Motion::Free => Self::Forces,
+            Motion::Fixed => Self::Nothing,
+            Motion::Driven { velocity, spin } => {
+                Self::Formulas(Box::new([velocity.clone(), spin.clone()]))
+            }
+        }
+    }
+}
+
 impl Body {
     pub fn is_free(&self) -> bool {
-        self.motion == Motion::Free
+        matches!(self.drive, Drive::Forces)
     }
 
     pub fn is_fixed(&self) -> bool {
-        self.motion == Motion::Fixed
+        matches!(self.drive, Drive::Nothing)
     }
 
     /// Velocity and spin of a driven block at the time `t`; zero for others.
     pub fn driven_at(&self, t: f64) -> [DVec3; 2] {
-        let Motion::Driven { velocity, spin } = &self.motion else {
+        let Drive::Formulas(formulas) = &self.drive else {
             return [DVec3::ZERO; 2];
         };
-        let value =
-            |v: &[Formula; 3]| DVec3::from_array([0, 1, 2].map(|k| v[k].eval_at([0.0; 3], t)));
-        [value(velocity), value(spin)]
+        let value = |f: &Formula| f.eval_at([0.0; 3], t);
+        formulas
+            .each_ref()
+            .map(|v| DVec3::from_array(v.each_ref().map(value)))
     }
 
     /// 1/kg; 0 if forces do not move it.
@@ -77,6 +101,11 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Takes over what the contacts do.
+    pub fn pull(&mut self, sum: &Sum) {
+        (self.force, self.torque) = (sum.force, sum.torque);
+    }
+
     pub fn pose(&self) -> Pose {
         Pose::rigid(self.centre, self.rotation, self.velocity, self.spin)
     }
@@ -93,9 +122,14 @@ impl State {
     }
 }
 
-/// How a block moves within a step.
+/// How a block moves within a step, and what else its contacts ask of it: together, since each contact
+/// looks at two blocks that may be anywhere in the lists.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flight {
+    /// At the end of the step, m.
+    pub centre: DVec3,
+    /// At the end of the step.
+    pub rotation: DQuat,
     /// Mean velocity over the step, m/s.
     pub velocity: DVec3,
     /// Mean spin over the step, rad/s.
@@ -104,6 +138,34 @@ pub(super) struct Flight {
     pub end_velocity: DVec3,
     /// Spin expected at the end, rad/s.
     pub end_spin: DVec3,
+    /// 1/kg; 0 if forces do not move it.
+    pub inverse_mass: f64,
+    pub material: u32,
+    /// Whether it is fixed or sleeps.
+    pub rests: bool,
+}
+
+impl Flight {
+    /// Of a block that stays where `state` is.
+    fn still(body: &Body, state: &State) -> Self {
+        Self {
+            centre: state.centre,
+            rotation: state.rotation,
+            inverse_mass: body.inverse_mass(),
+            material: body.material,
+            rests: body.is_fixed() || state.asleep,
+            ..Self::default()
+        }
+    }
+
+    /// Of a block before its first step.
+    pub fn at_start(body: &Body, state: &State) -> Self {
+        Self {
+            end_velocity: state.velocity,
+            end_spin: state.spin,
+            ..Self::still(body, state)
+        }
+    }
 }
 
 /// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays.
@@ -115,10 +177,10 @@ pub(super) fn fly(
     time: f64,
     dt: f64,
 ) -> Flight {
-    match &body.motion {
-        Motion::Fixed => Flight::default(),
-        Motion::Free if state.asleep => Flight::default(),
-        Motion::Free => {
+    match &body.drive {
+        Drive::Nothing => Flight::still(body, state),
+        Drive::Forces if state.asleep => Flight::still(body, state),
+        Drive::Forces => {
             let rate = (state.force + state.load) / body.mass + gravity;
             let torque = state.torque + state.load_torque;
             let velocity = integrate::first_kick(state.velocity, rate, damping, dt);
@@ -135,9 +197,10 @@ pub(super) fn fly(
                 spin: integrate::spin(&body.inertia, state.rotation, momentum),
                 end_velocity,
                 end_spin: integrate::spin(&body.inertia, state.rotation, end_momentum),
+                ..Flight::still(body, state)
             }
         }
-        Motion::Driven { .. } => {
+        Drive::Formulas(_) => {
             let [mid_velocity, mid_spin] = body.driven_at(time + 0.5 * dt);
             state.centre += mid_velocity * dt;
             state.rotation = (DQuat::from_scaled_axis(mid_spin * dt) * state.rotation).normalize();
@@ -147,6 +210,7 @@ pub(super) fn fly(
                 spin: mid_spin,
                 end_velocity: state.velocity,
                 end_spin: state.spin,
+                ..Flight::still(body, state)
             }
         }
     }

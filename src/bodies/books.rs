@@ -3,9 +3,13 @@
 use super::{
     Body, Ledger,
     body::State,
-    touch::{NONE, Pair, Touch},
+    touches::{Chunk, Touches},
 };
 use glam::DVec3;
+use rayon::prelude::*;
+
+/// Chunks of contacts that one thread takes at least.
+const FEW: usize = 8;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,23 +27,20 @@ impl Books {
         &mut self,
         bodies: &[Body],
         states: &[State],
-        touches: &mut [Touch],
+        touches: &mut Touches,
         damping: f64,
         dt: f64,
     ) {
+        let chunks = touches.chunks.par_iter_mut().with_min_len(FEW);
+        chunks.for_each(|chunk| work(chunk, states, dt));
         let mut power = [0.0; 4];
-        for touch in touches.iter_mut() {
-            let force = touch.force;
-            let [first, second] = touch.blocks.map(|block| &states[block as usize]);
-            let [ra, rb] = [first, second].map(|state| touch.pressure_centre - state.centre);
-            let velocity =
-                second.velocity + second.spin.cross(rb) - first.velocity - first.spin.cross(ra);
-            let spin = second.spin - first.spin;
-            let spring = -force.spring.dot(velocity);
-            power[0] -= force.dashpot.dot(velocity) + force.moment.dot(spin);
-            touch.stored += 0.5 * dt * (touch.power + spring) - force.friction;
-            touch.power = spring;
-            self.friction += force.friction;
+        // One after the other: the bits must not depend on the number of threads.
+        for chunk in &touches.chunks {
+            for (touch, dashpots) in chunk.touches.iter().zip(&chunk.dashpots) {
+                power[0] -= dashpots;
+                self.friction += touch.force.friction;
+            }
+            self.lost = chunk.ended.iter().fold(self.lost, |lost, held| lost + held);
         }
         for (body, state) in bodies.iter().zip(states) {
             let loaded = state.load != DVec3::ZERO || state.load_torque != DVec3::ZERO;
@@ -66,22 +67,12 @@ impl Books {
         self.power[3] = free.map(|(_, state)| load_power(state)).sum();
     }
 
-    /// Books the contacts of `old` that are no more: their force acted for half a step yet.
-    pub fn end(&mut self, old: &[Touch], pairs: &[Pair], before: &[Pair], dt: f64) {
-        for (now, was) in pairs.iter().zip(before) {
-            if was.touch != NONE && now.touch == NONE {
-                let touch = &old[was.touch as usize];
-                self.lost += touch.stored + 0.5 * dt * touch.power;
-            }
-        }
-    }
-
     /// The ledger of the present state.
     pub fn ledger(
         &self,
         bodies: &[Body],
         states: &[State],
-        touches: &[Touch],
+        touches: &Touches,
         gravity: DVec3,
     ) -> Ledger {
         let free = || bodies.iter().zip(states).filter(|(body, _)| body.is_free());
@@ -99,6 +90,24 @@ impl Books {
             driven,
             loads,
         }
+    }
+}
+
+/// Works on the springs of some contacts in a step of `dt` (s), and the powers at its end.
+fn work(chunk: &mut Chunk, states: &[State], dt: f64) {
+    chunk.dashpots.clear();
+    for touch in &mut chunk.touches {
+        let force = touch.force;
+        let [first, second] = touch.blocks.map(|block| &states[block as usize]);
+        let [ra, rb] = [first, second].map(|state| touch.pressure_centre - state.centre);
+        let velocity =
+            second.velocity + second.spin.cross(rb) - first.velocity - first.spin.cross(ra);
+        let spin = second.spin - first.spin;
+        let spring = -force.spring.dot(velocity);
+        let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
+        chunk.dashpots.push(dashpots);
+        touch.stored += 0.5 * dt * (touch.power + spring) - force.friction;
+        touch.power = spring;
     }
 }
 

@@ -1,6 +1,6 @@
 //! The longest stable step, from what the blocks look like and from what they touch.
 
-use super::{Body, body::State, narrow::Joints, touch::Touch};
+use super::{Body, narrow::Joints, sums::Sum};
 use crate::{
     block::{Form, Polyhedron},
     law::{Joint, Stiffness},
@@ -39,24 +39,8 @@ pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
 }
 
 /// ω² of the stiffest block and which it is, from the contacts.
-pub(super) fn of_touches(
-    bodies: &[Body],
-    states: &[State],
-    touches: &[Touch],
-    joints: &Joints,
-    sums: &mut Vec<Stiffness>,
-) -> (f64, usize) {
-    sums.clear();
-    sums.resize(bodies.len(), Stiffness::default());
-    for touch in touches {
-        let [a, b] = touch.blocks.map(|block| block as usize);
-        let joint = joints.of(bodies[a].material, bodies[b].material);
-        for block in [a, b] {
-            let arm = touch.pressure_centre - states[block].centre;
-            sums[block].add(joint, touch.area, arm, touch.width);
-        }
-    }
-    stiffest(bodies, sums.iter().copied())
+pub(super) fn of_sums(bodies: &[Body], sums: &[Sum]) -> (f64, usize) {
+    stiffest(bodies, sums.iter().map(|sum| sum.stiffness))
 }
 
 fn stiffest(bodies: &[Body], sums: impl Iterator<Item = Stiffness>) -> (f64, usize) {

@@ -29,6 +29,10 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
     }
     positive("start_overlap", setup.start_overlap, "")?;
     positive("largest_overlap", setup.largest_overlap, "")?;
+    if !(0.0..=1.0).contains(&setup.corner_area) {
+        let message = format!("{} must be between 0 and 1", setup.corner_area);
+        return Err(Error::scene("corner_area", message));
+    }
     if let Some(Sleep {
         speed,
         after,
@@ -106,5 +110,8 @@ pub(super) fn joints(setup: &Setup) -> Joints {
         table[a * materials + b] = pair.joint;
         table[b * materials + a] = pair.joint;
     }
-    Joints { materials, table }
+    Joints {
+        materials: materials as u32,
+        table,
+    }
 }

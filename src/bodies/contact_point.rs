@@ -18,7 +18,7 @@ pub struct ContactPoint {
     pub force: DVec3,
     /// Overlap, m.
     pub overlap: f64,
-    /// Area, m².
+    /// Area that its springs count with, m².
     pub area: f64,
     /// Whether its tensile strength still holds.
     pub bonded: bool,

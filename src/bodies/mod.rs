@@ -17,11 +17,14 @@ mod pairs;
 mod parts;
 mod pose;
 mod relax;
+mod resolvers;
 mod setup;
 mod sleeping;
 mod snapshot;
 mod step;
+mod sums;
 mod touch;
+mod touches;
 
 pub use blocks::Blocks;
 pub use contact_point::ContactPoint;

@@ -2,151 +2,115 @@
 
 use super::{
     Body,
-    body::{Flight, State},
+    body::Flight,
     parts::Parts,
+    resolvers::Resolvers,
     touch::{NONE, Pair, TENTHS, Touch},
+    touches::{CHUNK, Chunk, Touches},
 };
 use crate::{
     Error, Result,
-    contact::{Contact, Counts, Options, Resolver, Verdict},
+    contact::{Contact, Resolver, Verdict},
     law::{self, History, Joint},
 };
 use rayon::prelude::*;
-use std::{
-    fmt,
-    sync::{Mutex, PoisonError},
-};
-
-/// Pairs that one thread takes at a time: enough to outweigh the handing out.
-const CHUNK: usize = 64;
-
-/// One resolver a thread.
-pub(super) struct Resolvers {
-    options: Options,
-    one_a_thread: Vec<Mutex<Resolver>>,
-}
-
-impl fmt::Debug for Resolvers {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Resolvers")
-            .field("options", &self.options)
-            .field("threads", &self.one_a_thread.len())
-            .finish()
-    }
-}
-
-impl Resolvers {
-    pub fn new(options: Options) -> Self {
-        Self {
-            options,
-            one_a_thread: Vec::new(),
-        }
-    }
-
-    /// What all of them have done.
-    pub fn counts(&self) -> Counts {
-        let mut sum = Counts::default();
-        for resolver in &self.one_a_thread {
-            let resolver = resolver.lock().unwrap_or_else(PoisonError::into_inner);
-            sum += resolver.counts();
-        }
-        sum
-    }
-
-    fn prepare(&mut self, threads: usize) {
-        let options = self.options;
-        let new = || Mutex::new(Resolver::new(options));
-        while self.one_a_thread.len() < threads {
-            self.one_a_thread.push(new());
-        }
-    }
-
-    fn with<T>(&self, work: impl FnOnce(&mut Resolver) -> T) -> T {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let resolver = &self.one_a_thread[thread % self.one_a_thread.len()];
-        // A resolver holds nothing from one pair to the next: one that a panic left is as good.
-        work(&mut resolver.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-}
 
 /// What the contacts are computed from.
 pub(super) struct Scene<'a> {
     pub bodies: &'a [Body],
-    pub states: &'a [State],
     pub flights: &'a [Flight],
     pub parts: &'a Parts,
     pub joints: &'a Joints,
     /// Contacts of the last step.
-    pub touches: &'a [Touch],
+    pub touches: &'a Touches,
     /// s; 0 at the start.
     pub time_step: f64,
     /// Whether contacts that begin now are bonded.
     pub bonding: bool,
     /// Largest overlap, as a share of the smaller distance from centroid to face.
     pub largest_overlap: f64,
+    /// Least area of a contact's springs, as a share of the square of twice that distance.
+    pub corner_area: f64,
 }
 
 /// The joint of every two materials.
 #[derive(Clone, Debug)]
 pub(super) struct Joints {
-    pub materials: usize,
+    pub materials: u32,
     pub table: Vec<Joint>,
 }
 
 impl Joints {
-    pub fn of(&self, a: usize, b: usize) -> &Joint {
-        &self.table[a * self.materials + b]
+    pub fn of(&self, a: u32, b: u32) -> &Joint {
+        &self.table[(a * self.materials + b) as usize]
     }
 }
 
-/// Resolves all `pairs`; their contacts in the order of the pairs, whatever the number of threads.
+/// Resolves all `pairs` into `next`; their contacts into `found`, whatever the number of threads.
 ///
 /// # Errors
 /// That of the first pair that cannot be resolved.
 pub(super) fn resolve(
     scene: &Scene<'_>,
     resolvers: &mut Resolvers,
-    pairs: &mut [Pair],
-) -> Result<Vec<Touch>> {
-    let threads = rayon::current_num_threads();
-    resolvers.prepare(threads);
+    pairs: &[Pair],
+    next: &mut Vec<Pair>,
+    found: &mut Touches,
+) -> Result<()> {
+    resolvers.prepare(rayon::current_num_threads());
     let resolvers = &*resolvers;
-    let run = |chunk: &mut [Pair]| {
-        resolvers.with(|resolver| {
-            let mut found = Vec::new();
-            for pair in chunk {
-                let touch = scene.pair(resolver, pair)?;
-                pair.touch = if touch.is_some() {
-                    found.len() as u32
-                } else {
-                    NONE
-                };
-                found.extend(touch);
-            }
-            Ok(found)
-        })
-    };
-    let chunks: Vec<Result<Vec<Touch>>> = if pairs.len() <= CHUNK || threads == 1 {
-        pairs.chunks_mut(CHUNK).map(run).collect()
-    } else {
-        pairs.par_chunks_mut(CHUNK).map(run).collect()
-    };
-    let mut touches = Vec::new();
-    for (chunk, pairs) in chunks.into_iter().zip(pairs.chunks_mut(CHUNK)) {
-        let chunk = chunk?;
-        for pair in pairs.iter_mut().filter(|pair| pair.touch != NONE) {
-            pair.touch += touches.len() as u32;
-        }
-        touches.extend(chunk);
+    next.resize(pairs.len(), Pair::new([0; 2]));
+    found.reset(pairs.len());
+    let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
+    let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
+    let failed = chunks.filter_map(|(n, (pairs, (next, found)))| {
+        let done = resolvers.with(|resolver| scene.chunk(resolver, n, pairs, next, found));
+        done.err().map(|error| (n, error))
+    });
+    match failed.min_by_key(|(n, _)| *n) {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
     }
-    Ok(touches)
 }
 
 impl Scene<'_> {
-    fn pair(&self, resolver: &mut Resolver, pair: &mut Pair) -> Result<Option<Touch>> {
-        let before = (pair.touch != NONE).then(|| &self.touches[pair.touch as usize]);
+    /// The chunk `n` of the pairs.
+    fn chunk(
+        &self,
+        resolver: &mut Resolver,
+        n: usize,
+        pairs: &[Pair],
+        next: &mut [Pair],
+        found: &mut Chunk,
+    ) -> Result<()> {
+        found.touches.clear();
+        found.ended.clear();
+        for (pair, next) in pairs.iter().zip(next) {
+            *next = *pair;
+            let before = self.touches.of(pair);
+            let touch = self.pair(resolver, next, before)?;
+            next.touch = match touch {
+                Some(_) => (n * CHUNK + found.touches.len()) as u32,
+                None => NONE,
+            };
+            if let (Some(before), None) = (before, touch) {
+                // Its force acted for half a step yet.
+                let held = before.stored + 0.5 * self.time_step * before.power;
+                found.ended.push(held);
+            }
+            found.touches.extend(touch);
+        }
+        Ok(())
+    }
+
+    fn pair(
+        &self,
+        resolver: &mut Resolver,
+        pair: &mut Pair,
+        before: Option<&Touch>,
+    ) -> Result<Option<Touch>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
-        if blocks.iter().all(|&b| self.rests(b as usize)) {
+        if blocks.iter().all(|&b| self.flights[b as usize].rests) {
             // Nothing slips where nothing moves.
             return Ok(before.map(|touch| Touch {
                 force: law::Force {
@@ -191,10 +155,6 @@ impl Scene<'_> {
         })
     }
 
-    fn rests(&self, block: usize) -> bool {
-        self.states[block].asleep || self.bodies[block].is_fixed()
-    }
-
     fn touch(
         &self,
         parts: [u32; 2],
@@ -202,26 +162,26 @@ impl Scene<'_> {
         contact: &Contact,
         before: Option<&Touch>,
     ) -> Touch {
-        let [a, b] = blocks.map(|block| block as usize);
-        let (first, second) = (&self.bodies[a], &self.bodies[b]);
-        let joint = self.joints.of(first.material, second.material);
+        let [a, b] = blocks.map(|block| &self.flights[block as usize]);
+        let joint = self.joints.of(a.material, b.material);
         let at = contact.pressure_centre;
-        let [fa, fb] = [a, b].map(|block| &self.flights[block]);
-        let [ra, rb] = [a, b].map(|block| at - self.states[block].centre);
-        let mean = fb.velocity + fb.spin.cross(rb) - fa.velocity - fa.spin.cross(ra);
-        let end = fb.end_velocity + fb.end_spin.cross(rb) - fa.end_velocity - fa.end_spin.cross(ra);
+        let [ra, rb] = [a, b].map(|block| at - block.centre);
+        let mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
+        let end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
         let motion = law::Motion {
             way: mean * self.time_step,
             velocity: end,
-            spin: fb.spin - fa.spin,
-            frame: self.states[a].rotation,
+            spin: b.spin - a.spin,
+            frame: a.rotation,
             time_step: self.time_step,
-            mass: 1.0 / (first.inverse_mass() + second.inverse_mass()),
+            mass: 1.0 / (a.inverse_mass + b.inverse_mass),
         };
+        let square = (2.0 * TENTHS * contact.limit).powi(2);
         let section = law::Section {
             normal: contact.normal,
             overlap: contact.overlap,
             area: contact.area,
+            elastic_area: contact.area.max(self.corner_area * square),
         };
         let fresh = History {
             bonded: self.bonding,
@@ -235,7 +195,7 @@ impl Scene<'_> {
             pressure_centre: at,
             normal: contact.normal,
             overlap: contact.overlap,
-            area: contact.area,
+            area: section.elastic_area,
             width: contact.width,
             limit: contact.limit,
             force: law::force(joint, &section, &motion, &history),

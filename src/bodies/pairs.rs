@@ -3,10 +3,12 @@
 use super::{
     Body,
     body::State,
+    step::FEW,
     touch::{NONE, Pair},
 };
 use crate::{Error, Result};
 use glam::{DQuat, DVec3};
+use rayon::prelude::*;
 
 /// Where a block was when the list was made, and how far it may go from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,15 +39,15 @@ fn ahead(body: &Body, state: &State, dt: f64) -> f64 {
     if body.is_fixed() || state.asleep {
         return 0.0;
     }
-    state.fastest(body.shape.radius()) * dt
+    state.fastest(body.radius) * dt
 }
 
 /// Whether some block may leave its boxes within a step, so that pairs may be missing.
 pub(super) fn outlived(bodies: &[Body], states: &[State], marks: &[Mark], dt: f64) -> bool {
-    let all = bodies.iter().zip(states).zip(marks);
+    let all = bodies.par_iter().zip(states).zip(marks).with_min_len(FEW);
     all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
         .any(|((body, state), mark)| {
-            mark.moved(state, body.shape.radius()) + ahead(body, state, dt) > mark.room
+            mark.moved(state, body.radius) + ahead(body, state, dt) > mark.room
         })
 }
 

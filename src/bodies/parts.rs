@@ -1,8 +1,9 @@
 //! The convex parts of all blocks where they are now.
 
-use super::{Body, Pose};
+use super::{Body, Pose, body::State, step::FEW};
 use crate::{block::Form, broadphase::Item, contact::Placed};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// All parts of all blocks, in order.
 #[derive(Clone, Debug, Default)]
@@ -40,15 +41,42 @@ impl Parts {
         };
         self.placed.iter().zip(&self.block).map(item).collect()
     }
+
+    /// Moves the parts of the blocks that move.
+    pub fn follow(&mut self, bodies: &[Body], states: &[State]) {
+        let all = self.placed.par_iter_mut().zip(&self.block).enumerate();
+        all.with_min_len(FEW).for_each(|(index, (placed, &block))| {
+            let (body, state) = (&bodies[block as usize], &states[block as usize]);
+            if !body.is_fixed() && !state.asleep {
+                place(body, index, &state.pose(), placed);
+            }
+        });
+    }
+
+    /// Puts all parts where their blocks are.
+    pub fn put(&mut self, bodies: &[Body], states: &[State]) {
+        let all = self.placed.iter_mut().zip(&self.block).enumerate();
+        for (index, (placed, &block)) in all {
+            let pose = states[block as usize].pose();
+            place(&bodies[block as usize], index, &pose, placed);
+        }
+    }
+
+    /// Puts the parts of one block where it is.
+    pub fn put_one(&mut self, body: &Body, pose: &Pose) {
+        let own = self.placed[body.parts.clone()].iter_mut();
+        for (index, placed) in body.parts.clone().zip(own) {
+            place(body, index, pose, placed);
+        }
+    }
 }
 
-/// Moves the parts of one block.
-pub(super) fn place(body: &Body, pose: &Pose, placed: &mut [Placed]) {
-    for (part, placed) in body.shape.parts().iter().zip(placed) {
-        match &part.form {
-            Form::Convex(shape) => placed.update(shape, part.offset, pose),
-            Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, pose),
-        }
+/// Moves one part, the `index`th of all.
+fn place(body: &Body, index: usize, pose: &Pose, placed: &mut Placed) {
+    let part = &body.shape.parts()[index - body.parts.start];
+    match &part.form {
+        Form::Convex(shape) => placed.update(shape, part.offset, pose),
+        Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, pose),
     }
 }
 

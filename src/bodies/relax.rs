@@ -1,6 +1,6 @@
 //! Pushing apart what overlaps before the first step.
 
-use super::{Blocks, parts::place, touch::TENTHS};
+use super::{Blocks, touch::TENTHS};
 use crate::{
     Error, Result,
     broadphase::Broadphase,
@@ -64,9 +64,8 @@ impl Blocks {
                 let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
                 self.states[block].centre += contact.normal * (sign * share * way);
-                let body = &self.bodies[block];
                 let pose = self.states[block].pose();
-                place(body, &pose, &mut self.parts.placed[body.parts.clone()]);
+                self.parts.put_one(&self.bodies[block], &pose);
             }
         }
         Ok(found)

@@ -21,7 +21,7 @@ impl State {
         let weight = body.mass * gravity.length();
         let scale = if weight > 0.0 { weight } else { slept.length() };
         let changed = (force - slept).length() > sleep.change * scale
-            || (torque - slept_torque).length() > sleep.change * scale * body.shape.radius();
+            || (torque - slept_torque).length() > sleep.change * scale * body.radius;
         if self.asleep && changed {
             self.asleep = false;
             self.slow = 0.0;
@@ -33,7 +33,7 @@ impl State {
         if self.asleep {
             return;
         }
-        if self.fastest(body.shape.radius()) >= sleep.speed {
+        if self.fastest(body.radius) >= sleep.speed {
             self.slow = 0.0;
             return;
         }

@@ -7,6 +7,7 @@ use super::{
     bytes::{Plain, fields},
     pairs::Mark,
     touch::{Pair, Touch},
+    touches::Touches,
 };
 use crate::{
     Error, Result,
@@ -20,7 +21,7 @@ const MAGIC: &[u8; 16] = b"riprap blocks 1\n";
 /// Everything that the next steps depend on: poses, momenta, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     time: f64,
     steps: u64,
@@ -68,17 +69,23 @@ impl Snapshot {
 impl Blocks {
     /// The present state.
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            time: self.time,
-            steps: self.steps,
-            time_step: self.time_step,
-            started: self.started,
-            states: self.states.clone(),
-            marks: self.marks.clone(),
-            pairs: self.pairs.clone(),
-            touches: self.touches.clone(),
-            books: self.books,
-        }
+        let mut snapshot = Snapshot::default();
+        self.save(&mut snapshot);
+        snapshot
+    }
+
+    /// The present state in place of an older one, whose memory it uses.
+    pub fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.time = self.time;
+        snapshot.steps = self.steps;
+        snapshot.time_step = self.time_step;
+        snapshot.started = self.started;
+        snapshot.states.clone_from(&self.states);
+        snapshot.marks.clone_from(&self.marks);
+        snapshot.pairs.clone_from(&self.pairs);
+        self.touches
+            .list(&mut snapshot.pairs, &mut snapshot.touches);
+        snapshot.books = self.books;
     }
 
     /// Goes back, or on, to a state of the same setup: the next steps give the same bits as they did
@@ -116,9 +123,9 @@ impl Blocks {
         self.states.clone_from(&snapshot.states);
         self.marks.clone_from(&snapshot.marks);
         self.pairs.clone_from(&snapshot.pairs);
-        self.touches.clone_from(&snapshot.touches);
+        self.touches = Touches::from_list(&snapshot.touches);
         self.books = snapshot.books;
-        self.place(|_| true);
+        self.parts.put(&self.bodies, &self.states);
         Ok(())
     }
 }

@@ -1,18 +1,26 @@
 //! One step of all blocks: kick, drift, contacts, kick.
 
 use super::{
-    Blocks, Body, Pose,
-    body::{self, Flight, State},
-    bound, narrow,
-    parts::place,
+    Blocks,
+    body::{self, Flight},
+    bound, narrow, sums,
     touch::{TENTHS, Touch},
+    touches::Touches,
 };
 use crate::{Error, Result, error::Overlap, law};
-use glam::DVec3;
 use rayon::prelude::*;
 
-/// Fewer blocks than this are moved by one thread: handing out costs more.
-const FEW: usize = 512;
+/// Blocks that one thread takes at least: handing out fewer costs more.
+pub(super) const FEW: usize = 256;
+
+/// What a step leads to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stride {
+    /// s.
+    dt: f64,
+    /// Time at its end, where it is known better than by adding up, s.
+    end: Option<f64>,
+}
 
 impl Blocks {
     /// One step of [`Blocks::time_step`].
@@ -23,7 +31,10 @@ impl Blocks {
     /// [`Error::NotFinite`] if a block is nowhere, [`Error::Scene`] if pairs are wanted first. After an
     /// error everything is as it was before the step.
     pub fn step(&mut self) -> Result<()> {
-        self.step_by(self.time_step)
+        self.step_by(Stride {
+            dt: self.time_step,
+            end: None,
+        })
     }
 
     /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
@@ -31,22 +42,31 @@ impl Blocks {
     /// # Errors
     /// Those of [`Blocks::step`].
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
+        self.step_by(self.stride(until))
+    }
+
+    /// The next of the equal steps to the time `until`, s.
+    pub(super) fn stride(&self, until: f64) -> Stride {
         let left = until - self.time;
         // What rounding adds to a whole number of steps makes no step of its own.
         let steps = (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0);
-        self.step_by(left / steps)?;
-        if steps == 1.0 {
-            self.time = until;
+        Stride {
+            dt: left / steps,
+            end: (steps == 1.0).then_some(until),
         }
-        Ok(())
     }
 
-    fn step_by(&mut self, dt: f64) -> Result<()> {
+    fn step_by(&mut self, stride: Stride) -> Result<()> {
         if self.wants_pairs() {
             let message =
                 "a step wants pairs first: find those of items() and give them to set_pairs";
             return Err(Error::scene("pairs", message));
         }
+        self.step_known(stride)
+    }
+
+    /// A step of whose pairs it is known that they are all there.
+    pub(super) fn step_known(&mut self, Stride { dt, end }: Stride) -> Result<()> {
         if !dt.is_finite() {
             let message = "nothing limits the step, since no block is free; give time_step";
             return Err(Error::scene("time_step", message));
@@ -54,36 +74,31 @@ impl Blocks {
         if !self.started {
             self.start()?;
         }
-        self.before.clone_from(&self.states);
-        let touches = self.fly(dt);
-        match touches {
-            Ok(touches) => {
-                self.land(touches, dt);
-                Ok(())
-            }
-            Err(error) => {
-                std::mem::swap(&mut self.states, &mut self.before);
-                self.place(|_| true);
-                Err(error)
-            }
+        if let Err(error) = self.fly(dt) {
+            self.parts.put(&self.bodies, &self.states);
+            return Err(error);
         }
+        self.land(dt);
+        if let Some(end) = end {
+            self.time = end;
+        }
+        Ok(())
     }
 
     /// Finds the contacts of the first step.
     fn start(&mut self) -> Result<()> {
+        let all = self.bodies.iter().zip(&self.states);
         self.flights.clear();
-        let flight = |state: &State| Flight {
-            end_velocity: state.velocity,
-            end_spin: state.spin,
-            ..Flight::default()
-        };
-        self.flights.extend(self.states.iter().map(flight));
-        let touches = self.contacts_after(0.0, true)?;
-        self.check_start(&touches)?;
-        self.check_step(&touches, self.time_step)?;
-        std::mem::swap(&mut self.pairs, &mut self.next_pairs);
-        self.touches = touches;
-        self.sum_forces();
+        self.flights
+            .extend(all.map(|(body, state)| Flight::at_start(body, state)));
+        self.find_contacts(0.0, true)?;
+        self.check_start(&self.next_touches)?;
+        self.check_step(self.time_step)?;
+        self.next_states.clone_from(&self.states);
+        self.take_over();
+        for (state, sum) in self.states.iter_mut().zip(&self.sums) {
+            state.pull(sum);
+        }
         // A step of no length books the powers at the start.
         self.books.step(
             &self.bodies,
@@ -98,22 +113,17 @@ impl Blocks {
     }
 
     /// Kick, drift and the contacts there.
-    fn fly(&mut self, dt: f64) -> Result<Vec<Touch>> {
+    fn fly(&mut self, dt: f64) -> Result<()> {
         let (gravity, damping, time) = (self.gravity, self.damping, self.time);
-        let fly =
-            |body: &Body, state: &mut State| body::fly(body, state, gravity, damping, time, dt);
-        let (bodies, states) = (&self.bodies, &mut self.states);
-        if bodies.len() < FEW {
-            self.flights.clear();
-            let all = bodies.iter().zip(states);
-            self.flights
-                .extend(all.map(|(body, state)| fly(body, state)));
-        } else {
-            let all = bodies.par_iter().zip(states);
-            all.map(|(body, state)| fly(body, state))
-                .collect_into_vec(&mut self.flights);
-        }
-        if let Some(bad) = self.states.iter().position(|state| !state.is_finite()) {
+        let all = self.bodies.par_iter().zip(&self.states);
+        let ends = self.next_states.par_iter_mut().zip(&mut self.flights);
+        let all = all.zip(ends).enumerate().with_min_len(FEW);
+        let lost = all.filter_map(|(i, ((body, state), (next, flight)))| {
+            *next = *state;
+            *flight = body::fly(body, next, gravity, damping, time, dt);
+            (!next.is_finite()).then_some(i)
+        });
+        if let Some(bad) = lost.min() {
             return Err(Error::NotFinite {
                 block: self.label(bad),
                 time: time + dt,
@@ -122,35 +132,43 @@ impl Blocks {
                         .into(),
             });
         }
-        self.place_moved();
-        let touches = self.contacts_after(dt, false)?;
-        self.check_step(&touches, dt)?;
-        Ok(touches)
+        self.parts.follow(&self.bodies, &self.next_states);
+        self.find_contacts(dt, false)?;
+        self.check_step(dt)
     }
 
     /// Takes the step over: forces, second kick, energies, sleep.
-    fn land(&mut self, mut touches: Vec<Touch>, dt: f64) {
-        let (gravity, damping) = (self.gravity, self.damping);
-        std::mem::swap(&mut self.pairs, &mut self.next_pairs);
-        std::mem::swap(&mut self.touches, &mut touches);
-        self.sum_forces();
-        self.wake();
-        for (body, state) in self.bodies.iter().zip(&mut self.states) {
+    fn land(&mut self, dt: f64) {
+        self.take_over();
+        let (gravity, damping, sleep) = (self.gravity, self.damping, self.sleep);
+        let all = self.bodies.par_iter().zip(&self.sums);
+        let all = all.zip(&mut self.states).with_min_len(FEW);
+        all.for_each(|((body, sum), state)| {
+            state.pull(sum);
+            if let Some(sleep) = &sleep {
+                state.wake(body, sleep, gravity);
+            }
             body::land(body, state, gravity, damping, dt);
-        }
+        });
         self.books
             .step(&self.bodies, &self.states, &mut self.touches, damping, dt);
-        self.books.end(&touches, &self.pairs, &self.next_pairs, dt);
-        if let Some(sleep) = self.sleep {
+        if let Some(sleep) = &sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
                 if body.is_free() {
-                    state.drowse(body, &sleep, dt);
+                    state.drowse(body, sleep, dt);
                 }
             }
         }
         self.time += dt;
         self.steps += 1;
         self.shorten();
+    }
+
+    /// What was written becomes what is.
+    fn take_over(&mut self) {
+        std::mem::swap(&mut self.states, &mut self.next_states);
+        std::mem::swap(&mut self.pairs, &mut self.next_pairs);
+        std::mem::swap(&mut self.touches, &mut self.next_touches);
     }
 
     /// Wakes the sleepers that something new pulls at.
@@ -163,12 +181,11 @@ impl Blocks {
         }
     }
 
-    /// The contacts of all pairs, into `next_pairs`. Those of the start are bonded, and as deep as they are.
-    fn contacts_after(&mut self, dt: f64, bonding: bool) -> Result<Vec<Touch>> {
-        self.next_pairs.clone_from(&self.pairs);
+    /// The contacts of all pairs where the blocks have flown to, and their sums. Those of the start are
+    /// bonded, and as deep as they are.
+    fn find_contacts(&mut self, dt: f64, bonding: bool) -> Result<()> {
         let scene = narrow::Scene {
             bodies: &self.bodies,
-            states: &self.states,
             flights: &self.flights,
             parts: &self.parts,
             joints: &self.joints,
@@ -180,54 +197,25 @@ impl Blocks {
             } else {
                 self.largest_overlap
             },
+            corner_area: self.corner_area,
         };
-        narrow::resolve(&scene, &mut self.resolvers, &mut self.next_pairs)
+        narrow::resolve(
+            &scene,
+            &mut self.resolvers,
+            &self.pairs,
+            &mut self.next_pairs,
+            &mut self.next_touches,
+        )?;
+        sums::of_touches(
+            &self.next_touches,
+            &self.flights,
+            &self.joints,
+            &mut self.sums,
+        );
+        Ok(())
     }
 
-    fn place_moved(&mut self) {
-        let moved = |body: &Body, state: &State| !body.is_fixed() && !state.asleep;
-        if self.bodies.len() < FEW {
-            let places: Vec<bool> = {
-                let all = self.bodies.iter().zip(&self.states);
-                all.map(|(body, state)| moved(body, state)).collect()
-            };
-            self.place(|i| places[i]);
-            return;
-        }
-        // Parts of different blocks are different slices of one list.
-        let mut rest = self.parts.placed.as_mut_slice();
-        let mut work = Vec::with_capacity(self.bodies.len());
-        for (body, state) in self.bodies.iter().zip(&self.states) {
-            let (own, others) = rest.split_at_mut(body.parts.len());
-            rest = others;
-            if moved(body, state) {
-                work.push((body, state, own));
-            }
-        }
-        work.into_par_iter().for_each(|(body, state, own)| {
-            let pose: Pose = state.pose();
-            place(body, &pose, own);
-        });
-    }
-
-    /// Net force and torque of each block, in the order of the contacts.
-    fn sum_forces(&mut self) {
-        for state in &mut self.states {
-            (state.force, state.torque) = (DVec3::ZERO, DVec3::ZERO);
-        }
-        for touch in &self.touches {
-            let [a, b] = touch.blocks.map(|block| block as usize);
-            let (force, moment) = (touch.force.total(), touch.force.moment);
-            for (block, force, moment) in [(a, -force, -moment), (b, force, moment)] {
-                let state = &mut self.states[block];
-                let arm = touch.pressure_centre - state.centre;
-                state.force += force;
-                state.torque += arm.cross(force) + moment;
-            }
-        }
-    }
-
-    fn check_start(&self, touches: &[Touch]) -> Result<()> {
+    fn check_start(&self, touches: &Touches) -> Result<()> {
         let most = |touch: &Touch| TENTHS * self.start_overlap * touch.limit;
         let mut deep: Vec<_> = touches.iter().filter(|t| t.overlap > most(t)).collect();
         if deep.is_empty() {
@@ -245,17 +233,11 @@ impl Blocks {
     }
 
     /// Refuses a given step that is too long for the contacts.
-    fn check_step(&mut self, touches: &[Touch], dt: f64) -> Result<()> {
+    fn check_step(&self, dt: f64) -> Result<()> {
         if !self.given_step {
             return Ok(());
         }
-        let (frequency_squared, block) = bound::of_touches(
-            &self.bodies,
-            &self.states,
-            touches,
-            &self.joints,
-            &mut self.sums,
-        );
+        let (frequency_squared, block) = bound::of_sums(&self.bodies, &self.sums);
         let bound = law::longest_step(law::LARGEST_SHARE, frequency_squared);
         if dt <= bound {
             return Ok(());
@@ -273,13 +255,7 @@ impl Blocks {
         if self.given_step {
             return;
         }
-        let (frequency_squared, _) = bound::of_touches(
-            &self.bodies,
-            &self.states,
-            &self.touches,
-            &self.joints,
-            &mut self.sums,
-        );
+        let (frequency_squared, _) = bound::of_sums(&self.bodies, &self.sums);
         let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
         self.time_step = self.time_step.min(usual);
     }

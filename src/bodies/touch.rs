@@ -44,7 +44,7 @@ pub(super) struct Touch {
     pub normal: DVec3,
     /// m.
     pub overlap: f64,
-    /// m²; 0 while the pair touches within rounding.
+    /// That its springs count with, m²; 0 while the pair touches within rounding.
     pub area: f64,
     /// m.
     pub width: f64,

@@ -32,7 +32,7 @@ impl Resolver {
             split,
             normal,
         };
-        let section = around.section(&mut self.polygon, level);
+        let section = around.section(&mut self.polygons, level);
         let length = pair.length;
         let place = |x: DVec3| pair.small.centre + x * length;
         Contact {

@@ -38,6 +38,7 @@ mod cache;
 mod centre;
 mod counts;
 mod describe;
+mod envelope;
 mod guess;
 mod normal;
 mod options;

@@ -5,6 +5,13 @@ use glam::DVec3;
 
 /// n = unit(Σ a_k/t_k) over the first `split` rows. At the analytic centre the sum over all rows is
 /// zero, so that the other block's is its opposite.
+///
+/// The weights 1/t_k are a point of the linear program's central path, and n tends to the normal of its
+/// dual with the overlap. Where they differ, the program has left out a face that the barrier sees: at a
+/// distance δ from an edge, a contact of the overlap u is turned towards the edge by about u/δ, as it must
+/// be if the normal is not to jump there. Of random tetrahedra, cubes and hulls of twenty faces at u =
+/// 1e-4 L, half are turned by less than 0.02°, and one in a hundred by more than 1.6°: in units of
+/// Σ_out (1/t) / |Σ_own a/t|, by 0.19 and 0.99, the same from u = 1e-3 L to 1e-6 L.
 pub(super) fn barrier(rows: &[Row], slacks: &[f64], split: usize) -> DVec3 {
     let own = rows[..split].iter().zip(slacks);
     own.map(|(row, t)| row.normal / *t)

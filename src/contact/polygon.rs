@@ -1,5 +1,6 @@
 //! A convex polygon in a plane, cut by lines.
 
+use super::envelope::Bound;
 use glam::DVec2;
 
 /// Corners in order. Lengths in L, the origin inside.
@@ -7,6 +8,14 @@ use glam::DVec2;
 pub(super) struct Polygon {
     pub corners: Vec<DVec2>,
     spare: Vec<DVec2>,
+}
+
+/// Polygons that a section needs, used again and again.
+#[derive(Default)]
+pub(super) struct Polygons {
+    pub section: Polygon,
+    pub cell: Polygon,
+    pub bounds: Vec<Bound>,
 }
 
 /// Integrals over a polygon of a thickness that is linear between corners and their mean.

@@ -5,7 +5,7 @@ use super::{
     centre::Centring,
     guess::smallest_slack,
     pair::{Pair, Row},
-    polygon::Polygon,
+    polygon::Polygons,
     program::Program,
     prove::Proof,
     separation::proven,
@@ -26,7 +26,7 @@ pub struct Resolver {
     pub(super) rows: Vec<Row>,
     pub(super) program: Program,
     pub(super) centring: Centring,
-    pub(super) polygon: Polygon,
+    pub(super) polygons: Polygons,
 }
 
 impl Resolver {

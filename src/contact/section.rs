@@ -1,6 +1,11 @@
 //! Section of the overlap: area, mean thickness, and where its pressure acts.
 
-use super::{normal::overlap, pair::Row, polygon::Polygon};
+use super::{
+    envelope::{Bound, depth},
+    normal::overlap,
+    pair::Row,
+    polygon::{Polygon, Polygons},
+};
 use glam::{DVec2, DVec3};
 
 /// A section in L, places from the analytic centre.
@@ -37,16 +42,16 @@ pub(super) struct Overlap<'a> {
 impl Overlap<'_> {
     /// The section that the force acts on. `level`: turn the normal to the faces' where they lie flat
     /// on each other.
-    pub fn section(&self, polygon: &mut Polygon, level: bool) -> Section {
+    pub fn section(&self, polygons: &mut Polygons, level: bool) -> Section {
         let (i, share_i) = self.tightest(0, self.split);
         let (j, share_j) = self.tightest(self.split, self.rows.len());
         let cosine = -self.rows[i].normal.dot(self.rows[j].normal);
         let flatness = ramp(cosine, FLAT).min(ramp(share_i.min(share_j), SHARE));
         if flatness == 0.0 {
-            return self.cut(polygon);
+            return self.cut(polygons);
         }
-        let Some((flat, evenness)) = self.between(polygon, i, j) else {
-            return self.cut(polygon);
+        let Some((flat, evenness)) = self.between(&mut polygons.section, i, j) else {
+            return self.cut(polygons);
         };
         let normal = if level {
             let share = flatness * evenness;
@@ -58,7 +63,7 @@ impl Overlap<'_> {
         if flatness == 1.0 {
             return flat;
         }
-        let cut = self.cut(polygon);
+        let cut = self.cut(polygons);
         let mix = |a: f64, b: f64| a + flatness * (b - a);
         Section {
             normal,
@@ -69,29 +74,39 @@ impl Overlap<'_> {
         }
     }
 
-    /// The section through the analytic centre, across the normal.
-    fn cut(&self, polygon: &mut Polygon) -> Section {
-        let plane = self.slice(polygon, self.normal, DVec3::ZERO);
-        let thickness = |x: DVec2| {
-            let x = plane.lift(x);
-            let mut ways = [f64::INFINITY; 2];
-            for (k, (row, slack)) in self.rows.iter().zip(self.slacks).enumerate() {
-                let rate = row.normal.dot(self.normal);
-                let own = k < self.split;
-                if own == (rate > 0.0) {
-                    let way = &mut ways[usize::from(own)];
-                    *way = way.min((slack - row.normal.dot(x)).max(0.0) / rate.abs());
-                }
-            }
-            ways[0] + ways[1]
-        };
-        let moments = polygon.moments(thickness);
+    /// The section through the analytic centre, across the normal. Its pressure is as large as the way
+    /// along the normal from where a point leaves one block to where it leaves the other.
+    fn cut(&self, polygons: &mut Polygons) -> Section {
+        let plane = self.slice(&mut polygons.section, self.normal, DVec3::ZERO);
+        let Polygons {
+            section,
+            cell,
+            bounds,
+        } = polygons;
+        let mut sums = section.moments(|_| 0.0);
+        let (own, other) = self.rows.split_at(self.split);
+        let (own_slacks, other_slacks) = self.slacks.split_at(self.split);
+        for (rows, slacks, out) in [
+            (own, own_slacks, self.normal),
+            (other, other_slacks, -self.normal),
+        ] {
+            let rows = rows.iter().zip(slacks).map(|(row, slack)| Bound {
+                slack: *slack,
+                gradient: plane.gradient(row.normal),
+                rate: row.normal.dot(out),
+            });
+            bounds.clear();
+            bounds.extend(rows.filter(|bound| bound.rate > 0.0));
+            let (volume, first) = depth(section, cell, bounds);
+            sums.volume += volume;
+            sums.first += first;
+        }
         Section {
             normal: self.normal,
             overlap: overlap(self.rows, self.slacks, self.split, self.normal),
-            area: moments.area,
-            pressure_centre: plane.lift(ratio(moments.first, moments.volume)),
-            width: polygon.width(),
+            area: sums.area,
+            pressure_centre: plane.lift(ratio(sums.first, sums.volume)),
+            width: section.width(),
         }
     }
 

@@ -136,7 +136,8 @@ impl Immersed {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
             return Err(Error::scene("poses", message));
         }
-        if let Some(bad) = poses.iter().position(|pose| !finite(pose)) {
+        let nowhere = |pose: &Pose| !finite(&self.frame, pose);
+        if let Some(bad) = poses.iter().position(nowhere) {
             return Err(Error::NotFinite {
                 block: format!("block {bad}"),
                 time: lattice.step() as f64 * self.frame.units.time_step,
@@ -269,7 +270,7 @@ impl Immersed {
     }
 
     fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
-        self.kernels.set_work(queue, [tiles, slots]);
+        self.kernels.set_work(queue, tiles, slots);
         self.work.tiles += tiles.len() as u64;
         self.work.bricks += slots.len() as u64;
     }
@@ -320,12 +321,12 @@ impl Immersed {
     /// Records what the solid is in each cell, after [`Immersed::place`]; nothing where no block has
     /// changed since the last time.
     pub fn record_cells(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernels.record(pass, 0..2);
+        self.kernels.record(pass, 0..3);
     }
 
     /// Records the sums of what the fluid did to the blocks, after [`Lattice::record_saturated`].
     pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernels.record(pass, 2..4);
+        self.kernels.record(pass, 3..5);
     }
 
     /// The sums, [`WRENCH`] f32 for each block with loads: see [`Immersed::loads`]. Another buffer after
@@ -393,8 +394,12 @@ impl Immersed {
     }
 }
 
-fn finite(pose: &Pose) -> bool {
-    pose.centre.is_finite()
+/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
+const FARTHEST: f64 = 1e9;
+
+/// Whether a block can be placed.
+fn finite(frame: &Frame, pose: &Pose) -> bool {
+    frame.place(pose.centre).abs().max_element() < FARTHEST
         && pose.deformation.is_finite()
         && pose.velocity.is_finite()
         && pose.deformation_rate.is_finite()

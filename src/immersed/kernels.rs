@@ -59,7 +59,7 @@ fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
 }
 
 /// Names of the buffers in WGSL.
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 13] = [
     "tiles",
     "parts",
     "faces",
@@ -72,15 +72,20 @@ const NAMES: [&str; 12] = [
     "wrenches",
     "tile_work",
     "slot_work",
+    "edges",
 ];
 
-/// The kernels in the order in which they run, with the list that the first two go through.
-const KERNELS: [(&str, Option<&str>); 4] = [
+/// The kernels in the order in which they run, with the list that some go through.
+const KERNELS: [(&str, Option<&str>); 5] = [
     ("voxelise", Some("tile_work")),
+    ("voxelise_edges", None),
     ("saturate_cells", Some("slot_work")),
     ("reduce_tiles", None),
     ("reduce_blocks", None),
 ];
+/// Cells of tiles for each at an edge, of blocks of some ten cells: where there are more, an invocation of
+/// `voxelise_edges` does several.
+const CELLS_AN_EDGE: u64 = 16;
 /// A place in a list that is not used.
 const NOTHING: u32 = u32::MAX;
 /// Most workgroups that folding a dispatch of 2³² adds.
@@ -94,7 +99,7 @@ pub(super) struct Kernels {
     buffers: Vec<Growing>,
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
-    groups: [u32; 4],
+    groups: [u32; 5],
     sum: TileSum,
 }
 
@@ -108,6 +113,7 @@ impl Kernels {
         };
         let programs = [
             program::voxelise(grid),
+            program::voxelise_edges(grid),
             program::saturate_cells(grid),
             program::reduce_tiles(grid, sum),
             program::reduce_blocks(),
@@ -122,7 +128,7 @@ impl Kernels {
             binds: Vec::new(),
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
-            groups: [0; 4],
+            groups: [0; 5],
             sum,
         };
         kernels.bind(device, lattice)?;
@@ -161,6 +167,7 @@ impl Kernels {
             words(WRENCH * loaded),
             words(tiles + SURPLUS),
             words(plan.bricks.len() + SURPLUS),
+            words(tiles) * self.workgroup + 4,
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
@@ -199,9 +206,9 @@ impl Kernels {
         Ok(())
     }
 
-    /// Gives the first two kernels their work: numbers of tiles and of slots.
-    pub fn set_work(&mut self, queue: &wgpu::Queue, lists: [&[u32]; 2]) {
-        for (n, list) in lists.into_iter().enumerate() {
+    /// Gives the kernels of cells their work: numbers of tiles and of slots.
+    pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
+        for (n, list) in [(0, tiles), (2, slots)] {
             self.groups[n] = list.len() as u32;
             if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
                 // A folded dispatch has a few workgroups too many, which find nothing to do.
@@ -211,12 +218,15 @@ impl Kernels {
                 queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
             }
         }
+        let cells = tiles.len() as u64 * self.workgroup;
+        self.groups[1] = cells.div_ceil(64 * CELLS_AN_EDGE) as u32;
+        queue.write_buffer(self.buffer("edges"), 0, &[0; 4]);
     }
 
     /// Gives the sums their work: the first tiles and blocks.
     pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
-        self.groups[2] = self.sum.groups(tiles);
-        self.groups[3] = blocks as u32;
+        self.groups[3] = self.sum.groups(tiles);
+        self.groups[4] = blocks as u32;
     }
 
     /// Records the kernels `which`, those of them that have work.

@@ -5,10 +5,11 @@
 //! the block. The device works on tiles: the part of one convex part of a block in one lane of one brick,
 //! which is what a workgroup of the fluid kernel runs.
 //!
-//! 1. `voxelise` writes the solid fraction of one part in each cell of a tile,
+//! 1. `voxelise` and `voxelise_edges` write the solid fraction of one part in each cell of a tile,
 //! 2. `saturate_cells` adds the parts that share a cell,
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
-//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order.
+//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
+//!    `reduce_faces` and `sum_faces` to that on single faces, where someone asks.
 
 mod frame;
 #[expect(clippy::module_inception, reason = "the type that the module is about")]
@@ -24,11 +25,11 @@ mod tiles;
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{
-    MOST_BINDINGS, MOST_FACES, TileSum, constants, reduce_blocks, reduce_tiles, saturate_cells,
-    voxelise,
+    MOST_BINDINGS, MOST_FACES, TileSum, constants, reduce_blocks, reduce_faces, reduce_tiles,
+    saturate_cells, sum_faces, voxelise, voxelise_edges,
 };
 pub use shell::NearCell;
-pub use tables::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH};
+pub use tables::{DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH};
 
 pub(crate) use outline::outline;
 pub(crate) use shell::near;

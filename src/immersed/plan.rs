@@ -30,11 +30,20 @@ pub struct Plan {
     pub slot_tiles: Vec<u32>,
 }
 
+/// The tiles of a block.
+#[derive(Clone, Debug, Default)]
+struct Found {
+    /// Pose for which they were found.
+    pose: Option<Pose>,
+    /// The tiles, each with its brick.
+    tiles: Vec<(u32, Tile)>,
+}
+
 impl Plan {
     /// For some blocks.
     pub fn new(blocks: usize) -> Self {
         Self {
-            found: vec![(None, Vec::new()); blocks],
+            found: vec![Found::default(); blocks],
             ..Self::default()
         }
     }
@@ -46,7 +55,7 @@ impl Plan {
 
     /// How far a point of the block may have gone since its tiles were found, cells.
     fn stray(&self, block: usize, pose: &Pose, radius: f64, cell: f64) -> f64 {
-        let Some(then) = &self.found[block].0 else {
+        let Some(then) = &self.found[block].pose else {
             return f64::INFINITY;
         };
         let turned = pose.deformation - then.deformation;
@@ -57,12 +66,12 @@ impl Plan {
 
     /// Where the tiles of a block were found.
     pub fn found_at(&self, block: usize) -> Option<Pose> {
-        self.found[block].0
+        self.found[block].pose
     }
 
     /// Forgets the tiles of a block.
     pub fn forget(&mut self, block: usize) {
-        self.found[block] = (None, Vec::new());
+        self.found[block] = Found::default();
     }
 
     /// Finds the tiles of a block anew if it has gone far enough for that to be due soon.
@@ -91,14 +100,17 @@ impl Plan {
                 ));
             }
         }
-        self.found[block] = (Some(*pose), tiles);
+        self.found[block] = Found {
+            pose: Some(*pose),
+            tiles,
+        };
     }
 
     /// Puts the tiles of all blocks together; those in bricks without fluid are left out.
     pub fn assemble(&mut self, geometry: &Geometry, bricks: usize) {
         const NONE: u32 = u32::MAX;
         let mut slot_of = vec![NONE; bricks];
-        let all = self.found.iter().flat_map(|(_, tiles)| tiles);
+        let all = self.found.iter().flat_map(|found| &found.tiles);
         self.bricks.clear();
         for (brick, _) in all {
             let slot = &mut slot_of[*brick as usize];
@@ -115,9 +127,9 @@ impl Plan {
         self.block_first.clear();
         self.slot_first.clear();
         self.slot_first.resize(self.bricks.len() + 1, 0);
-        for (_, tiles) in &self.found {
+        for found in &self.found {
             self.block_first.push(self.tiles.len() as u32);
-            for (brick, tile) in tiles {
+            for (brick, tile) in &found.tiles {
                 let slot = slot_of[*brick as usize];
                 if slot != NONE {
                     self.tiles.push(Tile { slot, ..*tile });

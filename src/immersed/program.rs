@@ -28,9 +28,16 @@ impl TileSum {
     }
 }
 
-/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`.
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
+/// which the first word must be 0 before, and which has room for a word more than `shares`.
 pub fn voxelise(grid: &Grid) -> Program {
     base("voxelise", grid)
+}
+
+/// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
+/// `parts`, `faces`, `shares`, `edges`.
+pub fn voxelise_edges(grid: &Grid) -> Program {
+    base("voxelise_edges", grid)
 }
 
 /// `saturate_cells`: a workgroup a slot of `work`. Binds `work`, `tiles`, `motions`, `slot_first`,
@@ -52,6 +59,22 @@ pub fn reduce_tiles(grid: &Grid, sum: TileSum) -> Program {
 /// `reduce_blocks`: a workgroup a block. Binds `block_first`, `partials`, `wrenches`.
 pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
+}
+
+/// `reduce_faces`: a workgroup a job. A cell's force belongs to the face of its part that is highest over it,
+/// also where the cell is whole, as beside a face along the grid; deep cells belong to none. The wetted
+/// area is that of the face in cells that are fluid to the lattice: walls take from it, other blocks
+/// do not. Binds `jobs` ([`super::FaceJob`], those of a face one after the other), `tiles`, `parts`,
+/// `faces`, `motions`, `shares`, `saturation`, and `face_partials`, [`super::FACE_LOAD`] numbers a job.
+/// Spheres have no faces.
+pub fn reduce_faces(grid: &Grid) -> Program {
+    base("reduce_faces", grid)
+}
+
+/// `sum_faces`: an invocation a number of a face, 64 a workgroup. Binds `face_first` (jobs before each
+/// face, and all), `face_partials`, `face_loads`.
+pub fn sum_faces() -> Program {
+    Program::new("sum_faces")
 }
 
 /// The numbers that all of them take from the grid.

@@ -18,6 +18,10 @@ pub const PLANES: usize = 9;
 /// Numbers that the device adds up for each block.
 pub const WRENCH: usize = 20;
 
+/// Numbers that the device adds up for each face that is asked for: force (3), moment about the block's
+/// centroid (3), wetted area (cells²), number of cells.
+pub const FACE_LOAD: usize = 8;
+
 /// The part of one convex part of a block in one lane of one saturated brick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
@@ -95,4 +99,14 @@ pub struct Motion {
     pub gradient_z: [f32; 3],
     /// Not used.
     pub pad5: u32,
+}
+
+/// What one workgroup of `reduce_faces` does.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct FaceJob {
+    /// Number of the tile.
+    pub tile: u32,
+    /// Number of the face in the tile's part.
+    pub face: u32,
 }

@@ -32,6 +32,8 @@ pub struct Section {
     pub overlap: f64,
     /// A, m².
     pub area: f64,
+    /// Area that springs and dashpots count with, m²: A, or more where A is that of a corner.
+    pub elastic_area: f64,
 }
 
 /// How two blocks move about their contact, of the second relative to the first.
@@ -79,9 +81,10 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         normal,
         overlap,
         area,
+        elastic_area,
     } = *section;
-    let normal_stiffness = joint.normal_stiffness * area;
-    let shear_stiffness = joint.shear_stiffness * area;
+    let normal_stiffness = joint.normal_stiffness * elastic_area;
+    let shear_stiffness = joint.shear_stiffness * elastic_area;
     let tan_phi = joint.friction_angle.tan();
 
     let pressing = normal_stiffness * overlap;

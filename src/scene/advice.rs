@@ -11,6 +11,8 @@ use crate::units::Units;
 const MOST_MACH: f64 = 0.3;
 /// Above this Mach number the error of compressibility exceeds 2 %.
 const HIGH_MACH: f64 = 0.15;
+/// Above this share of the density the weight of the fluid changes what flows in it: drag and inertia by as much.
+const HIGH_COMPRESSION: f64 = 0.05;
 /// Range of τ − ½ in which the rates of Suga et al. (2015) are linearly stable at rest.
 pub const SUGA_EXCESS: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
 /// Below this τ − ½ the viscosity drowns in the rounding of f32.
@@ -65,6 +67,7 @@ impl Scene {
         adviser.high_tau();
         adviser.bgk();
         adviser.cell_reynolds();
+        adviser.weight();
         Ok(adviser.advice)
     }
 }
@@ -211,6 +214,27 @@ impl Adviser<'_> {
                      cell ≤ {:.3e} m, or eddy_viscosity = \"wale\"",
                     self.speed,
                     HIGH_CELL_REYNOLDS * nu / self.speed
+                ),
+            );
+        }
+    }
+
+    /// The lattice's fluid is a gas: it is denser where pressure is higher.
+    fn weight(&mut self) {
+        let (_, gradient) = self.scene.hydrostatic();
+        let size = self.scene.domain.size;
+        let rise: f64 = (0..3).map(|axis| gradient[axis].abs() * size[axis]).sum();
+        let compression = self.units.pressure_to_lattice(rise) - 1.0;
+        if compression > HIGH_COMPRESSION {
+            let step = self.units.time_step * (HIGH_COMPRESSION / compression).sqrt();
+            self.warn(
+                "fluid.acceleration",
+                format!(
+                    "the weight of the fluid makes it denser by {:.1} % from top to bottom, which no \
+                     liquid does; use time_step ≤ {step:.3e} s, or, where it drives no flow and blocks \
+                     alone shall feel gravity, acceleration = [0, 0, 0]: [rock] gravity includes their \
+                     buoyancy",
+                    100.0 * compression
                 ),
             );
         }

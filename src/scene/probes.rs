@@ -16,7 +16,7 @@ pub struct Probe {
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `face` always gives area, pressure and
-    /// force, a `block` its position, velocity, rotation, spin and contact force, and no other fields.
+    /// force, a `block` its position, velocity, rotation, spin and forces, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
@@ -68,7 +68,8 @@ pub enum ProbePlace {
     },
     /// A block: its centroid (m) and velocity (m/s), its rotation since the start as the vector of
     /// its axis and angle (degrees), its spin (rad/s), and the force (N) and torque (N m) of its
-    /// contacts on it.
+    /// contacts on it. In a fluid also the force (N) and torque (N m) of the flow on it, without
+    /// buoyancy, and its buoyancy (N): those of the last exchange.
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,

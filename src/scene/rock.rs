@@ -21,9 +21,13 @@ pub struct Rock {
     /// never.
     pub sleep: Option<Sleep>,
     /// Largest overlap of two blocks, as a part of the smaller one's least distance from centroid to
-    /// face: beyond it the run ends. Default 0.1, as hard blocks have it; fast ones that hit with their
-    /// corners, which are soft, need more or a greater stiffness.
+    /// face: beyond it the run ends. Default 0.1, as hard blocks have it; fast ones need more or a greater
+    /// stiffness.
     pub largest_overlap: f64,
+    /// Least area that a contact's stiffness counts with, as a part of the square of twice that distance:
+    /// corners, whose area begins at zero, are soft without it. A quarter is what one of the four corners
+    /// of a square face carries. Strength goes by the true area. From 0 to 1, default 0.
+    pub corner_area: f64,
     /// Whether blocks that overlap at the start are pushed apart before the time 0. Default false:
     /// they are refused.
     pub relax: bool,
@@ -40,6 +44,7 @@ impl Default for Rock {
             skin: None,
             sleep: None,
             largest_overlap: 0.1,
+            corner_area: 0.0,
             relax: false,
             search: Search::default(),
         }

@@ -41,6 +41,10 @@ pub struct RockMass {
     /// unit. Default 0: as above.
     #[schemars(default)]
     pub smallest_thickness: f64,
+    /// Width of the open joints, m: every face of every block lies half of it inside of where the cuts are,
+    /// outer faces too. A fluid flows in joints of a cell and more. Default 0.
+    #[schemars(default)]
+    pub aperture: f64,
     /// Regions whose blocks, by their centroids, are fixed. Default none.
     #[schemars(default)]
     pub fixed: Vec<Shape>,
@@ -182,6 +186,8 @@ struct Flat {
     #[serde(default)]
     smallest_thickness: f64,
     #[serde(default)]
+    aperture: f64,
+    #[serde(default)]
     fixed: Vec<Shape>,
     #[serde(default)]
     removed: Vec<Shape>,
@@ -238,6 +244,7 @@ impl Flat {
             north: self.north,
             smallest_volume: self.smallest_volume,
             smallest_thickness: self.smallest_thickness,
+            aperture: self.aperture,
             fixed: self.fixed,
             removed: self.removed,
             material: self.material,

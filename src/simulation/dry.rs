@@ -3,7 +3,7 @@
 use super::{BlockSetup, LeftOut, block_setup};
 use crate::{
     Error, Result,
-    bodies::{self, Blocks},
+    bodies::{self, Blocks, Snapshot},
     broadphase::Broadphase,
     checkpoint::BlockCheckpoint,
     scene::Scene,
@@ -51,6 +51,8 @@ pub struct Dry<F> {
     finder: F,
     time_step: f64,
     step: u64,
+    /// The blocks at the end of the last whole step.
+    good: Snapshot,
 }
 
 impl<F: Broadphase> Dry<F> {
@@ -92,6 +94,7 @@ impl<F: Broadphase> Dry<F> {
             blocks,
             finder,
             step: 0,
+            good: Snapshot::default(),
         })
     }
 
@@ -102,11 +105,11 @@ impl<F: Broadphase> Dry<F> {
     /// whole step.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         for _ in 0..steps {
-            let good = self.blocks.snapshot();
+            self.blocks.save(&mut self.good);
             let until = (self.step + 1) as f64 * self.time_step;
             let moved = self.blocks.advance(&mut self.finder, until).await;
             if let Err(error) = moved {
-                self.blocks.restore(&good)?;
+                self.blocks.restore(&self.good)?;
                 return Err(error);
             }
             self.step += 1;

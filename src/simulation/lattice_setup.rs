@@ -32,9 +32,6 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         }
     });
     setup.storage = storage;
-    if let Some(features) = cpu {
-        setup.suit_cpu(features);
-    }
     setup.collision = match numerics.collision {
         scene::Collision::Hermite => Collision::Hermite,
         scene::Collision::Suga => Collision::Suga,
@@ -57,6 +54,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         // The published operator keeps its rates beside blocks too.
         setup.solid_lambda =
             (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
+    }
+    if let Some(features) = cpu {
+        setup.suit_cpu(features);
     }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);

@@ -7,6 +7,7 @@ mod faults;
 mod invariance;
 mod normal;
 mod pairs;
+mod pressure;
 mod rig;
 mod rock_mass;
 mod separation;

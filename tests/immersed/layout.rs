@@ -1,7 +1,10 @@
 //! What the host writes lies as the kernels have it.
 
 use riprap::{
-    immersed::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Part, Tile, WRENCH},
+    immersed::{
+        DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH, reduce_faces,
+    },
+    lattice::Grid,
     layout::check,
     link::{Linked, Program, source},
 };
@@ -58,6 +61,22 @@ fn motions() {
     check::<Motion>(&tables().module, "Motion", &fields).unwrap();
 }
 
+#[test]
+fn face_jobs() {
+    let grid = Grid {
+        cells: [8; 3],
+        elements: [8; 3],
+        lanes: 1,
+        brick: [4; 3],
+    };
+    let fields = [
+        ("tile", offset_of!(FaceJob, tile)),
+        ("face", offset_of!(FaceJob, face)),
+    ];
+    let linked = reduce_faces(&grid).link().unwrap();
+    check::<FaceJob>(&linked.module, "FaceJob", &fields).unwrap();
+}
+
 /// The marks and sizes that both sides know by name.
 #[test]
 fn constants() {
@@ -75,4 +94,5 @@ fn constants() {
     assert_eq!(there("DEEP_SUM"), DEEP_SUM);
     assert_eq!(there("PLANES"), PLANES as f32);
     assert_eq!(there("WRENCH"), WRENCH as f32);
+    assert_eq!(there("FACE_LOAD"), FACE_LOAD as f32);
 }

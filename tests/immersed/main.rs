@@ -1,6 +1,7 @@
 //! The kernels of immersed blocks against the formulas in f64.
 
 mod exact;
+mod faces;
 mod layout;
 mod programs;
 mod reduce;

@@ -1,7 +1,10 @@
 //! The kernels are valid in all variants, and bind what they need and nothing else.
 
 use riprap::{
-    immersed::{TileSum, reduce_blocks, reduce_tiles, saturate_cells, voxelise},
+    immersed::{
+        TileSum, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        voxelise_edges,
+    },
     kernel::bindings,
     lattice::Grid,
     link::Program,
@@ -24,7 +27,11 @@ fn bindings_by_name() {
     };
     assert_eq!(
         names(&voxelise(&grid), "voxelise"),
-        ["work", "tiles", "parts", "faces", "shares"]
+        ["work", "tiles", "parts", "shares", "edges", "faces"]
+    );
+    assert_eq!(
+        names(&voxelise_edges(&grid), "voxelise_edges"),
+        ["tiles", "parts", "shares", "edges", "faces"]
     );
     assert_eq!(
         names(&saturate_cells(&grid), "saturate_cells"),
@@ -51,6 +58,23 @@ fn bindings_by_name() {
             ]
         );
     }
+    assert_eq!(
+        names(&reduce_faces(&grid), "reduce_faces"),
+        [
+            "tiles",
+            "motions",
+            "shares",
+            "saturation",
+            "jobs",
+            "parts",
+            "faces",
+            "face_partials"
+        ]
+    );
+    assert_eq!(
+        names(&sum_faces(), "sum_faces"),
+        ["face_first", "face_partials", "face_loads"]
+    );
     assert_eq!(
         names(&reduce_blocks(), "reduce_blocks"),
         ["block_first", "partials", "wrenches"]

@@ -37,7 +37,7 @@ impl Case {
                 if shares[number * tiling.workgroup() + local] <= 0.0 {
                     continue;
                 }
-                let at = |plane| index(&tiling, tile, plane, local);
+                let at = |plane| tiling.scalar(tile, plane, local);
                 if saturation[at(4)].to_bits() == POISON {
                     // Deep cells and walls have no beta.
                     let fluid = noise.next() > 0.3;
@@ -72,7 +72,7 @@ impl Case {
                 let point = centre(tiling.cell(tile, local).unwrap());
                 let r = (point - moving.centre).to_array();
                 let u = moving.at(point).to_array();
-                let at = |plane| f64::from(self.saturation[index(tiling, tile, plane, local)]);
+                let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
                 let (beta, a) = (at(4), at(5));
                 let held = e * beta;
                 let freed = if beta > 0.0 { e - held } else { 0.0 };
@@ -129,13 +129,6 @@ impl Case {
         assert!(poison(&behind), "a block behind the last");
         found
     }
-}
-
-/// Index of a scalar of the saturation.
-fn index(tiling: &Tiling, tile: &riprap::immersed::Tile, plane: usize, local: usize) -> usize {
-    let lanes = tiling.grid.lanes as usize;
-    let element = (tile.slot as usize * PLANES + plane) * tiling.workgroup() + local;
-    element * lanes + tile.lane as usize
 }
 
 #[test]

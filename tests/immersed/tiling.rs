@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use riprap::{
     block::{HalfSpace, Polyhedron},
-    immersed::{Part, Tile},
+    immersed::{PLANES, Part, Tile},
     lattice::Grid,
 };
 
@@ -199,6 +199,13 @@ impl Tiling {
         let here = (0..3).all(|a| place[a] < inside[a]);
         let cell = [0, 1, 2].map(|a| tile.cell[a] + place[a] as i32);
         here.then_some(cell)
+    }
+
+    /// Index of a scalar of the saturation.
+    pub fn scalar(&self, tile: &Tile, plane: usize, local: usize) -> usize {
+        let lanes = self.grid.lanes as usize;
+        let element = (tile.slot as usize * PLANES + plane) * self.workgroup() + local;
+        element * lanes + tile.lane as usize
     }
 
     /// Tiles of each slot in ascending order, and where they begin.

@@ -9,28 +9,37 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     block::HalfSpace,
-    immersed::{DEEP, NEAR, Tile, constants, voxelise},
+    immersed::{DEEP, NEAR, Tile, constants, voxelise, voxelise_edges},
 };
 
 /// The shares of the listed tiles; what is not listed stays poison.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> Vec<f32> {
     let shares = bench.poisoned(tiling.tiles.len() * tiling.workgroup());
+    // A list without an entry yet, in memory full of rubbish.
+    let mut list = vec![POISON; tiling.tiles.len() * tiling.workgroup() + 1];
+    list[0] = 0;
+    let edges = bench.buffer(&list);
     let buffers = [
         ("work", &bench.buffer(work)),
         ("tiles", &bench.buffer(&tiling.tiles)),
         ("parts", &bench.buffer(&tiling.parts)),
         ("faces", &bench.buffer(&tiling.faces)),
         ("shares", &shares),
+        ("edges", &edges),
     ];
     let mut numbers = constants(&tiling.grid);
     numbers.extend(jobs.map(|n| ("TILES", f64::from(n))));
     let groups = jobs.unwrap_or(work.len() as u32) as usize;
     let program = voxelise(&tiling.grid);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * groups);
+    let program = voxelise_edges(&tiling.grid);
+    // Fewer invocations than there are cells at edges: each does several.
+    bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
     bench.read(&shares)
 }
 
-fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
+/// The shares of all tiles.
+pub fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
     let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
     run(bench, tiling, &work, None)
 }

@@ -18,6 +18,7 @@ const SECTION: Section = Section {
     normal: DVec3::Z,
     overlap: 1e-3,
     area: 2.0,
+    elastic_area: 2.0,
 };
 
 const REST: Motion = Motion {
@@ -137,4 +138,31 @@ fn the_dashpot_in_shear_stays_under_the_cap() {
     assert!((found.total().x / -cap - 1.0).abs() < 1e-12, "{found:?}");
     // The spring keeps what it had: nothing.
     assert_eq!(found.history.shear, DVec3::ZERO);
+}
+
+#[test]
+fn a_corner_is_as_stiff_as_its_elastic_area_and_as_strong_as_its_own() {
+    let corner = Section {
+        area: 1e-4,
+        elastic_area: 0.25,
+        ..SECTION
+    };
+    let joint = Joint {
+        cohesion: 1e6,
+        ..JOINT
+    };
+    let moved = |way: f64| {
+        let motion = Motion {
+            way: DVec3::X * way,
+            ..REST
+        };
+        force(&joint, &corner, &motion, &History::default()).total()
+    };
+    // k_n A u_n = 25 kN, k_s A Δu_s = 1.25 kN.
+    let error = (moved(1e-4) - DVec3::new(-1.25e3, 0.0, 2.5e4)).length();
+    assert!(error < 1e-9, "{error} N");
+    // cA + f_n tan φ, with 100 N of cohesion.
+    let cap = 1e2 + 2.5e4 * (PI / 6.0).tan();
+    let held = moved(0.1).x;
+    assert!((held / -cap - 1.0).abs() < 1e-12, "{held} N");
 }

@@ -1,5 +1,7 @@
 //! Dry blocks against exact solutions.
 
+mod continuity;
+mod corner;
 mod faults;
 mod free_body;
 mod incline;

@@ -117,3 +117,23 @@ fn bgk_is_warned_of_at_low_viscosity() {
         ],
     );
 }
+
+#[test]
+fn water_that_its_own_weight_compresses_is_warned_of() {
+    // 9.81 m/s² over 0.16 m at 2.5 mm and 0.82 ms: 3 g H Δt²/Δx² = 0.506; 5 % at a step shorter by √(0.506/0.05).
+    let tank = |step: f64| {
+        let scene = read(&format!(
+            "[domain]\nsize = [0.1, 0.1, 0.16]\ncell = 2.5e-3\n[run]\nsteps = 1\n\
+             [fluid]\nviscosity = 6e-5\nacceleration = [0, 0, -9.81]\n\
+             [boundaries]\nz_min = {{ kind = \"wall\" }}\nz_max = {{ kind = \"wall\" }}\n\
+             [numerics]\ntime_step = {step}\n"
+        ))
+        .unwrap();
+        scene.advise(&Units::of(&scene).unwrap())
+    };
+    warned(
+        tank(8.2e-4),
+        &["fluid.acceleration", "50.7 %", "time_step ≤ 2.576e-4 s"],
+    );
+    assert_eq!(tank(2.5e-4).unwrap(), []);
+}

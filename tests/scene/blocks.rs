@@ -62,6 +62,7 @@ time_step = 1e-5
 skin = 0.05
 sleep = { speed = 1e-4, time = 0.2 }
 largest_overlap = 0.3
+corner_area = 0.25
 relax = true
 search = "device"
 [[materials]]
@@ -304,6 +305,10 @@ fn materials_have_mass_and_stiffness() {
     ] {
         refused(changed(from, to), &words);
     }
+    refused(
+        changed("[[blocks]]", "[rock]\ncorner_area = 2\n[[blocks]]"),
+        &["rock.corner_area", "is 2", "from 0 to 1"],
+    );
     refused(
         changed("[[blocks]]", "[[blocks]]\nmaterial = \"marble\""),
         &["blocks[0].material", "`marble`", "there are: granite"],

@@ -53,12 +53,14 @@ pub fn run(args: &Args) -> Result<()> {
     let made = Simulation::new(&device, &queue, &scene);
     let made = gpu::drive(&device, trial::PATIENCE, "compiling the kernels", made)?;
     let mut simulation = made.map_err(|error| located(error, &args.scene))?;
-    let time = trial::time(&mut simulation, &device)?;
+    let (time, ended) = trial::time(&mut simulation, &device);
     let adapter = Adapter::of(&adapter, args.adapter.is_none());
     let report = Report::of(&simulation, adapter, time)?;
     if args.json {
-        print::print_json(&report)
+        print::print_json(&report)?;
     } else {
-        print::print(&report.text())
+        print::print(&report.text())?;
     }
+    // What the trial met is told after all that was known before it.
+    Ok(ended?)
 }

@@ -63,7 +63,10 @@ impl Slice<'_> {
         let opposite = map.opposite();
         canvas.shade(map.corner, opposite, |place| {
             match section.cell(map.values(place)) {
-                Some(cell) if !section.solid[cell] => bar.colour(section.values[cell]),
+                // Blocks have their own outlines, also where the image calls their cells solid.
+                Some(cell) if !section.solid[cell] || section.in_blocks[cell] => {
+                    bar.colour(section.values[cell])
+                }
                 _ => SOLID,
             }
         });

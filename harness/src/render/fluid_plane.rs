@@ -25,10 +25,11 @@ pub struct FluidPlane {
 }
 
 impl FluidPlane {
-    /// What `section` shows, which `plane` has cut; its solid cells are left out, and those deep in blocks.
+    /// What `section` shows, which `plane` has cut. Solid cells are left out, but not those at the surface of a solid
+    /// that the section knows as a block: it is drawn before them.
     pub fn of(section: &Section, plane: Plane, colours: Colours) -> Self {
         let value = |cell: usize| match section.values[cell] as f32 {
-            _ if section.solid[cell] => f32::NAN,
+            _ if section.solid[cell] && !section.in_blocks[cell] => f32::NAN,
             // To be seen as the fault that it is.
             value if value.is_nan() && section.is_fluid(cell) => f32::INFINITY,
             value => value,

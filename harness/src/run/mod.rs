@@ -20,15 +20,18 @@ mod slices;
 mod summary;
 mod views;
 
+pub(crate) use batch::Batch;
+pub(crate) use dry::Dry;
+pub(crate) use engine::Engine;
+pub(crate) use flow::Flow;
+pub(crate) use rock::Rock;
+
 pub use flow::Coupling;
 pub use rock::Rocks;
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 
 use anyhow::Result;
-use dry::Dry;
-use engine::Engine;
-use flow::Flow;
 use journey::Journey;
 use riprap::{Error, scene::Scene};
 use std::{

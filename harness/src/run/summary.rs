@@ -133,7 +133,7 @@ impl Summary {
     }
 
     /// What is on disk, in a sentence.
-    fn kept(&self) -> String {
+    pub fn kept(&self) -> String {
         kept(
             self.checkpoint.as_deref(),
             self.checkpoint_step,

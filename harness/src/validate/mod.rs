@@ -31,6 +31,7 @@ mod rock_toppling;
 mod rock_wedge;
 mod shear_wave;
 mod slots;
+mod solids;
 mod stability;
 mod turbulent_channel;
 mod wake;
@@ -54,6 +55,9 @@ pub struct Args {
     /// Where to write the records as a JSON array
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+    /// Directory for pictures of what cases found
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
     /// Part of the name of the adapter to use
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
@@ -116,6 +120,22 @@ pub const CASES: &[Case] = &[
     short("outlet/pulse", outlet::pulse),
     short("stability/quiescent", stability::quiescent),
     short("stability/taylor-green", stability::taylor_green),
+    short("solids/volume", solids::volume::run),
+    short("solids/array", solids::array::drag),
+    long("solids/array-offset", solids::array::offset),
+    short("solids/array-comparison", solids::array::comparison),
+    long("solids/array-map", solids::array::map),
+    short("solids/rotation", solids::rotation::run),
+    short("solids/release", solids::release::run),
+    short("solids/buoyancy", solids::buoyancy::archimedes),
+    short("solids/neutral", solids::buoyancy::neutral),
+    short("solids/crossing", solids::crossing::run),
+    short("solids/momentum", solids::momentum::run),
+    short("solids/settling", solids::settling::short),
+    long("solids/settling-whole", solids::settling::whole),
+    long("solids/sphere", solids::obstacle::sphere),
+    long("solids/cube", solids::obstacle::cube),
+    long("solids/incline-flow", solids::incline_flow::run),
     short("rock/incline", rock_incline::run),
     short("rock/toppling", rock_toppling::run),
     short("rock/rebound", rock_rebound::run),
@@ -157,7 +177,12 @@ pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
 /// off does not end the others: it fails with what went wrong.
 pub fn run(args: Args) -> anyhow::Result<bool> {
     let cases = select(args.case.as_deref())?;
-    let stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    let mut stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    if let Some(folder) = &args.pictures {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make {}", folder.display()))?;
+    }
+    stand.pictures = args.pictures;
     let mut records = Vec::new();
     println!("{}", record::header());
     for case in cases {

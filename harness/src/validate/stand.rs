@@ -6,7 +6,10 @@ use riprap::{
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
     wgpu,
 };
-use std::time::{Duration, Instant};
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 /// Longest silence of a device that is not taken for a hang.
 const PATIENCE: Duration = Duration::from_secs(300);
@@ -24,6 +27,8 @@ pub struct Stand {
     pub software: bool,
     /// Whether the long form of the cases is wanted.
     pub full: bool,
+    /// Where cases may draw what they found.
+    pub pictures: Option<PathBuf>,
 }
 
 impl Stand {
@@ -42,6 +47,7 @@ impl Stand {
             queue,
             software: gpu::is_software(&info),
             full,
+            pictures: None,
         })
     }
 

@@ -1,4 +1,5 @@
 //! What tests of `riprap run` share: a folder of their own, and a scene in it.
+#![allow(dead_code, reason = "not every test needs all of it")]
 
 use riprap_harness::run::{Args, Summary, run};
 use std::{

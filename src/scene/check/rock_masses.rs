@@ -42,6 +42,7 @@ impl Scene {
             not_negative(format!("{key}.smallest_volume"), smallest, "m³")?;
             let thinnest = mass.smallest_thickness;
             not_negative(format!("{key}.smallest_thickness"), thinnest, "")?;
+            not_negative(format!("{key}.aperture"), mass.aperture, "m")?;
             let regions = [("fixed", &mass.fixed), ("removed", &mass.removed)];
             for (name, regions) in regions {
                 for (number, region) in regions.iter().enumerate() {

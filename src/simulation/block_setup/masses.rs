@@ -35,7 +35,7 @@ pub(super) fn blocks(
         ..RockMass::new(vec![volume(scene, &key, &mass.volume)?])
     };
     let fragments = rock.cut().map_err(|error| error.within(&key))?;
-    let left_out = LeftOut {
+    let mut left_out = LeftOut {
         mass: name.clone(),
         pieces: fragments.slivers.len(),
         share: fragments.slivers.iter().map(|s| s.volume).sum::<f64>() / fragments.volume,
@@ -44,20 +44,47 @@ pub(super) fn blocks(
     let fixed = holds(scene, &mass.fixed)?;
     let kept = fragments.blocks.into_iter();
     let kept = kept.filter(|fragment| !removed(fragment.centre));
-    let blocks = kept.enumerate().map(|(number, fragment)| Block {
-        material,
-        motion: if fixed(fragment.centre) {
+    let mut blocks = Vec::new();
+    for (number, fragment) in kept.enumerate() {
+        let motion = if fixed(fragment.centre) {
             Motion::Fixed
         } else {
             Motion::Free
-        },
-        ..Block::new(
-            format!("{name}_{}", number + 1),
-            crate::block::Shape::from(fragment.shape),
-            fragment.centre,
-        )
-    });
-    Ok((blocks.collect(), left_out))
+        };
+        let volume = fragment.shape.volume();
+        let Some((shape, offset)) = opened(fragment.shape, mass.aperture) else {
+            left_out.pieces += 1;
+            left_out.share += volume / fragments.volume;
+            continue;
+        };
+        blocks.push(Block {
+            material,
+            motion,
+            ..Block::new(
+                format!("{name}_{}", number + 1),
+                crate::block::Shape::from(shape),
+                fragment.centre + offset,
+            )
+        });
+    }
+    Ok((blocks, left_out))
+}
+
+/// What half of an open joint at each face leaves of a block, and its centroid from that of the block;
+/// none if it leaves too little for a block.
+fn opened(shape: Polyhedron, aperture: f64) -> Option<(Polyhedron, DVec3)> {
+    if aperture == 0.0 {
+        return Some((shape, DVec3::ZERO));
+    }
+    let faces: Vec<_> = shape
+        .faces()
+        .iter()
+        .map(|face| HalfSpace {
+            distance: face.distance - 0.5 * aperture,
+            ..*face
+        })
+        .collect();
+    Polyhedron::from_half_spaces(&faces).ok()
 }
 
 /// The set `number` of a mass.

@@ -55,6 +55,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         time_step: rock.time_step,
         skin: rock.skin,
         largest_overlap: rock.largest_overlap,
+        corner_area: rock.corner_area,
         sleep: rock.sleep.map(|sleep| Sleep {
             speed: sleep.speed,
             after: sleep.time,

@@ -38,6 +38,18 @@ pub struct Pile {
 }
 
 impl Pile {
+    /// Fresh.
+    pub fn fresh(count: usize) -> Result<Self> {
+        let setup = jointed(count)?;
+        let blocks = Blocks::new(setup.clone())?;
+        Ok(Self {
+            free: (0..blocks.len()).filter(|&i| blocks.moves(i)).count(),
+            steps: 0,
+            blocks,
+            setup,
+        })
+    }
+
     /// About `count` free blocks at rest.
     ///
     /// # Errors

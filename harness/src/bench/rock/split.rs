@@ -85,6 +85,7 @@ fn forces(core: &Core, pile: &Pile, rounds: usize) -> Result<f64> {
             normal: contact.normal,
             overlap: contact.overlap,
             area: contact.area,
+            elastic_area: contact.area,
         };
         let motion = Motion {
             way: 1e-8 * DVec3::ONE,

@@ -28,7 +28,8 @@ pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
         alone.blocks.clear();
         alone.rock_masses.clear();
         alone.probes.clear();
-        block_setup(&alone).map(|made| made.setup.blocks)
+        // After it come the faces of the domain that hold blocks, which are none to be seen.
+        block_setup(&alone).map(|made| made.setup.blocks.into_iter().next())
     };
     let drawn = (0..scene.solids.len()).filter(|index| !scene.solids[*index].void);
     drawn

@@ -2,7 +2,7 @@
 
 use super::super::slice_field::SliceQuantity;
 use super::coarse::Coarse;
-use super::shown::{Shown, immersed};
+use super::shown::{Shown, immersed, placed};
 use crate::{
     picture::{Plane, Section, Trace, traces},
     render::{Colours, FluidPlane, Traces},
@@ -59,7 +59,8 @@ impl Fluid {
                     position: image.origin[axis] + 0.5 * image.spacing,
                 };
                 let mut section = Section::new(&image, plane, shown.quantity())?;
-                section.leave_out(&immersed(engine, poses), plane);
+                // Solids stand before their cells as blocks do.
+                section.leave_out(&placed(engine, poses), plane);
                 let range = match slice.field {
                     SliceField::Speed => slice.range.or(self.speeds),
                     _ => slice.range,

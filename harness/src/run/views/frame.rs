@@ -40,7 +40,7 @@ impl Frame {
     }
 
     /// The colours of planes and traces.
-    fn colours(&mut self) -> impl Iterator<Item = &mut Colours> {
+    pub fn colours(&mut self) -> impl Iterator<Item = &mut Colours> {
         let planes = self.planes.iter_mut().map(|plane| &mut plane.colours);
         planes.chain(self.traces.iter_mut().map(|traces| &mut traces.colours))
     }

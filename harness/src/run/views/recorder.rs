@@ -29,9 +29,10 @@ pub struct Views {
     adapter: Option<String>,
     folder: PathBuf,
     last: u64,
-    /// Made with the first picture; None once it could not be made.
+    /// Made with the first picture.
     stage: Option<Stage>,
-    failed: bool,
+    /// Why it could not be made.
+    failed: Option<String>,
     /// Frames for the strip.
     strip: Vec<Frame>,
 }
@@ -55,7 +56,7 @@ impl Views {
             folder: folder.to_owned(),
             last,
             stage: None,
-            failed: false,
+            failed: None,
             strip: Vec::new(),
         }
     }
@@ -65,19 +66,18 @@ impl Views {
     }
 
     fn stage(&mut self, engine: &impl Shown, frame: &Frame) -> Result<&Stage> {
-        if self.failed {
-            bail!("there is no device to draw on");
+        if let Some(failed) = &self.failed {
+            bail!("{failed}");
         }
-        if self.stage.is_none() {
-            self.failed = true;
-            let adapter = self.adapter.as_deref();
-            self.stage = Some(Stage::new(engine, &self.view, adapter, frame)?);
-            self.failed = false;
-        }
-        match &self.stage {
-            Some(stage) => Ok(stage),
-            None => bail!("there is no device to draw on"),
-        }
+        let stage = match self.stage.take() {
+            Some(stage) => stage,
+            None => {
+                let made = Stage::new(engine, &self.view, self.adapter.as_deref(), frame);
+                // It would fail again, and open a device for each picture.
+                made.inspect_err(|error| self.failed = Some(format!("{error:#}")))?
+            }
+        };
+        Ok(self.stage.insert(stage))
     }
 
     /// Whether the strip wants a frame by now.

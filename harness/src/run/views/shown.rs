@@ -25,11 +25,19 @@ pub trait Shown: Engine {
     fn read(&mut self, fields: &[Field], cells: &[u32]) -> riprap::Result<Vec<Array>>;
 }
 
-/// The convex parts of the blocks of `engine` that are no static solids, where `poses` say.
+/// The convex parts of the blocks of `engine`, where `poses` say.
+pub fn placed<'a>(engine: &'a impl Shown, poses: &[Pose]) -> Vec<Placed<'a>> {
+    parts(engine.blocks(), poses)
+}
+
+/// Those of the blocks that are no static solids.
 pub fn immersed<'a>(engine: &'a impl Shown, poses: &[Pose]) -> Vec<Placed<'a>> {
     let blocks = engine.blocks();
-    let moving = &blocks[..blocks.len() - engine.solids()];
-    let blocks = moving.iter().zip(poses);
+    parts(&blocks[..blocks.len() - engine.solids()], poses)
+}
+
+fn parts<'a>(blocks: &'a [Block], poses: &[Pose]) -> Vec<Placed<'a>> {
+    let blocks = blocks.iter().zip(poses);
     let parts = blocks.flat_map(|(block, pose)| {
         block.shape.parts().iter().map(|part| Placed {
             form: &part.form,

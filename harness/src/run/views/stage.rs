@@ -11,7 +11,7 @@ use glam::DVec3;
 use riprap::{
     block::Form,
     bodies::Motion,
-    scene::{self, Domain},
+    scene::{self, Domain, Scene},
     wgpu,
 };
 
@@ -30,7 +30,7 @@ pub struct Stage {
     meshes: Vec<Mesh>,
     /// Edges of the domain, where lines run through all of it.
     edges: Vec<Line>,
-    camera: Camera,
+    camera: View,
     ground: Option<Ground>,
     /// Speed of a block's last colour, m/s; none where blocks have no colours.
     speed: Option<f64>,
@@ -55,48 +55,23 @@ impl Stage {
             Some(_) => edges(&scene.domain),
             None => Vec::new(),
         };
-        let up = DVec3::from(scene.up_of(view));
-        let field_of_view = view.field_of_view.to_radians();
-        let camera = match (view.from, view.to) {
-            (Some(from), Some(to)) => Camera {
-                from: from.into(),
-                to: to.into(),
-                up,
-                field_of_view,
-            },
-            _ => {
-                let direction = view.direction.unwrap_or(scene::View::USUAL_DIRECTION);
-                let look = Look {
-                    direction: direction.into(),
-                    up,
-                    field_of_view,
-                };
-                let mut instances = frame.bodies.clone();
-                // A ground that reaches far would push the camera away from what moves on it.
-                if view.shows_fluid() || instances.iter().any(|body| !body.fixed) {
-                    instances.retain(|body| !body.fixed);
-                }
-                let drawing = Drawing {
-                    meshes: &meshes,
-                    instances,
-                    planes: frame.planes.clone(),
-                    lines: edges.clone(),
-                    ..Drawing::default()
-                };
-                renderer.framing(&[drawing], look)?
-            }
-        };
         let speed = || view.speed.unwrap_or_else(|| usual_speed(engine));
-        Ok(Self {
+        let mut stage = Self {
             renderer,
             small,
             title: scene.title.clone(),
-            camera,
+            camera: camera(scene, view),
             ground: view.ground.map(|height| Ground { height }),
             speed: (!view.shows_fluid()).then(speed),
             meshes,
             edges,
-        })
+        };
+        if let View::Framing(look) = stage.camera {
+            let drawing = stage.drawing(framed(frame));
+            let camera = stage.renderer.framing(&[drawing], look)?;
+            stage.camera = View::From(camera);
+        }
+        Ok(stage)
     }
 
     /// The picture of a frame.
@@ -119,7 +94,7 @@ impl Stage {
             planes: frame.planes,
             traces: frame.traces,
             lines: self.edges.clone(),
-            view: View::From(self.camera),
+            view: self.camera,
             ground: self.ground,
             scale_bar: true,
             title: self.title.clone(),
@@ -132,6 +107,46 @@ impl Stage {
             ..Drawing::default()
         }
     }
+}
+
+/// The camera that a view gives, or how to find one.
+fn camera(scene: &Scene, view: &scene::View) -> View {
+    let up = DVec3::from(scene.up_of(view));
+    let field_of_view = view.field_of_view.to_radians();
+    match (view.from, view.to) {
+        (Some(from), Some(to)) => View::From(Camera {
+            from: from.into(),
+            to: to.into(),
+            up,
+            field_of_view,
+        }),
+        _ => View::Framing(Look {
+            direction: view
+                .direction
+                .unwrap_or(scene::View::USUAL_DIRECTION)
+                .into(),
+            up,
+            field_of_view,
+        }),
+    }
+}
+
+/// What of the first frame the camera shall see, which must not depend on the step that a run begins with.
+fn framed(frame: &Frame) -> Frame {
+    let mut seen = frame.clone();
+    let fluid = seen.traces.is_some() || !seen.planes.is_empty();
+    // A ground that reaches far would push the camera away from what moves on it.
+    if fluid || seen.bodies.iter().any(|body| !body.fixed) {
+        seen.bodies.retain(|body| !body.fixed);
+    }
+    if let Some(traces) = &mut seen.traces {
+        traces.lines.clear();
+    }
+    for colours in seen.colours() {
+        // Colour bars of about the usual width.
+        colours.range.get_or_insert([0.0, 1.0]);
+    }
+    seen
 }
 
 /// A mesh for each part of each different shape.

@@ -1,0 +1,168 @@
+//! A number in a scene, by its place.
+
+use riprap::{Error, Result};
+use toml::{Table, Value};
+
+/// A place such as `boundaries.x_min.velocity[0]` or `blocks[1].position[2]`.
+#[derive(Clone, Debug)]
+pub struct Key {
+    text: String,
+    steps: Vec<Step>,
+}
+
+#[derive(Clone, Debug)]
+enum Step {
+    Name(String),
+    Index(usize),
+}
+
+impl Key {
+    /// Reads a place.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn parse(text: &str) -> Result<Self> {
+        let wrong = || {
+            let message = format!(
+                "`{text}` is no place in a scene; write names with dots between them and numbers from 0 in \
+                 brackets, such as boundaries.x_min.velocity[0]"
+            );
+            Error::scene("--key", message)
+        };
+        let mut steps = Vec::new();
+        for part in text.split('.') {
+            let mut pieces = part.split('[');
+            let name = pieces.next().filter(|name| !name.is_empty());
+            steps.push(Step::Name(name.ok_or_else(wrong)?.trim().into()));
+            for index in pieces {
+                let index = index.strip_suffix(']').and_then(|i| i.parse().ok());
+                steps.push(Step::Index(index.ok_or_else(wrong)?));
+            }
+        }
+        Ok(Self {
+            text: text.into(),
+            steps,
+        })
+    }
+
+    /// Gives the number in the scene another value. One that a table does not have yet is added.
+    ///
+    /// # Errors
+    /// If there is no such place, or something other than a number.
+    pub fn set(&self, scene: &mut Table, value: f64) -> Result<()> {
+        let Some((last, way)) = self.steps.split_last() else {
+            return Ok(());
+        };
+        let [Step::Name(first), way @ ..] = way else {
+            let has = scene.keys().cloned().collect::<Vec<_>>().join(", ");
+            return Err(self.wrong(format!("it names a table, or nothing; the scene has {has}")));
+        };
+        let mut at = scene
+            .get_mut(first)
+            .ok_or_else(|| self.wrong(format!("the scene has no `{first}`")))?;
+        for step in way {
+            at = self.enter(at, step)?;
+        }
+        match (last, at) {
+            (Step::Name(name), Value::Table(table)) if !table.contains_key(name) => {
+                table.insert(name.clone(), Value::Float(value));
+                Ok(())
+            }
+            (last, at) => {
+                let number = self.enter(at, last)?;
+                if !matches!(number, Value::Integer(_) | Value::Float(_)) {
+                    let message = format!("it is {number}, and not a number");
+                    return Err(self.wrong(message));
+                }
+                *number = Value::Float(value);
+                Ok(())
+            }
+        }
+    }
+
+    fn enter<'a>(&self, at: &'a mut Value, step: &Step) -> Result<&'a mut Value> {
+        match (step, at) {
+            (Step::Name(name), Value::Table(table)) => {
+                let has = table.keys().cloned().collect::<Vec<_>>().join(", ");
+                table
+                    .get_mut(name)
+                    .ok_or_else(|| self.wrong(format!("there is no `{name}`, but {has}")))
+            }
+            (Step::Index(index), Value::Array(array)) => {
+                let count = array.len();
+                array
+                    .get_mut(*index)
+                    .ok_or_else(|| self.wrong(format!("there is no [{index}] among {count}")))
+            }
+            (Step::Name(name), at) => {
+                let message = format!("`{name}` is asked of {}", at.type_str());
+                Err(self.wrong(message))
+            }
+            (Step::Index(index), at) => {
+                let message = format!("[{index}] is asked of {}", at.type_str());
+                Err(self.wrong(message))
+            }
+        }
+    }
+
+    fn wrong(&self, message: String) -> Error {
+        Error::scene(format!("--key {}", self.text), message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Table {
+        let text = r#"
+            [numerics]
+            mach = 0.1
+            [boundaries]
+            x_min = { kind = "velocity", velocity = [1, 0.5, "t"] }
+            [[blocks]]
+            position = [[0, 1], [2, 3]]
+        "#;
+        toml::from_str(text).unwrap()
+    }
+
+    fn set(key: &str) -> Result<Table> {
+        let mut scene = scene();
+        Key::parse(key)?.set(&mut scene, 7.5)?;
+        Ok(scene)
+    }
+
+    #[test]
+    fn numbers_are_found_and_changed() {
+        let changed = set("boundaries.x_min.velocity[0]").unwrap();
+        let velocity = &changed["boundaries"]["x_min"]["velocity"];
+        assert_eq!(velocity.as_array().unwrap()[0], Value::Float(7.5));
+        assert_eq!(velocity.as_array().unwrap()[1], Value::Float(0.5));
+        let changed = set("blocks[0].position[1][0]").unwrap();
+        let position = &changed["blocks"][0]["position"];
+        assert_eq!(position[1][0], Value::Float(7.5));
+        assert_eq!(position[1][1], Value::Integer(3));
+        // Keys that have a default need not be written.
+        let changed = set("numerics.time_step").unwrap();
+        assert_eq!(changed["numerics"]["time_step"], Value::Float(7.5));
+    }
+
+    #[test]
+    fn places_that_are_none_are_told() {
+        for (key, told) in [
+            ("boundaries..velocity", "no place in a scene"),
+            ("blocks[x].position", "no place in a scene"),
+            ("blocks", "names a table"),
+            ("fluids.viscosity", "no `fluids`"),
+            ("boundaries.x_mid.velocity[0]", "no `x_mid`, but x_min"),
+            ("boundaries.x_min.velocity[3]", "no [3] among 3"),
+            ("boundaries.x_min.velocity[2]", "not a number"),
+            ("boundaries.x_min.kind", "not a number"),
+            ("numerics.mach[0]", "[0] is asked of float"),
+            ("numerics.mach.x", "`x` is asked of float"),
+        ] {
+            let error = set(key).unwrap_err().to_string();
+            assert!(error.contains(told), "{key}: {error}");
+        }
+    }
+}

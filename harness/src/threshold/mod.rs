@@ -1,0 +1,195 @@
+//! `riprap threshold`: at which value of a number in a scene a block moves for the first time.
+//!
+//! Each trial runs the scene with another value and ends when a block moves, or with the scene. Between a
+//! value at which none moves and one at which one does, the next trial takes the middle.
+
+mod bracket;
+mod key;
+mod report;
+mod trial;
+
+pub use bracket::Bracket;
+pub use key::Key;
+pub use report::Report;
+pub use trial::{Criterion, Motion, Trial};
+
+use crate::run::{Dry, Flow};
+use anyhow::{Context, Result, bail};
+use riprap::{Error, scene::Scene};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
+
+/// Finds the value of a number of a scene at which a block moves for the first time, by bisection.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct Args {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// Where the number is in the scene, such as boundaries.x_min.velocity[0]; several times for numbers
+    /// that are to have the same value
+    #[arg(long, required = true, value_name = "KEY")]
+    pub key: Vec<String>,
+    /// Value at which no block moves
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    pub from: f64,
+    /// Value at which a block moves
+    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    pub to: f64,
+    /// Largest distance of the two values at the end
+    #[arg(long, value_name = "T")]
+    pub tolerance: f64,
+    /// Only the motion of this block counts [default: that of every free one]
+    #[arg(long, value_name = "NAME")]
+    pub block: Option<String>,
+    /// A block has moved when its centroid is so far, m, from where it was [default: 1 % of its size, the
+    /// cube root of its volume]
+    #[arg(long, value_name = "M")]
+    pub distance: Option<f64>,
+    /// A block has moved when its centroid is as fast as this, m/s, instead
+    #[arg(long, value_name = "V", conflicts_with = "distance")]
+    pub speed: Option<f64>,
+    /// Begin every trial with the state after so many seconds at the value --from
+    #[arg(long, value_name = "S")]
+    pub settle: Option<f64>,
+    /// Time steps of a trial [default: those of the scene's run]
+    #[arg(long, value_name = "N")]
+    pub steps: Option<u64>,
+    /// Folder for what is written [default: out/ and the name of the scene, with _threshold]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Part of the name of the adapter to compute on [default: the first GPU, else a CPU]
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Bisects until the values are close enough, or until `stop` is set.
+///
+/// # Errors
+/// What is wrong with the scene or the key; a block that moves at `from`, or none that does at `to`; what
+/// ends a trial other than its end.
+pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
+    let text = std::fs::read_to_string(&args.scene).map_err(|error| {
+        let message = format!("cannot read the scene: {error}; check the path");
+        Error::file(&args.scene, message)
+    })?;
+    // What is wrong with the file as it is has a line there.
+    Scene::from_file(&args.scene)?;
+    let keys = args.key.iter().map(|key| Key::parse(key));
+    let search = Search {
+        args,
+        keys: keys.collect::<riprap::Result<_>>()?,
+        table: toml::from_str(&text).map_err(|e| Error::file(&args.scene, e))?,
+        stop,
+        folder: folder(args),
+    };
+    std::fs::create_dir_all(&search.folder).map_err(|error| {
+        let message = format!("cannot make this folder: {error}; choose another one with `--out`");
+        Error::file(&search.folder, message)
+    })?;
+    search.go()
+}
+
+/// Where the tables go.
+fn folder(args: &Args) -> PathBuf {
+    args.out.clone().unwrap_or_else(|| {
+        let stem = args.scene.file_stem().unwrap_or("scene".as_ref());
+        let mut name = stem.to_os_string();
+        name.push("_threshold");
+        Path::new("out").join(name)
+    })
+}
+
+struct Search<'a> {
+    args: &'a Args,
+    keys: Vec<Key>,
+    /// The scene as it is written.
+    table: toml::Table,
+    stop: &'a AtomicBool,
+    folder: PathBuf,
+}
+
+impl Search<'_> {
+    fn go(&self) -> Result<Report> {
+        let args = self.args;
+        let mut bracket = Bracket::new(args.from, args.to, args.tolerance)?;
+        let mut report = Report::new(args);
+        if let Some(time) = args.settle {
+            self.settle(time)?;
+        }
+        while let Some(value) = bracket.next() {
+            let Some(trial) = self.trial(value)? else {
+                break;
+            };
+            eprintln!("{trial}");
+            let moved = trial.moved.is_some();
+            let told = trial.to_string();
+            report.take(trial);
+            report.write(&self.folder)?;
+            if let Err(wrong) = bracket.take(value, moved) {
+                bail!(Error::scene(
+                    args.key.join(", "),
+                    format!("{wrong} ({told})")
+                ));
+            }
+        }
+        report.bracket = bracket.found();
+        report.complete = bracket.is_narrow();
+        report.write(&self.folder)?;
+        Ok(report)
+    }
+
+    /// The scene with the value.
+    fn scene(&self, value: f64) -> riprap::Result<Scene> {
+        let mut table = self.table.clone();
+        for key in &self.keys {
+            key.set(&mut table, value)?;
+        }
+        let dir = self.args.scene.parent().unwrap_or(Path::new(""));
+        let place = format!("{} with {value}", self.args.scene.display());
+        Scene::from_toml(&table.to_string(), dir, &place)
+    }
+
+    fn settled(&self) -> PathBuf {
+        self.folder.join("settled.riprap")
+    }
+
+    /// Writes the state in which the trials begin.
+    fn settle(&self, time: f64) -> Result<()> {
+        let scene = self.scene(self.args.from)?;
+        let (file, adapter) = (&self.args.scene, self.args.adapter.as_deref());
+        let path = self.settled();
+        match scene.has_fluid() {
+            true => trial::settle(Flow::open(&scene, file, adapter)?, time, &path),
+            false => trial::settle(Dry::open(&scene, file, adapter)?, time, &path),
+        }
+        .with_context(|| format!("while the blocks settled at {}", self.args.from))
+    }
+
+    /// One trial; none if it was stopped.
+    fn trial(&self, value: f64) -> Result<Option<Trial>> {
+        let scene = self.scene(value)?;
+        let args = self.args;
+        let (file, adapter) = (&args.scene, args.adapter.as_deref());
+        let criterion = match args.speed {
+            Some(speed) => Criterion::Speed(speed),
+            None => Criterion::Distance(args.distance),
+        };
+        let asked = trial::Asked {
+            value,
+            criterion,
+            block: args.block.as_deref(),
+            steps: args.steps,
+            settled: args.settle.map(|_| self.settled()),
+            stop: self.stop,
+        };
+        match scene.has_fluid() {
+            true => trial::run(Flow::open(&scene, file, adapter)?, &asked),
+            false => trial::run(Dry::open(&scene, file, adapter)?, &asked),
+        }
+        .with_context(|| format!("in the trial with the value {value}"))
+    }
+}

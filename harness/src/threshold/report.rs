@@ -1,0 +1,93 @@
+//! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
+
+use super::{Args, Trial};
+use riprap::output::replace;
+use serde::Serialize;
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+};
+
+/// All trials, and the bracket that they leave.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The scene's file.
+    pub scene: PathBuf,
+    /// The numbers that were changed.
+    pub keys: Vec<String>,
+    /// Largest width of the bracket that was asked for.
+    pub tolerance: f64,
+    /// The trials in their order.
+    pub trials: Vec<Trial>,
+    /// The value at which no block moves, and the one at which one does, once both have been tried.
+    pub bracket: Option<[f64; 2]>,
+    /// Whether the bracket is as narrow as was asked for.
+    pub complete: bool,
+}
+
+impl Report {
+    /// Before the first trial.
+    pub fn new(args: &Args) -> Self {
+        Self {
+            scene: args.scene.clone(),
+            keys: args.key.clone(),
+            tolerance: args.tolerance,
+            trials: Vec::new(),
+            bracket: None,
+            complete: false,
+        }
+    }
+
+    /// Adds a trial.
+    pub fn take(&mut self, trial: Trial) {
+        self.trials.push(trial);
+    }
+
+    /// Writes both files into `folder`.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
+        let json = serde_json::to_string_pretty(self)? + "\n";
+        replace(&folder.join("threshold.json"), |file| {
+            file.write_all(json.as_bytes())
+        })?;
+        let mut table = String::from("trial,value,moved,time,distance,speed,steps,seconds,block\n");
+        for (number, trial) in self.trials.iter().enumerate() {
+            let motion = trial.moved.as_ref().or(trial.closest.as_ref());
+            let [time, distance, speed] = motion.map_or([f64::NAN; 3], |motion| {
+                [motion.time, motion.distance, motion.speed]
+            });
+            table += &format!(
+                "{number},{},{},{time},{distance},{speed},{},{},{}\n",
+                trial.value,
+                u8::from(trial.moved.is_some()),
+                trial.steps,
+                trial.seconds,
+                motion.map_or("", |motion| &motion.block)
+            );
+        }
+        replace(&folder.join("threshold.csv"), |file| {
+            file.write_all(table.as_bytes())
+        })?;
+        Ok(())
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let keys = self.keys.join(", ");
+        match self.bracket {
+            Some([still, moves]) => write!(
+                f,
+                "{keys}: no block moves at {still}, one does at {moves}; the threshold is {} ± {:.2e}, \
+                 after {} trials{}",
+                0.5 * (still + moves),
+                0.5 * (moves - still).abs(),
+                self.trials.len(),
+                if self.complete { "" } else { ", stopped" }
+            ),
+            None => write!(f, "{keys}: stopped before both ends were tried"),
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! Blocks in a fluid.
+
+pub mod tank;
+
+pub mod array;
+pub mod buoyancy;
+pub mod crossing;
+pub mod incline_flow;
+pub mod momentum;
+pub mod obstacle;
+pub mod release;
+pub mod rotation;
+pub mod settling;
+pub mod volume;

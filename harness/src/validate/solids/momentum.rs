@@ -1,0 +1,78 @@
+//! Momentum of fluid and blocks in a periodic box, and the mass of the fluid.
+
+use super::{
+    super::{Outcome, Stand},
+    tank::{self, Tank, block, numbers},
+};
+use glam::DVec3;
+use riprap::scene::{BlockShape, Motion};
+
+const DENSITY: f64 = 2.5;
+const STEPS: u64 = 300;
+
+/// A sphere, a cube and a tetrahedron that a stream takes along.
+pub fn run(stand: &Stand) -> Outcome {
+    let shapes = [
+        (BlockShape::Sphere { radius: 4.0 }, [8.3, 8.0, 7.6]),
+        (BlockShape::Box { size: [7.0; 3] }, [24.0, 23.5, 8.2]),
+        (BlockShape::Tetrahedron { edge: 10.0 }, [8.0, 24.1, 24.0]),
+    ];
+    let velocities = [[0.02, 0.0, 0.01], [-0.01, 0.02, 0.0], [0.0, -0.01, -0.02]];
+    let mut records = Vec::new();
+    for tau in [0.52, 1.0] {
+        let mut scene = tank::scene([32; 3], tau)?;
+        scene.initial.velocity = numbers([0.0, 0.0, 0.02]);
+        scene.materials[0].density = DENSITY;
+        for ((shape, at), velocity) in shapes.iter().zip(velocities) {
+            let mut made = block(shape.clone(), *at, Motion::Free);
+            made.velocity = numbers(velocity);
+            made.spin = numbers([0.002, -0.001, 0.003]);
+            scene.blocks.push(made);
+        }
+        let mut tank = Tank::fill(stand, &scene)?;
+        let before = Ledger::of(&mut tank)?;
+        tank.advance(STEPS)?;
+        let after = Ledger::of(&mut tank)?;
+        tank.advance(1)?;
+        let last = Ledger::of(&mut tank)?;
+        // What cells inside blocks reflect swings with a period of two steps.
+        let lost = 0.5 * (before.less(&after) + before.less(&last));
+        let exchanged: f64 = (0..shapes.len())
+            .map(|k| (after.blocks[k] - before.blocks[k]).length())
+            .sum();
+        let trial = tank.trial("three blocks");
+        let quantity = format!("momentum lost / exchanged, τ = {tau}");
+        records.push(trial.at_most(quantity, lost.length() / exchanged, 1e-2));
+        let mass = (after.mass / before.mass - 1.0).abs();
+        records.push(trial.at_most("drift of the fluid's mass", mass, 1e-6));
+    }
+    Ok(records)
+}
+
+struct Ledger {
+    mass: f64,
+    fluid: DVec3,
+    /// Without the water inside: it goes where the block goes and is no load on it, so it counts once, in the fluid.
+    blocks: Vec<DVec3>,
+}
+
+impl Ledger {
+    fn of(tank: &mut Tank<'_>) -> anyhow::Result<Self> {
+        let totals = tank.totals()?;
+        let blocks = tank.simulation.coupled().map(|c| c.blocks());
+        let blocks = blocks.ok_or_else(|| anyhow::anyhow!("the scene has blocks"))?;
+        let momentum = |(k, velocity)| blocks.mass(k) * (1.0 - 1.0 / DENSITY) * velocity;
+        let velocities = blocks.poses().into_iter().map(|pose| pose.velocity);
+        Ok(Self {
+            mass: totals.mass,
+            fluid: DVec3::from(totals.momentum),
+            blocks: velocities.enumerate().map(momentum).collect(),
+        })
+    }
+
+    /// All momentum, less that of another one.
+    fn less(&self, other: &Self) -> DVec3 {
+        let all = |ledger: &Self| ledger.fluid + ledger.blocks.iter().sum::<DVec3>();
+        all(self) - all(other)
+    }
+}

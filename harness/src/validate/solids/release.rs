@@ -1,0 +1,107 @@
+//! A sphere that is let go in a fluid at rest: its acceleration is (ρₛ−ρ)g/(ρₛ+ρ/2) once the sound of its start has
+//! left, less what viscosity has built up by then.
+//!
+//! On the lattice both take time. Before sound has crossed the sphere only its own mass resists: the first step has
+//! (ρₛ−ρ)g/ρₛ, a third more at ρₛ = 1.5 ρ. After it viscosity adds the force of Basset, which grows with √(νt): for
+//! less than 1 % when sound has left a sphere of 16 cells, ν would have to be 2e-5, where cells are solid or not. So
+//! the reference is the solution with both, which is exact for a small sphere in a wide tank.
+
+use super::{
+    super::{Outcome, Stand},
+    tank::{self, Tank, block},
+};
+use riprap::scene::{BlockShape, Motion};
+use std::f64::consts::PI;
+
+/// Small enough for Stokes: ρ U D/μ is 0.05 at the end.
+const GRAVITY: f64 = 1e-6;
+/// Edge of the tank in radii: an echo returns after 6 radii there and 6 back, and walls add 1 % of added mass.
+const EDGE: f64 = 8.0;
+/// Times at which the velocity is measured, radii at the speed of sound: the sound has left, no echo is back.
+const BETWEEN: [f64; 2] = [3.0, 4.5];
+
+/// Spheres of ρₛ/ρ = 1.5 and 2.65.
+pub fn run(stand: &Stand) -> Outcome {
+    let mut runs = vec![(1.5, 8.0, 0.505), (2.65, 8.0, 0.505)];
+    if stand.full {
+        runs.extend([(1.5, 8.0, 0.6), (2.65, 8.0, 0.6), (1.5, 8.0, 0.5005)]);
+        runs.extend([(1.5, 16.0, 0.505), (2.65, 16.0, 0.505)]);
+    }
+    let mut records = Vec::new();
+    for (density, radius, tau) in runs {
+        let nu = (tau - 0.5) / 3.0;
+        let steps = BETWEEN.map(|time| (time * radius * 3f64.sqrt()).round() as u64);
+        let edge = EDGE * radius;
+        let mut scene = tank::scene([edge as u32; 3], tau)?;
+        tank::close(&mut scene);
+        scene.rock.gravity = [0.0, 0.0, -GRAVITY];
+        scene.materials[0].density = density;
+        let shape = BlockShape::Sphere { radius };
+        let middle = [0.5 * edge; 3];
+        scene.blocks.push(block(shape, middle, Motion::Free));
+        let mut tank = Tank::fill(stand, &scene)?;
+        let mut speeds = [0.0; 3];
+        for (speed, until) in speeds.iter_mut().zip([1, steps[0], steps[1]]) {
+            tank.advance(until - tank.simulation.step())?;
+            *speed = -tank.pose(0)?.velocity.z;
+        }
+        let theory = Release {
+            radius,
+            density,
+            nu,
+        };
+        let [begin, end] = steps.map(|step| theory.speed(step as f64));
+        let trial = tank.trial(&format!("sphere r {radius} ρ {density}"));
+        let quantity = format!("acceleration / theory, ρs/ρ = {density}, r = {radius}, τ = {tau}");
+        let ratio = (speeds[2] - speeds[1]) / (end - begin);
+        records.push(trial.relative(quantity, ratio, 1.0, 5e-2));
+        let drag = 1.0 - (end - begin) / ((steps[1] - steps[0]) as f64 * theory.inviscid());
+        records.push(trial.report("part of it that viscosity takes", drag, None));
+        let start = speeds[0] / ((density - 1.0) / density * GRAVITY);
+        records.push(trial.relative("first step / ((ρs−ρ)g/ρs)", start, 1.0, 1e-3));
+        records.push(trial.report("velocity at the end / theory", speeds[2] / end, Some(1.0)));
+    }
+    Ok(records)
+}
+
+/// A sphere in a wide fluid of density 1.
+struct Release {
+    radius: f64,
+    density: f64,
+    nu: f64,
+}
+
+impl Release {
+    /// Acceleration with added mass and nothing else.
+    fn inviscid(&self) -> f64 {
+        (self.density - 1.0) * GRAVITY / (self.density + 0.5)
+    }
+
+    /// Velocity at a time. Sound leaves as a dipole, φ = ∂/∂r [f(t − (r−R)/c)/r] cos θ, and the pressure on the
+    /// sphere is that of φ; Basset's and Stokes' forces are added.
+    fn speed(&self, time: f64) -> f64 {
+        const STEP: f64 = 0.05;
+        let c = 1.0 / 3f64.sqrt();
+        let (r, nu) = (self.radius, self.nu);
+        let volume = 4.0 / 3.0 * PI * r.powi(3);
+        // f', f'' at r = R.
+        let (mut once, mut twice, mut speed) = (0.0, 0.0, 0.0);
+        let mut history: Vec<f64> = Vec::new();
+        while (history.len() as f64) * STEP < time {
+            let ago = |k: usize| (history.len() - k) as f64 * STEP;
+            let memory = |(k, a): (usize, &f64)| a * 2.0 * (ago(k).sqrt() - ago(k + 1).sqrt());
+            let basset: f64 = history.iter().enumerate().map(memory).sum();
+            let viscous = 6.0 * r * r * (PI * nu).sqrt() * basset + 6.0 * PI * nu * r * speed;
+            let sound = 4.0 / 3.0 * PI * r * r * (twice / (c * r) + once / (r * r));
+            let weight = (self.density - 1.0) * volume * GRAVITY;
+            let rate = (weight - sound - viscous) / (self.density * volume);
+            // The fluid at the surface moves with it: f''/(c²R) + 2f'/(cR²) + 2f/R³ is the velocity.
+            let third = c * c * r * (rate - 2.0 * twice / (c * r * r) - 2.0 * once / r.powi(3));
+            twice += third * STEP;
+            once += twice * STEP;
+            speed += rate * STEP;
+            history.push(rate);
+        }
+        speed
+    }
+}

@@ -1,0 +1,158 @@
+//! A sphere that settles in a tank of oil (ten Cate, Nieuwstad, Derksen & Van den Akker 2002): 15 mm, 1120 kg/m³, let
+//! go 0.12 m above the floor of a tank of 0.1 × 0.1 × 0.16 m.
+
+use super::{
+    super::{Outcome, Stand, Trial},
+    tank::Tank,
+};
+use crate::picture::{Chart, Curve, Mark, Measure};
+use anyhow::Context;
+use riprap::scene::Scene;
+use std::path::Path;
+
+const RADIUS: f64 = 7.5e-3;
+/// Samples of a trajectory.
+const SAMPLES: f64 = 100.0;
+
+/// One of their experiments.
+struct Oil {
+    name: &'static str,
+    /// kg/m³.
+    density: f64,
+    /// Pa s.
+    viscosity: f64,
+    /// Largest velocity found, m/s: of the velocity in an infinite tank the given part.
+    fastest: f64,
+    /// Until the sphere is near the floor, s.
+    time: f64,
+}
+
+const E1: Oil = Oil {
+    name: "E1",
+    density: 970.0,
+    viscosity: 0.373,
+    fastest: 0.947 * 0.038,
+    time: 3.2,
+};
+const E4: Oil = Oil {
+    name: "E4",
+    density: 960.0,
+    viscosity: 0.058,
+    fastest: 0.955 * 0.128,
+    time: 1.0,
+};
+
+struct Fall {
+    /// Time, s, and height of the gap below the sphere, m.
+    gap: Vec<[f64; 2]>,
+    fastest: f64,
+    trial: Trial,
+}
+
+impl Oil {
+    /// With `cells` along the edge of 0.1 m and the largest velocity `speed` in lattice units.
+    fn fall(&self, stand: &Stand, cells: u32, speed: f64, time: f64) -> anyhow::Result<Fall> {
+        let cell = 0.1 / f64::from(cells);
+        let time_step = speed * cell / self.fastest;
+        let (density, nu) = (self.density, self.viscosity / self.density);
+        // The water is weightless and gravity in the rock: it drives no flow, and its weight would compress it.
+        let text = format!(
+            r#"
+            domain = {{ size = [0.1, 0.1, 0.16], cell = {cell:e} }}
+            fluid = {{ density = {density}, viscosity = {nu:e} }}
+            numerics = {{ time_step = {time_step:e} }}
+            run = {{ steps = 1 }}
+            [boundaries]
+            x_min = {{ kind = "wall" }}
+            x_max = {{ kind = "wall" }}
+            y_min = {{ kind = "wall" }}
+            y_max = {{ kind = "wall" }}
+            z_min = {{ kind = "wall" }}
+            z_max = {{ kind = "wall" }}
+            [[materials]]
+            name = "nylon"
+            density = 1120
+            normal_stiffness = 1e7
+            friction = 20
+            [[blocks]]
+            kind = "sphere"
+            radius = {RADIUS}
+            position = [0.05, 0.05, 0.1275]
+            "#
+        );
+        let scene = Scene::from_toml(&text, Path::new("."), self.name)?;
+        let mut tank = Tank::fill(stand, &scene)?;
+        let every = (time / time_step / SAMPLES) as u64;
+        let (mut gap, mut fastest) = (Vec::new(), 0.0f64);
+        while tank.simulation.time() < time {
+            tank.advance(every)?;
+            let pose = tank.pose(0)?;
+            fastest = fastest.max(-pose.velocity.z);
+            gap.push([tank.simulation.time(), pose.centre.z - RADIUS]);
+        }
+        let what = format!("{} D {:.0}", self.name, 2.0 * RADIUS / cell);
+        Ok(Fall {
+            gap,
+            fastest,
+            trial: tank.trial(&what),
+        })
+    }
+}
+
+/// The slow one, until it is fastest, with 6 cells across the sphere.
+pub fn short(stand: &Stand) -> Outcome {
+    // From 1.3 s on the velocity changes by less than 0.5 % until the floor is near.
+    let fall = E1.fall(stand, 40, 0.03, 1.4)?;
+    let ratio = fall.fastest / E1.fastest;
+    let quantity = "largest velocity / measured, E1, D = 6";
+    Ok(vec![fall.trial.relative(quantity, ratio, 1.0, 2e-2)])
+}
+
+/// Both, on two grids: 9 and 12 cells across the sphere, and 18 on a GPU.
+pub fn whole(stand: &Stand) -> Outcome {
+    let grids = if stand.software { [60, 80] } else { [80, 120] };
+    let (mut records, mut curves) = (Vec::new(), Vec::new());
+    for (oil, speed) in [(E1, 0.02), (E4, 0.03)] {
+        let mut before: Option<Fall> = None;
+        for cells in grids {
+            let fall = oil.fall(stand, cells, speed, oil.time)?;
+            let name = format!("{}, D = {}", oil.name, f64::from(cells) * 0.15);
+            let ratio = fall.fastest / oil.fastest;
+            let quantity = format!("largest velocity / measured, {name}");
+            records.push(fall.trial.relative(quantity, ratio, 1.0, 2e-2));
+            if let Some(coarse) = &before {
+                let apart = |[time, gap]: &[f64; 2]| (at(&coarse.gap, *time) - gap).abs();
+                let most = fall.gap.iter().map(apart).fold(0.0, f64::max) / RADIUS;
+                let quantity = format!("trajectory against the coarser grid / r, {}", oil.name);
+                records.push(fall.trial.at_most(quantity, most, 0.1));
+            }
+            curves.push(Curve {
+                name,
+                points: fall.gap.clone(),
+                mark: Mark::Line,
+            });
+            before = Some(fall);
+        }
+    }
+    if let Some(folder) = &stand.pictures {
+        let chart = Chart::profile(
+            "Settling sphere of ten Cate et al. (2002)",
+            Measure::linear("time", "s"),
+            Measure::linear("height above the floor", "m"),
+            curves,
+        );
+        let path = folder.join("solids_settling.png");
+        chart.draw(&path).context("the trajectories")?;
+    }
+    Ok(records)
+}
+
+/// A value between two points of a curve.
+fn at(curve: &[[f64; 2]], x: f64) -> f64 {
+    let after = curve.partition_point(|point| point[0] < x).max(1);
+    let Some([[x0, y0], [x1, y1]]) = curve.get(after - 1..=after).and_then(|p| p.first_chunk())
+    else {
+        return curve.last().map_or(f64::NAN, |point| point[1]);
+    };
+    y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+}

@@ -1,0 +1,292 @@
+//! Blocks that a scene cuts by joints that are not open everywhere, or takes from meshes, from the scene to
+//! the forces.
+
+use riprap::output::Table;
+use riprap_harness::run::{Args, Summary, run};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::atomic::AtomicBool,
+};
+
+/// kg/m³.
+const DENSITY: f64 = 2700.0;
+/// m/s².
+const GRAVITY: f64 = 9.81;
+
+const MATERIAL: &str = r#"
+[[materials]]
+name = "rock"
+density = 2700
+normal_stiffness = 1e8
+friction = 30
+"#;
+
+/// An empty folder for one test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("shapes_{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Arguments for the scene `text` with the material in `folder`, writing to `folder/NAME`.
+fn args(folder: &Path, text: &str, out: &str) -> Args {
+    let scene = folder.join(format!("{out}.toml"));
+    fs::write(&scene, format!("{MATERIAL}{text}")).unwrap();
+    Args {
+        scene,
+        out: Some(folder.join(out)),
+        ..Args::default()
+    }
+}
+
+fn go(args: &Args) -> Summary {
+    let summary = run(args, &AtomicBool::new(false)).unwrap();
+    assert!(summary.complete && !summary.diverged, "{summary}");
+    summary
+}
+
+/// What `riprap check` says of a scene.
+fn check(args: &Args) -> serde_json::Value {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_riprap"));
+    let output = command
+        .args(["check", "--json"])
+        .arg(&args.scene)
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// 64 columns of 1 m × 1 m × 2 m, crossed at three quarters of their height by one joint of which `open`
+/// says how much is open. What is as low as the middle of a whole column is fixed, gravity points upwards.
+fn columns(open: &str) -> String {
+    format!(
+        r#"
+[rock]
+gravity = [0, 0, {GRAVITY}]
+[[rock_masses]]
+name = "m"
+kind = "box"
+min = [0, 0, 0]
+max = [8, 8, 2]
+seed = 11
+up = [0, 0, 1]
+joints = [
+  {{ dip = 90, dip_direction = 90, spacing = 1 }},
+  {{ dip = 90, dip_direction = 0, spacing = 1 }},
+  {{ dip = 0, dip_direction = 0, spacing = 9, origin = [0, 0, 1.5]{open} }},
+]
+fixed = [{{ kind = "half_space", point = [0, 0, 1.1], normal = [0, 0, 1] }}]
+[[blocks]]
+name = "alone"
+kind = "box"
+size = [1, 1, 1]
+position = [20, 0, 0]
+[run]
+duration = 0.05
+[output]
+every = 0.025
+"#
+    )
+}
+
+/// Free blocks on 64 columns, and the kinetic energy of all that has come off.
+fn come_off(open: &str, name: &str) -> usize {
+    let folder = folder(name);
+    let args = args(&folder, &columns(open), "out");
+    let told = check(&args);
+    let free = told["free"].as_u64().unwrap() as usize - 1;
+    assert_eq!(told["blocks"].as_u64().unwrap() as usize, 65 + free);
+    // Nothing holds what the joint has cut off: ½m(gt)², of half a cubic metre each and of `alone`.
+    let summary = go(&args);
+    let mass = DENSITY * (0.5 * free as f64 + 1.0);
+    assert!((told["mass"].as_f64().unwrap() / mass - 1.0).abs() < 1e-9);
+    let exact = 0.5 * mass * (GRAVITY * 0.05f64).powi(2);
+    let kinetic = summary.rocks.as_ref().unwrap().ledger.kinetic;
+    assert!(
+        (kinetic / exact - 1.0).abs() < 1e-9,
+        "{kinetic} J, {exact} J"
+    );
+    free
+}
+
+#[test]
+fn rock_comes_off_where_a_joint_is_open() {
+    assert_eq!(come_off("", "open"), 64);
+    let share = |fraction: f64| format!(", persistence = {{ fraction = {fraction}, length = 1 }}");
+    assert_eq!(come_off(&share(1.0), "all"), 64);
+    assert_eq!(come_off(&share(0.0), "none"), 0);
+    // A square for each column: 32 ± 4 of 64.
+    let half = come_off(&share(0.5), "half");
+    assert!((16..=48).contains(&half), "{half}");
+}
+
+#[test]
+fn a_mass_of_partly_open_joints_restarts_to_the_same_bits() {
+    let folder = folder("restart");
+    let text = columns(", persistence = { fraction = 0.5, length = 1 }")
+        .replace("duration = 0.05", "steps = 20");
+    go(&args(&folder, &text, "whole"));
+    let mut parts = args(&folder, &text, "parts");
+    parts.steps = Some(7);
+    parts.restart = run(&parts, &AtomicBool::new(false)).unwrap().checkpoint;
+    parts.steps = None;
+    go(&parts);
+    let [one, two] =
+        ["whole", "parts"].map(|out| fs::read(folder.join(out).join("checkpoint.riprap")).unwrap());
+    assert!(one == two);
+}
+
+/// Outline of an L of 3 m × 2 m, counter-clockwise, and its triangles.
+const OUTLINE: [[f64; 2]; 6] = [
+    [0.0, 0.0],
+    [3.0, 0.0],
+    [3.0, 1.0],
+    [1.0, 1.0],
+    [1.0, 2.0],
+    [0.0, 2.0],
+];
+const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]];
+
+/// The L, 1 m thick along y and upright, in millimetres.
+fn write_l(folder: &Path) {
+    let corner = |i: usize, y: f64| [OUTLINE[i][0], y, OUTLINE[i][1]].map(|x| 1000.0 * x);
+    let mut facets = Vec::new();
+    for [a, b, c] in TRIANGLES {
+        facets.push([corner(a, 0.0), corner(b, 0.0), corner(c, 0.0)]);
+        facets.push([corner(a, 1.0), corner(c, 1.0), corner(b, 1.0)]);
+    }
+    for i in 0..6 {
+        let j = (i + 1) % 6;
+        facets.push([corner(i, 0.0), corner(j, 1.0), corner(j, 0.0)]);
+        facets.push([corner(i, 0.0), corner(i, 1.0), corner(j, 1.0)]);
+    }
+    let mut text = String::from("solid l\n");
+    for facet in facets {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for [x, y, z] in facet {
+            text += &format!("vertex {x} {y} {z}\n");
+        }
+        text += "endloop\nendfacet\n";
+    }
+    fs::write(folder.join("l.stl"), text + "endsolid l\n").unwrap();
+}
+
+/// The L on a floor, itself or its hull, damped until it rests.
+fn lying(hull: bool, more: &str) -> String {
+    format!(
+        r#"
+[rock]
+mass_damping = 60
+[[solids]]
+kind = "box"
+name = "floor"
+min = [-5, -5, -1]
+max = [9, 5, 0]
+[[blocks]]
+name = "l"
+kind = "mesh"
+file = "l.stl"
+scale = 1e-3
+hull = {hull}
+{more}
+[run]
+duration = 0.5
+[output]
+every = 0.25
+[[probes]]
+name = "l"
+kind = "block"
+block = "l"
+every = 0.1
+"#
+    )
+}
+
+/// A cube in the angle of the L, clear of it but in its hull.
+const CUBE: &str = r#"
+[[blocks]]
+name = "cube"
+kind = "box"
+size = [0.4, 0.4, 0.4]
+position = [1.25, 0.5, 1.2]
+"#;
+
+fn last(path: &Path, column: &str) -> f64 {
+    let table = Table::read(path).unwrap();
+    *table.column(column).unwrap().last().unwrap()
+}
+
+#[test]
+fn a_mesh_and_its_hull_lie_on_a_floor_with_their_own_weights() {
+    // Six square metres less the angle, and less half of it.
+    for (hull, area, parts) in [(false, 4.0, 2), (true, 5.0, 1)] {
+        let folder = folder(&format!("lying_{hull}"));
+        write_l(&folder);
+        let args = args(&folder, &lying(hull, ""), "out");
+        let told = check(&args);
+        assert_eq!(told["parts"], 1 + parts);
+        assert!((told["mass"].as_f64().unwrap() / (DENSITY * area) - 1.0).abs() < 1e-9);
+        go(&args);
+        let table = folder.join("out/l.csv");
+        let weight = DENSITY * area * GRAVITY;
+        let held = last(&table, "force_z");
+        assert!((held / weight - 1.0).abs() < 1e-4, "{held} N, {weight} N");
+        // Nothing pushes it aside: the pressure is centred under the centroid.
+        let turned = last(&table, "rotation_y").abs();
+        assert!(turned < 0.01, "{turned}°");
+    }
+}
+
+#[test]
+fn a_block_fits_into_the_angle_of_a_mesh_but_not_of_its_hull() {
+    let folder = folder("angle");
+    write_l(&folder);
+    go(&args(&folder, &lying(false, CUBE), "mesh"));
+    let hull = args(&folder, &lying(true, CUBE), "hull");
+    let Err(refused) = run(&hull, &AtomicBool::new(false)) else {
+        panic!("the cube is in the hull");
+    };
+    let told = refused.to_string();
+    for word in ["overlap", "cube", "(l)"] {
+        assert!(told.contains(word), "`{word}` is not in: {told}");
+    }
+}
+
+#[test]
+fn a_rock_mass_in_the_hull_of_a_mesh_is_cut_without_loss() {
+    let folder = folder("mass");
+    write_l(&folder);
+    let text = r#"
+[[rock_masses]]
+name = "m"
+kind = "mesh"
+file = "l.stl"
+scale = 1e-3
+translate = [0, 0, 5]
+joints = [
+  { dip = 0, dip_direction = 0, spacing = 0.7, origin = [0, 0, 5.3] },
+  { dip = 60, dip_direction = 90, spacing = 0.8, origin = [1, 0, 5] },
+]
+[run]
+duration = 0.05
+[output]
+every = 0.05
+"#;
+    let args = args(&folder, text, "out");
+    let told = check(&args);
+    assert!(told["free"].as_u64().unwrap() > 6);
+    let mass = DENSITY * 5.0;
+    assert!((told["mass"].as_f64().unwrap() / mass - 1.0).abs() < 1e-9);
+    // In free fall the pieces do not press on each other.
+    let kinetic = go(&args).rocks.as_ref().unwrap().ledger.kinetic;
+    let exact = 0.5 * mass * (GRAVITY * 0.05f64).powi(2);
+    assert!(
+        (kinetic / exact - 1.0).abs() < 1e-9,
+        "{kinetic} J, {exact} J"
+    );
+}

@@ -1,0 +1,39 @@
+//! What all contacts of a block do to it.
+
+use super::{body::Flight, narrow::Joints, touches::Touches};
+use crate::law::Stiffness;
+use glam::DVec3;
+
+/// What the contacts of one block do to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sum {
+    /// N.
+    pub force: DVec3,
+    /// About its centroid, N m.
+    pub torque: DVec3,
+    /// Springs that hold it.
+    pub stiffness: Stiffness,
+}
+
+/// The sums of all blocks, in the order of the contacts.
+pub(super) fn of_touches(
+    touches: &Touches,
+    flights: &[Flight],
+    joints: &Joints,
+    sums: &mut Vec<Sum>,
+) {
+    sums.clear();
+    sums.resize(flights.len(), Sum::default());
+    for touch in touches.iter() {
+        let [a, b] = touch.blocks.map(|block| block as usize);
+        let joint = joints.of(flights[a].material, flights[b].material);
+        let (force, moment) = (touch.force.total(), touch.force.moment);
+        for (block, force, moment) in [(a, -force, -moment), (b, force, moment)] {
+            let sum = &mut sums[block];
+            let arm = touch.pressure_centre - flights[block].centre;
+            sum.force += force;
+            sum.torque += arm.cross(force) + moment;
+            sum.stiffness.add(joint, touch.area, arm, touch.width);
+        }
+    }
+}

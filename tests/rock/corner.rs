@@ -1,0 +1,61 @@
+//! A cube that falls on its corner.
+
+use crate::rig::{blocks, cuboid, joint, run, setup};
+use glam::{DQuat, DVec3};
+use riprap::bodies::{Block, Setup};
+
+/// k_n, Pa/m.
+const STIFFNESS: f64 = 1e8;
+/// kg, of a cube of 1 m.
+const MASS: f64 = 2500.0;
+/// At which it strikes, m/s.
+const SPEED: f64 = 0.5;
+
+/// Largest overlap, and the speed with which it leaves, of a cube without damping.
+fn struck(corner_area: f64) -> (f64, f64) {
+    let half_diagonal = 0.75f64.sqrt();
+    let turn = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
+    let floor = Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed();
+    let at = DVec3::Z * (half_diagonal + 1e-4);
+    let mut cube = Block::new("cube", cuboid(1.0, 1.0, 1.0), at).turned(turn);
+    cube.velocity = DVec3::Z * -SPEED;
+    let mut law = joint(STIFFNESS, 30.0);
+    law.damping = 0.0;
+    let mut blocks = blocks(Setup {
+        corner_area,
+        gravity: DVec3::ZERO,
+        largest_overlap: 0.5,
+        ..setup(vec![floor, cube], law)
+    });
+    let mut deepest = 0.0f64;
+    for step in 1..=400 {
+        run(&mut blocks, 1e-3 * f64::from(step));
+        deepest = blocks
+            .contacts()
+            .fold(deepest, |most, c| most.max(c.overlap));
+    }
+    assert_eq!(blocks.contacts().count(), 0, "it has left");
+    (deepest, blocks.poses()[1].velocity.z)
+}
+
+/// ½mv² is the spring's energy: ½ k_n A u² with an area of its own, k_n c u⁴/4 with that of the section
+/// through the analytic centre, which is the centroid of the corner: c = (3√3/2)(3/4)².
+#[test]
+fn sinks_until_the_spring_holds_its_energy_and_gets_it_back() {
+    let energy = 0.5 * MASS * SPEED * SPEED;
+    let c = 1.5 * 3f64.sqrt() * 0.5625;
+    let section = (4.0 * energy / (STIFFNESS * c)).powf(0.25);
+    let quarter = (2.0 * energy / (STIFFNESS * 0.25)).sqrt();
+    assert!(quarter < 0.15 * section);
+    for (corner_area, exact) in [(0.0, section), (0.25, quarter)] {
+        let (deepest, speed) = struck(corner_area);
+        assert!(
+            (deepest / exact - 1.0).abs() < 0.01,
+            "{corner_area}: {deepest} m, {exact} m"
+        );
+        assert!(
+            (speed / SPEED - 1.0).abs() < 1e-3,
+            "{corner_area}: {speed} m/s"
+        );
+    }
+}

@@ -10,9 +10,6 @@ pub const SKIN: f64 = 1.0;
 /// A block changes how its direct neighbours relax: a cell beyond the block.
 const NEIGHBOURS: f64 = 1.0;
 
-/// The tiles of a block with their bricks, and the pose for which they were found.
-type Found = (Option<Pose>, Vec<(u32, Tile)>);
-
 /// Tiles by block, brick and part.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {

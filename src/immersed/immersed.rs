@@ -15,9 +15,6 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// Farthest a block may be from the origin, cells: half of what an i32 holds, so that no sum overflows.
-const FARTHEST: f64 = 1e9;
-
 /// A block that is put into a fluid.
 #[derive(Clone, Debug)]
 pub struct Submerged {
@@ -136,7 +133,7 @@ impl Immersed {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
             return Err(Error::scene("poses", message));
         }
-        let nowhere = |pose: &Pose| !finite(&self.frame, pose);
+        let nowhere = |pose: &Pose| !finite(pose);
         if let Some(bad) = poses.iter().position(nowhere) {
             return Err(Error::NotFinite {
                 block: format!("block {bad}"),
@@ -147,7 +144,8 @@ impl Immersed {
         let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
         if let Some(bad) = poses.iter().position(far) {
             let message = format!(
-                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene;                  end the run before, or close the boundary through which it went",
+                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene; \
+                 end the run before, or close the boundary through which it went",
                 poses[bad].centre
             );
             return Err(Error::scene(format!("block {bad}"), message));
@@ -397,9 +395,8 @@ impl Immersed {
 /// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
 const FARTHEST: f64 = 1e9;
 
-/// Whether a block can be placed.
-fn finite(frame: &Frame, pose: &Pose) -> bool {
-    frame.place(pose.centre).abs().max_element() < FARTHEST
+fn finite(pose: &Pose) -> bool {
+    pose.centre.is_finite()
         && pose.deformation.is_finite()
         && pose.velocity.is_finite()
         && pose.deformation_rate.is_finite()

@@ -47,13 +47,18 @@ impl Blocks {
 
     /// The next of the equal steps to the time `until`, s.
     pub(super) fn stride(&self, until: f64) -> Stride {
-        let left = until - self.time;
-        // What rounding adds to a whole number of steps makes no step of its own.
-        let steps = (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0);
+        let steps = self.steps_to(until);
         Stride {
-            dt: left / steps,
+            dt: (until - self.time) / steps,
             end: (steps == 1.0).then_some(until),
         }
+    }
+
+    /// Equal steps of at most the time step that lead to the time `until`, s.
+    pub(crate) fn steps_to(&self, until: f64) -> f64 {
+        let left = until - self.time;
+        // What rounding adds to a whole number of steps makes no step of its own.
+        (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0)
     }
 
     fn step_by(&mut self, stride: Stride) -> Result<()> {

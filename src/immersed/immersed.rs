@@ -144,7 +144,8 @@ impl Immersed {
         let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
         if let Some(bad) = poses.iter().position(far) {
             let message = format!(
-                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene;                  end the run before, or close the boundary through which it went",
+                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene; \
+                 end the run before, or close the boundary through which it went",
                 poses[bad].centre
             );
             return Err(Error::scene(format!("block {bad}"), message));

@@ -105,11 +105,17 @@ impl<F: Broadphase> Dry<F> {
     /// whole step.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         for _ in 0..steps {
-            self.blocks.save(&mut self.good);
             let until = (self.step + 1) as f64 * self.time_step;
+            // A sub-step that fails leaves the blocks where they were: one alone needs no copy of them.
+            let several = self.blocks.steps_to(until) > 1.0;
+            if several {
+                self.blocks.save(&mut self.good);
+            }
             let moved = self.blocks.advance(&mut self.finder, until).await;
             if let Err(error) = moved {
-                self.blocks.restore(&self.good)?;
+                if several {
+                    self.blocks.restore(&self.good)?;
+                }
                 return Err(error);
             }
             self.step += 1;

@@ -26,7 +26,7 @@ use std::{
 pub struct Args {
     /// The scene, a TOML file
     pub scene: PathBuf,
-    /// Where the number is in the scene, such as boundaries.x_min.velocity[0]; several times for numbers
+    /// Where the number is in the scene, such as `boundaries.x_min.velocity[0]`; several times for numbers
     /// that are to have the same value
     #[arg(long, required = true, value_name = "KEY")]
     pub key: Vec<String>,

@@ -75,9 +75,13 @@ impl Coupled {
                 "materials",
                 format!(
                     "{} blocks are lighter than the fluid, {} has {:.2} of its density: they float, and the \
-                     water that they drag along outweighs them, so that their motion may oscillate from \
-                     step to step; use a smaller time step, or a density above {fluid} kg/m³",
-                    light.count, light.name, light.value
+                     water that they drag along outweighs them, so that they gain speed more slowly than they \
+                     should, and below half of its density may swing from step to step; use a density above \
+                     {fluid} kg/m³, or at least above {}",
+                    light.count,
+                    light.name,
+                    light.value,
+                    0.5 * fluid
                 ),
             );
         }

@@ -291,10 +291,9 @@ impl Coupled {
     /// The whole load on a block, from the fluid around it and inside it, over the last `dt` (s).
     fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
         let felt = &self.felt[block];
-        let all = sum(felt.flow, felt.buoyancy);
         let made = &self.setup.setup.blocks[block];
         if made.motion != Motion::Free {
-            return all;
+            return sum(felt.flow, felt.buoyancy);
         }
         let turn: DMat3 = pose.deformation;
         let matter = Matter {
@@ -303,7 +302,7 @@ impl Coupled {
             inertia: turn * made.shape.inertia() * turn.transpose(),
             gravity: self.ambient.gravity,
         };
-        self.inner[block].load(&all, pose, &matter, self.ambient.density, dt)
+        self.inner[block].load(felt, pose, &matter, self.ambient.density, dt)
     }
 
     /// What each block feels of the fluid, of the last reading.

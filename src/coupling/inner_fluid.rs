@@ -1,5 +1,6 @@
 //! The fluid inside a block, and the fluid around it that has inertia too.
 
+use super::{Felt, loads::sum};
 use crate::bodies::{Load, Pose, skew};
 use crate::immersed::spin;
 use glam::{DMat3, DVec3};
@@ -45,22 +46,22 @@ pub struct InnerFluid {
 }
 
 impl InnerFluid {
-    /// The load under which the rock alone moves as it does with the fluid inside it, from the whole load on
-    /// its cells over the last `dt` (s) in a fluid of the density `density` (kg/m³).
+    /// The load under which the rock alone moves as it does with the fluid inside it, from what its cells felt over
+    /// the last `dt` (s) in a fluid of the density `density` (kg/m³).
     pub fn load(
         &mut self,
-        load: &Load,
+        felt: &Felt,
         pose: &Pose,
         matter: &Matter,
         density: f64,
         dt: f64,
     ) -> Load {
+        let load = sum(felt.flow, felt.buoyancy);
         let now = [pose.velocity, spin(pose)];
-        let [linear, angular] = match self.last {
-            Some([velocity, spin]) => [(now[0] - velocity) / dt, (now[1] - spin) / dt],
-            None => [DVec3::ZERO; 2],
-        };
-        self.last = Some(now);
+        let known = self.last.replace(now);
+        let [linear, angular] = known.map_or([DVec3::ZERO; 2], |[velocity, spin]| {
+            [(now[0] - velocity) / dt, (now[1] - spin) / dt]
+        });
 
         let rock = matter.mass / matter.volume;
         // Over its volume: the fluid that it displaces, what goes with it, and what it seems to have more.
@@ -70,8 +71,15 @@ impl InnerFluid {
         let inner_turning = whole.min(0.5 * (held + rock));
         let [more, more_turning] =
             [AROUND, AROUND_TURNS].map(|most| 0.5 * (most * whole - rock).max(0.0));
-        let [before, turned] = self.given;
         let force = load.force / matter.volume + inner * linear + rock * matter.gravity;
+        // At the start what does not come from motion: weight and buoyancy.
+        let [before, turned] = match known {
+            Some(_) => self.given,
+            None => [
+                felt.buoyancy.force / matter.mass + matter.gravity,
+                felt.buoyancy.torque() / rock,
+            ],
+        };
         let acceleration = (force + more * before) / (rock + more);
         let torque = load.torque() + inner_turning * (matter.inertia * angular);
         let turning = (torque + more_turning * turned) / (rock + more_turning);
@@ -80,7 +88,7 @@ impl InnerFluid {
             force: matter.mass * (acceleration - matter.gravity),
             // A torque is the skew part of a moment.
             moment: load.moment + 0.5 * skew(rock * turning - load.torque()),
-            ..*load
+            ..load
         }
     }
 
@@ -127,6 +135,11 @@ mod tests {
         (matter, load)
     }
 
+    fn flow(flow: Load) -> Felt {
+        let buoyancy = Load::default();
+        Felt { flow, buoyancy }
+    }
+
     fn pose(velocity: DVec3, spin: DVec3) -> Pose {
         Pose::rigid(DVec3::ZERO, DQuat::IDENTITY, velocity, spin)
     }
@@ -139,7 +152,7 @@ mod tests {
         let mut inner = InnerFluid::default();
         let mut felt = Load::default();
         for _ in 0..500 {
-            felt = inner.load(&load, &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);
+            felt = inner.load(&flow(load), &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);
         }
         assert!((felt.force - load.force).length() < 1e-9, "{}", felt.force);
         assert!((felt.torque() - load.torque()).length() < 1e-9);
@@ -155,7 +168,7 @@ mod tests {
         let mut felt = Load::default();
         for n in 0..200 {
             let t = dt * f64::from(n);
-            felt = inner.load(&load, &pose(t * rate, t * turn), &matter, 1000.0, dt);
+            felt = inner.load(&flow(load), &pose(t * rate, t * turn), &matter, 1000.0, dt);
         }
         assert!(felt.force.length() < 1e-9, "{}", felt.force);
         assert!(felt.torque().length() < 1e-9, "{}", felt.torque());
@@ -171,7 +184,13 @@ mod tests {
         for _ in 0..200 {
             let rate = (velocity - before) / dt;
             load.force = pull - (added + 2000.0) * rate - matter.mass * matter.gravity;
-            let felt = inner.load(&load, &pose(velocity, DVec3::ZERO), &matter, 1000.0, dt);
+            let felt = inner.load(
+                &flow(load),
+                &pose(velocity, DVec3::ZERO),
+                &matter,
+                1000.0,
+                dt,
+            );
             before = velocity;
             velocity += (felt.force / matter.mass + matter.gravity) * dt;
         }
@@ -187,7 +206,7 @@ mod tests {
         let (matter, load) = block(0.5);
         let mut inner = InnerFluid::default();
         assert_eq!(InnerFluid::from_numbers(&inner.to_numbers()), inner);
-        inner.load(&load, &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);
+        inner.load(&flow(load), &pose(DVec3::X, DVec3::Y), &matter, 1000.0, 0.1);
         assert_eq!(InnerFluid::from_numbers(&inner.to_numbers()), inner);
     }
 }

@@ -65,6 +65,17 @@ impl Frame {
     }
 }
 
+/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
+pub(super) const FARTHEST: f64 = 1e9;
+
+/// Whether a pose is a place and a motion at all.
+pub(super) fn finite(pose: &Pose) -> bool {
+    pose.centre.is_finite()
+        && pose.deformation.is_finite()
+        && pose.velocity.is_finite()
+        && pose.deformation_rate.is_finite()
+}
+
 /// Whole numbers of cells; what lies beyond all integers is as far away as they go.
 pub(super) fn whole(base: DVec3) -> [i32; 3] {
     base.to_array().map(|x| x as i32)

@@ -2,6 +2,7 @@
 
 use super::{
     Frame, MOST_FACES, Motion, Part, Plan, WRENCH,
+    frame::{FARTHEST, finite},
     kernels::Kernels,
     outline::{outline, rows},
     tiles::{Outline, Tiling},
@@ -390,14 +391,4 @@ impl Immersed {
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
-}
-
-/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
-const FARTHEST: f64 = 1e9;
-
-fn finite(pose: &Pose) -> bool {
-    pose.centre.is_finite()
-        && pose.deformation.is_finite()
-        && pose.velocity.is_finite()
-        && pose.deformation_rate.is_finite()
 }

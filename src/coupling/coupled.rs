@@ -3,7 +3,7 @@
 use super::{Ambient, Gap, Gathered, InnerFluid, Matter, Reading, gaps::gaps, loads::sum};
 use crate::{
     Result,
-    bodies::{Block, Blocks, Load, Motion, Pose, skew},
+    bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
     broadphase::AutoBroadphase,
     immersed::{Frame, Immersed, Submerged, Work},
     lattice::Lattice,
@@ -57,6 +57,8 @@ pub struct Coupled {
     pub(super) gathered: Gathered,
     pub(super) felt: Vec<Felt>,
     pub(super) inner: Vec<InnerFluid>,
+    /// What blocks go back to if a step of theirs fails; its memory is used again.
+    good: (Snapshot, Vec<InnerFluid>),
     read: u64,
     /// Whether the cells have been computed for the present poses.
     pub(super) placed: bool,
@@ -120,6 +122,7 @@ impl Coupled {
             gathered: Gathered::default(),
             felt: vec![Felt::default(); setup.setup.blocks.len()],
             inner: vec![InnerFluid::default(); setup.setup.blocks.len()],
+            good: (Snapshot::default(), Vec::new()),
             read: 0,
             placed: false,
             setup,
@@ -254,7 +257,8 @@ impl Coupled {
             return Ok(());
         }
         let dt = until - self.blocks.time();
-        let (start, inner) = (self.blocks.snapshot(), self.inner.clone());
+        self.blocks.save(&mut self.good.0);
+        self.good.1.clone_from(&self.inner);
         let poses = self.blocks.poses();
         let mut loads: Vec<Load> = (0..poses.len())
             .map(|block| self.load(block, &poses[block], dt))
@@ -265,8 +269,8 @@ impl Coupled {
             refused => refused,
         };
         if moved.is_err() {
-            self.inner = inner;
-            self.blocks.restore(&start)?;
+            self.inner.clone_from(&self.good.1);
+            self.blocks.restore(&self.good.0)?;
         }
         self.placed = false;
         moved

@@ -1,0 +1,8 @@
+//! Particles of water: kernels against their twins, and small flows.
+
+#[path = "../rig/mod.rs"]
+mod rig;
+
+mod programs;
+mod still;
+mod tank;

@@ -70,6 +70,6 @@ fn accelerate(
     }
     let velocity = here.velocity + clock.step * rate;
     let by_force = sqrt(SMOOTHING / max(length(rate), 1e-30));
-    let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + SMOOTHING * shear);
+    let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + shear);
     fresh[n] = vec4(velocity, COURANT * min(by_force, by_sound));
 }

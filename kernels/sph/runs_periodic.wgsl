@@ -40,6 +40,6 @@ fn between(a: vec3<i32>, b: vec3<i32>) -> vec3<f32> {
 
 fn wrapped(at: vec3<i32>) -> vec3<i32> {
     let period = vec3(PERIOD_X, PERIOD_Y, PERIOD_Z);
-    let up = at + select(vec3(0), period, at < vec3(0));
-    return up - select(vec3(0), period, (period > vec3(0)) & (up >= period));
+    let modulus = max(period, vec3(1));
+    return select(at, (at % modulus + modulus) % modulus, period > vec3(0));
 }

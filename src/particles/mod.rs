@@ -1,6 +1,6 @@
 //! Free water: smoothed particles (SPH) on the device, with walls and blocks in it.
 
-mod grid;
+mod frame;
 mod kernels;
 mod layout;
 #[allow(clippy::module_inception)]
@@ -10,7 +10,7 @@ mod setup;
 mod sorting;
 mod water;
 
-pub use grid::Grid;
+pub use frame::Grid;
 pub use kernels::Numbers;
 pub use layout::{Clock, Home, Motion, Particle};
 pub use particles::{Exchange, Particles, State};

@@ -4,5 +4,7 @@
 mod rig;
 
 mod programs;
+mod step;
 mod still;
 mod tank;
+mod twin;

@@ -16,27 +16,19 @@ fn a_still_tank_stays_still() {
     let hydrostatic = |x: DVec3| 1000.0 * 9.81 * (depth - x.z);
     let mut tank = Tank::new(setup, vec![resting(DVec3::ZERO)], &water, hydrostatic);
     let scale = (9.81f64 * depth).sqrt();
-    for round in 0..8 {
-        let start = std::time::Instant::now();
-        let done = tank.advance(0.5 * depth / scale);
-        let water = tank.water();
-        let (mut error, mut norm, mut speed) = (0.0, 0.0, 0.0);
-        for n in 0..water.len() {
-            let exact = hydrostatic(water.positions[n]);
-            error += (water.pressures[n] - exact).powi(2);
-            norm += exact * exact;
-            speed += f64::from(water.velocities[n].length_squared());
-        }
-        let rms = (speed / water.len() as f64).sqrt() / scale;
-        println!(
-            "{round}: {} particles, {} steps in {:?}, L2(p) {:.4}, u_rms {:.2e}, limit {:.3e}",
-            water.len(),
-            done.steps,
-            start.elapsed(),
-            (error / norm).sqrt(),
-            rms,
-            tank.particles.limit()
-        );
+    // After a few passages of waves what the start had wrong is damped away.
+    tank.advance(10.0 * depth / scale);
+    let water = tank.water();
+    let (mut error, mut norm, mut speed) = (0.0, 0.0, 0.0);
+    for n in 0..water.len() {
+        let exact = hydrostatic(water.positions[n]);
+        error += (water.pressures[n] - exact).powi(2);
+        norm += exact * exact;
+        speed += f64::from(water.velocities[n].length_squared());
     }
-    panic!("look");
+    let rms = (speed / water.len() as f64).sqrt() / scale;
+    let error = f64::sqrt(error / norm);
+    println!("L2(p) {error:.4}, u_rms {rms:.2e} of the speed of waves");
+    assert!(error < 0.02 && rms < 0.002, "{error} {rms}");
+    assert_eq!(water.len(), 400);
 }

@@ -59,6 +59,7 @@ pub mod law;
 pub mod layout;
 pub mod link;
 pub mod output;
+pub mod particles;
 pub mod probe;
 pub mod readback;
 pub mod scene;

@@ -12,6 +12,7 @@ mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
+pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;
 pub(crate) use dry::begin;
 pub use fields::Totals;

@@ -31,8 +31,15 @@ fn main() -> Result<(), riprap::Error> {
         .configure_from_args();
     let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
     let edges = std::env::var("RIPRAP_PARTICLES").unwrap_or_default();
-    let edges: Vec<u32> = edges.split(',').filter_map(|edge| edge.trim().parse().ok()).collect();
-    let edges = if edges.is_empty() { EDGES.to_vec() } else { edges };
+    let edges: Vec<u32> = edges
+        .split(',')
+        .filter_map(|edge| edge.trim().parse().ok())
+        .collect();
+    let edges = if edges.is_empty() {
+        EDGES.to_vec()
+    } else {
+        edges
+    };
     let mut rows = Vec::new();
     for adapter in gpu::adapters() {
         let name = gpu::describe(&adapter.get_info());
@@ -59,11 +66,19 @@ fn bench(
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
     let (setup, positions) = tank(edge);
-    let pressures: Vec<f64> =
-        positions.iter().map(|x| setup.density * 9.81 * (setup.size.z - x.z)).collect();
+    let pressures: Vec<f64> = positions
+        .iter()
+        .map(|x| setup.density * 9.81 * (setup.size.z - x.z))
+        .collect();
     let still = vec![DVec3::ZERO; positions.len()];
-    let mut particles =
-        Particles::new(&device, &queue, setup.clone(), &positions, &still, &pressures)?;
+    let mut particles = Particles::new(
+        &device,
+        &queue,
+        setup.clone(),
+        &positions,
+        &still,
+        &pressures,
+    )?;
     let pose = Pose {
         centre: DVec3::ZERO,
         deformation: DMat3::IDENTITY,
@@ -73,30 +88,35 @@ fn bench(
     let (water, walls) = pairs(&setup, &positions);
     let mut best = f64::INFINITY;
     let mut group = criterion.benchmark_group("particles");
-    group.throughput(Throughput::Elements(positions.len() as u64 * u64::from(STEPS)));
-    group.bench_function(BenchmarkId::new(positions.len().to_string(), name), |bencher| {
-        bencher.iter_custom(|iterations| {
-            let mut total = 0.0;
-            for _ in 0..iterations {
-                let (cpu, wall) = (ProcessTime::now(), Instant::now());
-                let time = particles.limit() * f64::from(STEPS) * 0.999;
-                let done = particles.advance(&device, &queue, &[pose], time);
-                let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
-                let steps = match done {
-                    Ok(Ok(done)) => f64::from(done.steps),
-                    Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
-                };
-                let cores = std::thread::available_parallelism().map_or(1, usize::from);
-                let spent = match software {
-                    true => cpu.elapsed().as_secs_f64() / cores as f64,
-                    false => wall.elapsed().as_secs_f64(),
-                };
-                best = best.min(spent / steps);
-                total += spent / steps * f64::from(STEPS);
-            }
-            Duration::from_secs_f64(total).max(Duration::from_nanos(1))
-        });
-    });
+    group.throughput(Throughput::Elements(
+        positions.len() as u64 * u64::from(STEPS),
+    ));
+    group.bench_function(
+        BenchmarkId::new(positions.len().to_string(), name),
+        |bencher| {
+            bencher.iter_custom(|iterations| {
+                let mut total = 0.0;
+                for _ in 0..iterations {
+                    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+                    let time = particles.limit() * f64::from(STEPS) * 0.999;
+                    let done = particles.advance(&device, &queue, &[pose], time);
+                    let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
+                    let steps = match done {
+                        Ok(Ok(done)) => f64::from(done.steps),
+                        Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
+                    };
+                    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+                    let spent = match software {
+                        true => cpu.elapsed().as_secs_f64() / cores as f64,
+                        false => wall.elapsed().as_secs_f64(),
+                    };
+                    best = best.min(spent / steps);
+                    total += spent / steps * f64::from(STEPS);
+                }
+                Duration::from_secs_f64(total).max(Duration::from_nanos(1))
+            });
+        },
+    );
     group.finish();
     // Momentum and continuity each meet all pairs, the pressure of walls theirs.
     let met = 2.0 * water + 3.0 * walls;

@@ -9,10 +9,11 @@ use super::Axis;
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between VTI files of the fluid and VTU files of the blocks, s. Default: only the last
+    /// Time between VTI files of the fluid, or VTP files of its particles, and VTU files of the blocks, s. Default: only the last
     /// state.
     pub every: Option<f64>,
-    /// Fields in the VTI files. Default velocity and pressure.
+    /// Fields in the files of the fluid; particles have velocity, pressure and density. Default velocity and
+    /// pressure.
     pub fields: Vec<Field>,
     /// Pictures. Default none.
     pub slices: Vec<Slice>,
@@ -156,6 +157,8 @@ pub enum Quantity {
     MomentumZ,
     /// Largest speed of the fluid, m/s.
     MaxSpeed,
+    /// Potential energy of particles in their gravity, against that at the time 0, J.
+    PotentialEnergy,
     /// Kinetic energy of the blocks, with that of their spin, J.
     BlockKineticEnergy,
     /// Potential energy of the blocks in gravity, against that at the time 0, J.
@@ -190,6 +193,7 @@ impl Quantity {
             Self::MomentumY => "momentum_y",
             Self::MomentumZ => "momentum_z",
             Self::MaxSpeed => "max_speed",
+            Self::PotentialEnergy => "potential_energy",
             Self::BlockKineticEnergy => "block_kinetic_energy",
             Self::BlockPotentialEnergy => "block_potential_energy",
             Self::ContactEnergy => "contact_energy",
@@ -208,7 +212,14 @@ impl Quantity {
         use Quantity::*;
         !matches!(
             self,
-            KineticEnergy | Enstrophy | Mass | MomentumX | MomentumY | MomentumZ | MaxSpeed
+            KineticEnergy
+                | Enstrophy
+                | Mass
+                | MomentumX
+                | MomentumY
+                | MomentumZ
+                | MaxSpeed
+                | PotentialEnergy
         )
     }
 }

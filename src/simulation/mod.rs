@@ -6,15 +6,18 @@ mod block_setup;
 mod diverged;
 mod dry;
 mod fields;
+mod free_surface;
 mod lattice_setup;
 mod needs;
 mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
+pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;
 pub(crate) use dry::begin;
 pub use fields::Totals;
+pub use free_surface::FreeSurface;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};

@@ -5,6 +5,7 @@ mod blocks;
 mod format;
 mod formulas;
 mod parsing;
+mod particles;
 mod refusals;
 mod sampling;
 mod shipped;

@@ -15,6 +15,7 @@ pub use report::Report;
 use crate::{adapters::Adapter, gpu, print, search::located};
 use anyhow::Result;
 use riprap::{
+    Error,
     scene::Scene,
     simulation::{Needs, Simulation},
 };
@@ -39,6 +40,13 @@ pub struct Args {
 /// What the scene lacks, or what the adapter cannot hold.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
+    if scene.has_particles() {
+        return Err(Error::scene(
+            "particles",
+            "this program does not run particles yet; use a fluid on a lattice",
+        )
+        .into());
+    }
     if !scene.has_fluid() {
         let report = dry::report(&scene, &args.scene, args.adapter.as_deref())?;
         return if args.json {

@@ -77,6 +77,7 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::MomentumY => ("momentum along y", "kg m/s"),
         Quantity::MomentumZ => ("momentum along z", "kg m/s"),
         Quantity::MaxSpeed => ("largest speed", "m/s"),
+        Quantity::PotentialEnergy => ("potential energy", "J"),
         Quantity::BlockKineticEnergy => ("kinetic energy of blocks", "J"),
         Quantity::BlockPotentialEnergy => ("potential energy of blocks", "J"),
         Quantity::ContactEnergy => ("elastic energy of contacts", "J"),

@@ -70,6 +70,13 @@ pub struct Args {
 /// context of [`Unfinished`].
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
+    if scene.has_particles() {
+        return Err(Error::scene(
+            "particles",
+            "this program does not run particles yet; use a fluid on a lattice",
+        )
+        .into());
+    }
     let (file, adapter) = (&args.scene, args.adapter.as_deref());
     match scene.has_fluid() {
         true => travel(Flow::open(&scene, file, adapter)?, args, stop),

@@ -46,7 +46,10 @@ impl Scene {
                 format!("{key}.block"),
                 "there are no blocks in this scene; remove the probe, or add [[blocks]]",
             ),
-            ProbePlace::Box { min, max } | ProbePlace::Face { min, max, .. } => {
+            ProbePlace::Gauge { at: [x, y] } => within("at", [*x, *y, self.domain.middle()[2]]),
+            ProbePlace::Box { min, max }
+            | ProbePlace::Face { min, max, .. }
+            | ProbePlace::RunUp { min, max, .. } => {
                 ordered(key, *min, *max)?;
                 within("min", *min)?;
                 within("max", *max)

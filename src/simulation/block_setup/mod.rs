@@ -8,6 +8,8 @@ mod shapes;
 mod solids;
 mod walls;
 
+pub(crate) use shapes::{rotation, shape};
+
 use crate::{
     Error, Result,
     bodies::{Setup, Sleep},

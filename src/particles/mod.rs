@@ -15,6 +15,7 @@ mod grid;
 mod kernel;
 mod kernels;
 mod layout;
+mod near;
 #[allow(clippy::module_inception)]
 mod particles;
 mod placed;
@@ -33,7 +34,7 @@ pub use kernels::Numbers;
 pub use layout::{Clock, Home, Motion, Particle};
 pub use particles::{Exchange, Particles, State};
 pub use program::{KERNELS, MOST_BINDINGS, constants, program};
-pub use setup::{Body, Setup, Side, StateEquation};
+pub use setup::{Body, Neighbours, Setup, Side, StateEquation};
 pub use shell::shells;
 pub use sorting::{Sorted, Sorting};
 pub use water::Water;

@@ -7,14 +7,14 @@ use super::{
 
 const SPACING: f64 = 0.05;
 const DEPTH: f64 = 1.0;
-const LENGTH: f64 = 1.6;
+const LENGTH: f64 = 2.4;
 /// Times over which the last of the motion is averaged out, s.
 const LOOKS: u32 = 40;
 
 /// The push on a box that is held under water, in the middle and beside a wall of the tank.
 pub fn submerged(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
-    for (what, x, angle) in [("in the middle", 0.8, 0), ("turned by 30°", 0.8, 30)] {
+    for (what, x, angle) in [("in the middle", 1.2, 0), ("turned by 30°", 1.2, 30)] {
         let edge = 8.0 * SPACING;
         let more = format!(
             r#"
@@ -67,7 +67,7 @@ pub fn floating(stand: &Stand) -> Outcome {
         name = "box"
         kind = "box"
         size = [{width}, 1, {height}]
-        position = [0.8, 0.5, {}]
+        position = [1.2, 0.5, {}]
         material = "wood"
         "#,
         DEPTH - start + 0.5 * height
@@ -80,10 +80,7 @@ pub fn floating(stand: &Stand) -> Outcome {
     for look in 1..=LOOKS {
         pool.advance(end + 0.05 * f64::from(look))?;
         let bottom = pool.pose(0).centre.z - 0.5 * height;
-        let area = f64::from(pool.surface.particles().numbers().water) * SPACING * SPACING;
-        // Level of all the water, that which the box pushes up included.
-        let level = (area - width * bottom) / (LENGTH - width);
-        draft += (level - bottom) / f64::from(LOOKS);
+        draft += (level(&pool.water()?.positions, width) - bottom) / f64::from(LOOKS);
     }
     let tilt = pool.pose(0).deformation.x_axis.z.abs();
     let trial = pool.trial("floating box");
@@ -91,4 +88,26 @@ pub fn floating(stand: &Stand) -> Outcome {
         trial.relative("draft / exact", draft / exact, 1.0, 0.01),
         trial.at_most("tilt, rad", tilt, 0.01),
     ])
+}
+
+/// The level of the water between the box and the walls: half a spacing above its highest particles, whose
+/// mean over columns a spacing wide is taken.
+fn level(positions: &[glam::DVec3], width: f64) -> f64 {
+    // Beside solids the surface is bent by the layers in them.
+    let margin = 4.0 * SPACING;
+    let side = 0.5 * (LENGTH - width);
+    let columns = ((side - 2.0 * margin) / SPACING).round() as usize;
+    let mut tops = vec![f64::NEG_INFINITY; 2 * columns];
+    for x in positions {
+        for (half, start) in [margin, LENGTH - side + margin].into_iter().enumerate() {
+            let column = ((x.x - start) / SPACING).floor();
+            if (0.0..columns as f64).contains(&column) {
+                let top = &mut tops[half * columns + column as usize];
+                *top = top.max(x.z);
+            }
+        }
+    }
+    // A column that is empty for a moment says nothing.
+    let tops: Vec<f64> = tops.into_iter().filter(|top| top.is_finite()).collect();
+    tops.iter().sum::<f64>() / tops.len() as f64 + 0.5 * SPACING
 }

@@ -7,14 +7,14 @@ use super::{
 use glam::DVec3;
 use riprap::{
     bodies::Pose,
-    particles::{Particles, particle_setup},
+    particles::{Neighbours, Particles, particle_setup},
     simulation::block_setup,
 };
 use std::{f64::consts::PI, time::Instant};
 
 const DEPTH: f64 = 1.0;
-/// The tank is half a wave long, m.
-const LENGTH: f64 = 1.0;
+/// Lengths of the tank, which is half a wave long, m.
+const LENGTHS: [f64; 2] = [2.0, 1.0];
 /// Amplitude of the surface, of the depth.
 const STEEPNESS: f64 = 0.02;
 /// Looks a period.
@@ -35,12 +35,16 @@ fn flow(x: DVec3, k: f64, omega: f64) -> DVec3 {
 /// Period and damping of the first mode of a tank.
 pub fn run(stand: &Stand) -> Outcome {
     let layers: &[u32] = if stand.full { &[25, 50] } else { &[25] };
-    let (k, mut records) = (PI / LENGTH, Vec::new());
-    let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
-    let period = 2.0 * PI / omega;
-    for &layers in layers {
+    let mut records = Vec::new();
+    for (layers, length) in layers
+        .iter()
+        .flat_map(|n| LENGTHS.map(|length| (*n, length)))
+    {
+        let k = PI / length;
+        let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
+        let period = 2.0 * PI / omega;
         let spacing = DEPTH / f64::from(layers);
-        let scene = pool::scene([LENGTH, 1.4 * DEPTH], spacing, [LENGTH, DEPTH], "")?;
+        let scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
         let blocks = block_setup(&scene)?;
         let (setup, start) = particle_setup(&scene, &blocks)?;
         let amplitude = STEEPNESS * DEPTH;

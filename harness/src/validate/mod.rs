@@ -153,6 +153,7 @@ pub const CASES: &[Case] = &[
     short("water/standing-wave", water::wave::run),
     short("water/dam-break", water::dam::run),
     short("water/wave-maker", water::maker::run),
+    long("water/schemes", water::schemes::run),
 ];
 
 /// The cases whose names match.

@@ -44,9 +44,16 @@ pub fn run(stand: &Stand) -> Outcome {
         let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
         let period = 2.0 * PI / omega;
         let spacing = DEPTH / f64::from(layers);
-        let scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
+        let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
+        if let Some(particles) = &mut scene.particles {
+            // Waves of a fiftieth of the depth are far slower than a fall through it.
+            particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
+        }
         let blocks = block_setup(&scene)?;
-        let (setup, start) = particle_setup(&scene, &blocks)?;
+        let (mut setup, start) = particle_setup(&scene, &blocks)?;
+        if stand.software {
+            setup.neighbours = Neighbours::Lists;
+        }
         let amplitude = STEEPNESS * DEPTH;
         let velocities: Vec<DVec3> = start
             .positions

@@ -1,6 +1,6 @@
-//! The longest stable step, from what the blocks look like and from what they touch.
+//! The longest stable step, from what the blocks look like, from what they touch, and from their elasticity.
 
-use super::{Body, narrow::Joints, sums::Sum};
+use super::{Body, deforming::DeformingBlocks, narrow::Joints, sums::Sum};
 use crate::{
     block::{Form, Polyhedron},
     law::{Joint, Stiffness},
@@ -12,7 +12,11 @@ use glam::DVec3;
 const HELD: f64 = 0.5;
 
 /// ω² of the stiffest block and which it is, from the faces of the shapes.
-pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
+pub(super) fn of_shapes(
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    joints: &Joints,
+) -> (f64, usize) {
     let stiffness = |body: &Body| {
         let mut sum = Stiffness::default();
         let partners = (0..joints.materials).map(|other| joints.of(body.material, other));
@@ -35,20 +39,31 @@ pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
         }
         sum
     };
-    stiffest(bodies, bodies.iter().map(stiffness))
+    stiffest(bodies, deforming, bodies.iter().map(stiffness))
 }
 
-/// ω² of the stiffest block and which it is, from the contacts.
-pub(super) fn of_sums(bodies: &[Body], sums: &[Sum]) -> (f64, usize) {
-    stiffest(bodies, sums.iter().map(|sum| sum.stiffness))
+/// ω² of the stiffest block and which it is, from the contacts and the present deformations.
+pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]) -> (f64, usize) {
+    stiffest(bodies, deforming, sums.iter().map(|sum| sum.stiffness))
 }
 
-fn stiffest(bodies: &[Body], sums: impl Iterator<Item = Stiffness>) -> (f64, usize) {
+/// Contacts on a block that deforms find at most the stiffness that its least second moment S has against
+/// them, k(1/m + Xᵀ S⁻¹ X) each; the eigenvalues of a sum are at most the sum of the largest.
+fn stiffest(
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    sums: impl Iterator<Item = Stiffness>,
+) -> (f64, usize) {
     let free = bodies.iter().zip(sums).enumerate();
     free.filter(|(_, (body, _))| body.is_free())
         .map(|(i, (body, sum))| {
-            let moment = body.inertia.moments.min_element();
-            (sum.frequency_squared(body.mass, moment), i)
+            let Some((one, strain)) = deforming.of(body) else {
+                let moment = body.inertia.moments.min_element();
+                return (sum.frequency_squared(body.mass, moment), i);
+            };
+            let elastic = one.affine.frequency_squared(strain.deformation);
+            let moment = one.affine.smallest_moment();
+            (elastic + sum.frequency_squared(body.mass, moment), i)
         })
         .fold(
             (0.0, 0),

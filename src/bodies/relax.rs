@@ -1,6 +1,6 @@
 //! Pushing apart what overlaps before the first step.
 
-use super::{Blocks, touch::TENTHS};
+use super::{Blocks, deforming::pose, touch::TENTHS};
 use crate::{
     Error, Result,
     broadphase::Broadphase,
@@ -64,8 +64,9 @@ impl Blocks {
                 let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
                 self.states[block].centre += contact.normal * (sign * share * way);
-                let pose = self.states[block].pose();
-                self.parts.put_one(&self.bodies[block], &pose);
+                let body = &self.bodies[block];
+                let pose = pose(body, &self.states[block], &self.deforming.strains);
+                self.parts.put_one(body, &pose);
             }
         }
         Ok(found)

@@ -10,6 +10,7 @@ use crate::{
 /// The materials in their order.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     let material = |material: &scene::Material| Material {
+        elastic: material.elastic(),
         density: material.density,
         joint: Joint {
             normal_stiffness: material.normal_stiffness,

@@ -16,7 +16,7 @@ pub struct Probe {
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `face` always gives area, pressure and
-    /// force, a `block` its position, velocity, rotation, spin and forces, and no other fields.
+    /// force, a `block` its position, velocity, rotation, spin and forces, its stress if it deforms, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.

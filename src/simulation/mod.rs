@@ -10,7 +10,7 @@ mod lattice_setup;
 mod needs;
 mod wall_units;
 
-pub use block_fields::{block_polyhedra, contact_cloud};
+pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
 pub use dry::Dry;
 pub(crate) use dry::begin;

@@ -9,7 +9,7 @@ use super::super::{
 use super::Rock;
 use anyhow::Result;
 use glam::DVec3;
-use riprap::{Error, output::Csv, scene::Probe};
+use riprap::{Error, output::Csv, scene::Probe, simulation::voigt};
 use std::path::{Path, PathBuf};
 
 /// What is measured of every block, each along x, y and z.
@@ -18,6 +18,18 @@ const MEASURED: [&str; 6] = [
 ];
 /// What is measured of a block in a fluid as well.
 const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+/// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
+/// Mises stress, Pa, and the strain energy, J.
+const STRESSED: [&str; 8] = [
+    "stress_xx",
+    "stress_yy",
+    "stress_zz",
+    "stress_xy",
+    "stress_yz",
+    "stress_xz",
+    "von_mises",
+    "strain_energy",
+];
 
 pub struct BlockProbe {
     schedule: Schedule,
@@ -49,8 +61,12 @@ impl BlockProbe {
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
         }
+        let stressed = rock.blocks.stress(block).is_some();
         let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
-        let columns: Vec<String> = measured.iter().flat_map(along).collect();
+        let mut columns: Vec<String> = measured.iter().flat_map(along).collect();
+        if stressed {
+            columns.extend(STRESSED.map(Into::into));
+        }
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
             schedule: Schedule::of(probe.every, engine.time_step(), last),
@@ -77,6 +93,17 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     all
 }
 
+/// The numbers of `STRESSED`; none of a rigid block.
+fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
+    let Some(stress) = rock.blocks.stress(block) else {
+        return Vec::new();
+    };
+    let mut all = voigt(stress).to_vec();
+    all.extend(rock.blocks.von_mises(block));
+    all.extend(rock.blocks.strain_energy(block));
+    all
+}
+
 impl<E: Engine> Recorder<E> for BlockProbe {
     fn schedule(&self) -> &Schedule {
         &self.schedule
@@ -85,7 +112,8 @@ impl<E: Engine> Recorder<E> for BlockProbe {
     fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
         if let Some(rock) = engine.rock() {
             let vectors = measure(&rock, self.block).into_iter();
-            let values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            let mut values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            values.extend(stressed(&rock, self.block));
             self.table.append(rock.step, rock.time, &values)?;
             notes.file(self.path.clone());
         }

@@ -128,12 +128,16 @@ impl DeformingBlocks {
             turn.transpose() * deformable.initial_stress * turn,
         );
         let points = deformable.fixed_points.iter();
-        let held = Held::new(&affine, points.map(|held| (held.point, held.axes)));
         let start = Pose::rigid(
             block.centre,
             block.rotation.normalize(),
             block.velocity,
             block.spin,
+        );
+        let held = Held::new(
+            &affine,
+            (start.centre, start.deformation),
+            points.map(|held| (held.point, held.axes)),
         );
         self.strains.push(Strain {
             deformation: start.deformation,
@@ -293,10 +297,14 @@ impl Deforming {
         let velocity = integrate::first_kick(before.velocity, rate, damping, dt);
         let half = integrate::first_kick(strain.rate, turning, damping, dt);
         let mut state = *before;
-        state.centre += velocity * dt;
-        state.velocity = velocity;
+        let flown = (
+            before.centre + velocity * dt,
+            strain.deformation + half * dt,
+        );
+        let (centre, deformation) = self.held.place(flown);
+        (state.centre, state.velocity) = (centre, velocity);
         *next = Strain {
-            deformation: strain.deformation + half * dt,
+            deformation,
             rate: half,
             ..*strain
         };

@@ -43,7 +43,15 @@ impl Blocks {
             let blocks = pair
                 .parts
                 .map(|part| self.parts.block[part as usize] as usize);
-            let inverse = blocks.map(|block| self.bodies[block].inverse_mass());
+            // What fixed points hold stays, too.
+            let inverse = blocks.map(|block| {
+                let body = &self.bodies[block];
+                let held = self
+                    .deforming
+                    .of(body)
+                    .is_some_and(|(one, _)| !one.held.is_empty());
+                if held { 0.0 } else { body.inverse_mass() }
+            });
             let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
             let Verdict::Contact(contact) = resolver.resolve(first, second, &mut pair.cache)?
             else {
@@ -58,6 +66,9 @@ impl Blocks {
                 second: self.label(blocks[1]),
                 depth: contact.overlap,
             });
+            if inverse == [0.0; 2] {
+                continue;
+            }
             // Half the allowed overlap stays, so that neighbours that touch keep touching.
             let way = contact.overlap - 0.5 * most;
             for (k, sign) in [(0, -1.0), (1, 1.0)] {

@@ -60,7 +60,10 @@ fn refusal(from: &str, to: &str) -> String {
 fn keys_become_deformable_blocks_and_loads() {
     let setup = setup(SCENE).unwrap();
     let elastic = setup.materials[0].elastic.unwrap();
-    assert_eq!((elastic.youngs_modulus, elastic.poissons_ratio), (2e10, 0.25));
+    assert_eq!(
+        (elastic.youngs_modulus, elastic.poissons_ratio),
+        (2e10, 0.25)
+    );
     assert_eq!(setup.materials[1].elastic, None);
     for bar in &setup.blocks[..2] {
         let deformable = bar.deformable.as_ref().unwrap();
@@ -83,30 +86,105 @@ fn keys_become_deformable_blocks_and_loads() {
     assert!(setup.blocks[2].deformable.is_none());
     assert_eq!(setup.blocks[2].point_loads.len(), 1);
     // Of the two blocks of the mass one is fixed, and rigid.
-    let mass: Vec<bool> = setup.blocks[3..].iter().map(|b| b.deformable.is_some()).collect();
-    assert_eq!(mass.iter().filter(|deforms| **deforms).count(), 1, "{mass:?}");
+    let mass: Vec<bool> = setup.blocks[3..]
+        .iter()
+        .map(|b| b.deformable.is_some())
+        .collect();
+    assert_eq!(
+        mass.iter().filter(|deforms| **deforms).count(),
+        1,
+        "{mass:?}"
+    );
     riprap::bodies::Blocks::new(setup).unwrap();
 }
 
 #[test]
 fn what_cannot_be_is_refused_at_its_key_with_a_remedy() {
     for (from, to, place, remedy) in [
-        ("youngs_modulus = 2e10", "", "blocks[0].deformable", "materials[0].youngs_modulus"),
-        ("youngs_modulus = 2e10", "youngs_modulus = -1", "materials[0].youngs_modulus", "greater than 0"),
-        ("youngs_modulus = 2e10", "youngs_modulus = 1\npoissons_ratio = 0.5", "materials[0].poissons_ratio", "0.25"),
-        ("radius = 0.5", "radius = 0.5\ndeformable = true", "blocks[1].deformable", "polyhedron"),
-        ("radius = 0.5", "radius = 0.5\nfixed_points = [{ point = [0, 0, 0] }]", "blocks[1].fixed_points", "deformable = true"),
-        ("radius = 0.5", "radius = 0.5\nmotion = \"fixed\"", "blocks[1].point_loads[0].force", "free"),
-        ("deformable = true", "deformable = true\nmotion = \"fixed\"", "blocks[0].deformable", "fixed_points"),
-        ("point = [0.5, 0.5, 4]", "point = [0.5, 0.5, 4.1]", "blocks[0].fixed_points[0].point", "own frame"),
-        ("point = [0.5, 0, 0]", "point = [0.6, 0, 0]", "blocks[1].point_loads[0].point", "own frame"),
-        ("axes = [\"z\", \"x\"]", "axes = []", "blocks[0].fixed_points[1].axes", "at least one"),
-        ("10*t", "10*x", "blocks[0].point_loads[0].force", "formula of t"),
+        (
+            "youngs_modulus = 2e10",
+            "",
+            "blocks[0].deformable",
+            "materials[0].youngs_modulus",
+        ),
+        (
+            "youngs_modulus = 2e10",
+            "youngs_modulus = -1",
+            "materials[0].youngs_modulus",
+            "greater than 0",
+        ),
+        (
+            "youngs_modulus = 2e10",
+            "youngs_modulus = 1\npoissons_ratio = 0.5",
+            "materials[0].poissons_ratio",
+            "0.25",
+        ),
+        (
+            "radius = 0.5",
+            "radius = 0.5\ndeformable = true",
+            "blocks[1].deformable",
+            "polyhedron",
+        ),
+        (
+            "radius = 0.5",
+            "radius = 0.5\nfixed_points = [{ point = [0, 0, 0] }]",
+            "blocks[1].fixed_points",
+            "deformable = true",
+        ),
+        (
+            "radius = 0.5",
+            "radius = 0.5\nmotion = \"fixed\"",
+            "blocks[1].point_loads[0].force",
+            "free",
+        ),
+        (
+            "deformable = true",
+            "deformable = true\nmotion = \"fixed\"",
+            "blocks[0].deformable",
+            "fixed_points",
+        ),
+        (
+            "point = [0.5, 0.5, 4]",
+            "point = [0.5, 0.5, 4.1]",
+            "blocks[0].fixed_points[0].point",
+            "own frame",
+        ),
+        (
+            "point = [0.5, 0, 0]",
+            "point = [0.6, 0, 0]",
+            "blocks[1].point_loads[0].point",
+            "own frame",
+        ),
+        (
+            "axes = [\"z\", \"x\"]",
+            "axes = []",
+            "blocks[0].fixed_points[1].axes",
+            "at least one",
+        ),
+        (
+            "10*t",
+            "10*x",
+            "blocks[0].point_loads[0].force",
+            "formula of t",
+        ),
         ("sin(t)", "sin(y)", "blocks[0].acceleration", "formula of t"),
-        ("deformable = true\nfixed =", "initial_stress = [1, 0, 0, 0, 0, 0]\nfixed =", "rock_masses[0].initial_stress", "deformable = true"),
-        ("deformable = true\nfixed =", "deformable = true\nmaterial = \"hard\"\nfixed =", "rock_masses[0].deformable", "materials[1].youngs_modulus"),
+        (
+            "deformable = true\nfixed =",
+            "initial_stress = [1, 0, 0, 0, 0, 0]\nfixed =",
+            "rock_masses[0].initial_stress",
+            "deformable = true",
+        ),
+        (
+            "deformable = true\nfixed =",
+            "deformable = true\nmaterial = \"hard\"\nfixed =",
+            "rock_masses[0].deformable",
+            "materials[1].youngs_modulus",
+        ),
     ] {
         let text = refusal(from, to);
-        assert!(text.contains(place) && text.contains(remedy), "{to}: {text}");
+        assert!(
+            text.contains(place) && text.contains(remedy),
+            "{to}: {text}"
+        );
     }
 }

@@ -18,6 +18,8 @@ const MEASURED: [&str; 6] = [
 ];
 /// What is measured of a block in a fluid as well.
 const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+/// What is measured of a block with fixed points as well: the force with which they hold it.
+const SUPPORT: &str = "support";
 /// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
 /// Mises stress, Pa, and the strain energy, J.
 const STRESSED: [&str; 8] = [
@@ -61,6 +63,9 @@ impl BlockProbe {
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
         }
+        if rock.blocks.support(block).is_some() {
+            measured.push(SUPPORT);
+        }
         let stressed = rock.blocks.stress(block).is_some();
         let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
         let mut columns: Vec<String> = measured.iter().flat_map(along).collect();
@@ -77,7 +82,7 @@ impl BlockProbe {
     }
 }
 
-/// The vectors of `MEASURED`, and of `IN_FLUID` where there is one.
+/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, and of `SUPPORT` where something holds it.
 fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
@@ -90,6 +95,7 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     if let Some(felt) = rock.felt.get(block) {
         all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
     }
+    all.extend(blocks.support(block));
     all
 }
 

@@ -27,7 +27,12 @@ pub(super) fn of_shapes(
         for part in body.shape.parts() {
             match &part.form {
                 Form::Convex(shape) => faces(shape, |area, centre, width| {
-                    sum.add(joint, HELD * area, part.offset + centre, width);
+                    let arm = part.offset + centre;
+                    let arm = match deforming.of(body) {
+                        None => arm,
+                        Some((one, _)) => DVec3::X * one.affine.lever(arm),
+                    };
+                    sum.add(joint, HELD * area, arm, width);
                 }),
                 // Six balls around it at an overlap of a tenth of the radius, where it would be refused:
                 // sections of π r²/10 each.
@@ -47,8 +52,9 @@ pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]
     stiffest(bodies, deforming, sums.iter().map(|sum| sum.stiffness))
 }
 
-/// Contacts on a block that deforms find at most the stiffness that its least second moment S has against
-/// them, k(1/m + Xᵀ S⁻¹ X) each; the eigenvalues of a sum are at most the sum of the largest.
+/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for, and by
+/// its width at most k w²/4 over the smallest second moment; the largest eigenvalue of a sum is at most the sum
+/// of the largest.
 fn stiffest(
     bodies: &[Body],
     deforming: &DeformingBlocks,

@@ -174,6 +174,15 @@ impl DeformingBlocks {
         (body.deforming != RIGID).then(|| &self.flown[body.deforming as usize].gradients)
     }
 
+    /// The arm with which a contact at `arm` (m from the centroid, world) counts for the longest step: as it is
+    /// for a rigid block, and for one that deforms its lever against the smallest second moment.
+    pub fn lever(&self, body: &Body, arm: DVec3) -> DVec3 {
+        match self.of(body) {
+            None => arm,
+            Some((one, strain)) => DVec3::X * one.affine.lever(strain.deformation.inverse() * arm),
+        }
+    }
+
     /// Speed of the fastest point of a block, m/s, or a bound of it.
     pub fn fastest(&self, body: &Body, state: &State) -> f64 {
         match self.of(body) {
@@ -230,6 +239,9 @@ impl DeformingBlocks {
 
     /// Takes over what the contacts do.
     pub fn pull(&mut self, bodies: &[Body], touches: &Touches, states: &[State]) {
+        if self.is_empty() {
+            return;
+        }
         for strain in &mut self.strains {
             strain.moment = DMat3::ZERO;
         }

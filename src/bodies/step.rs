@@ -264,6 +264,7 @@ impl Blocks {
         )?;
         sums::of_touches(
             &self.next_touches,
+            (&self.bodies, &self.deforming),
             &self.flights,
             &self.joints,
             &mut self.sums,

@@ -1,6 +1,6 @@
 //! What all contacts of a block do to it.
 
-use super::{body::Flight, narrow::Joints, touches::Touches};
+use super::{Body, body::Flight, deforming::DeformingBlocks, narrow::Joints, touches::Touches};
 use crate::law::Stiffness;
 use glam::DVec3;
 
@@ -18,6 +18,7 @@ pub(super) struct Sum {
 /// The sums of all blocks, in the order of the contacts.
 pub(super) fn of_touches(
     touches: &Touches,
+    (bodies, deforming): (&[Body], &DeformingBlocks),
     flights: &[Flight],
     joints: &Joints,
     sums: &mut Vec<Sum>,
@@ -33,6 +34,11 @@ pub(super) fn of_touches(
             let arm = touch.pressure_centre - flights[block].centre;
             sum.force += force;
             sum.torque += arm.cross(force) + moment;
+            // Among rigid blocks alone nobody looks into the bodies, which are far away in memory.
+            let arm = match deforming.is_empty() {
+                true => arm,
+                false => deforming.lever(&bodies[block], arm),
+            };
             sum.stiffness.add(joint, touch.area, arm, touch.width);
         }
     }

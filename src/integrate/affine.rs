@@ -128,6 +128,12 @@ impl Affine {
         self.smallest_moment
     }
 
+    /// The arm (m) at which a spring would have, against the smallest moment, the frequency that it has at
+    /// the point `x` (m, own frame): its square over that moment is xᵀ S⁻¹ x.
+    pub fn lever(&self, x: DVec3) -> f64 {
+        (self.smallest_moment * x.dot(self.inverse * x)).sqrt()
+    }
+
     /// M⁻¹ b of a row (c, F) of the unknowns: b₀/m and S⁻¹ b.
     pub(super) fn over_mass(&self, (centre, row): (f64, DVec3)) -> (f64, DVec3) {
         (centre / self.mass, self.inverse * row)

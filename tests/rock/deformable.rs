@@ -3,7 +3,9 @@
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
-    bodies::{Block, Blocks, Deformable, FixedPoint, Load, PointLoad, Setup, Snapshot, skew},
+    bodies::{
+        Block, Blocks, Deformable, FixedPoint, Load, PointLoad, Setup, Sleep, Snapshot, skew,
+    },
     law::Elastic,
 };
 
@@ -370,4 +372,27 @@ fn the_bits_depend_neither_on_threads_nor_on_where_a_run_was_cut() {
         block.deformable = None;
     }
     assert!(blocks(rigid).restore(&snapshot).is_err());
+}
+
+#[test]
+fn a_block_that_deforms_never_sleeps_and_its_rigid_neighbour_does() {
+    let list = vec![
+        floor(),
+        Block::new("rigid", cuboid(1.0, 1.0, 1.0), DVec3::new(-2.0, 0.0, 0.5)),
+        Block::new("soft", cuboid(1.0, 1.0, 1.0), DVec3::new(2.0, 0.0, 0.5)).deformable(),
+    ];
+    let mut setup = elastic(setup(list, joint(1e9, 30.0)), 1e9);
+    setup.damping = 500.0;
+    setup.sleep = Some(Sleep {
+        speed: 1e-4,
+        after: 0.01,
+        ..Sleep::default()
+    });
+    let mut blocks = blocks(setup);
+    run(&mut blocks, 0.1);
+    let asleep: Vec<bool> = blocks.asleep().collect();
+    assert_eq!(asleep, [false, true, false]);
+    let weight = blocks.mass(2) * G;
+    let bears = blocks.stress(2).expect("it deforms").z_axis.z;
+    assert!((bears / (-0.5 * weight) - 1.0).abs() < 1e-3, "{bears}");
 }

@@ -5,7 +5,7 @@ use crate::{
     block::{Form, Polyhedron},
     law::{Joint, Stiffness},
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Share of its surface over which a block is held, before its contacts are known. With all of it the
 /// step would be √2 too long, which the room between the usual and the largest step covers.
@@ -27,11 +27,9 @@ pub(super) fn of_shapes(
         for part in body.shape.parts() {
             match &part.form {
                 Form::Convex(shape) => faces(shape, |area, centre, width| {
-                    let arm = part.offset + centre;
-                    let arm = match deforming.of(body) {
-                        None => arm,
-                        Some((one, _)) => DVec3::X * one.affine.lever(arm),
-                    };
+                    let turned = deforming.of(body).map(|(_, strain)| strain.deformation);
+                    let arm = turned.unwrap_or(DMat3::IDENTITY) * (part.offset + centre);
+                    let (arm, width) = deforming.lever(body, arm, width);
                     sum.add(joint, HELD * area, arm, width);
                 }),
                 // Six balls around it at an overlap of a tenth of the radius, where it would be refused:
@@ -52,9 +50,8 @@ pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]
     stiffest(bodies, deforming, sums.iter().map(|sum| sum.stiffness))
 }
 
-/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for, and by
-/// its width at most k w²/4 over the smallest second moment; the largest eigenvalue of a sum is at most the sum
-/// of the largest.
+/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for; the
+/// largest eigenvalue of a sum is at most the sum of the largest.
 fn stiffest(
     bodies: &[Body],
     deforming: &DeformingBlocks,

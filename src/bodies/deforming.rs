@@ -9,7 +9,10 @@ use super::{
     outer,
     touches::Touches,
 };
-use crate::integrate::{self, Affine, Held, Pull, axial};
+use crate::{
+    block::Form,
+    integrate::{self, Affine, Held, Pull, axial},
+};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -23,6 +26,8 @@ pub(super) struct Deforming {
     pub block: usize,
     pub affine: Affine,
     pub held: Held,
+    /// Lever of its farthest vertex, m.
+    pub reach: f64,
 }
 
 /// What changes of one, between two steps.
@@ -146,10 +151,17 @@ impl DeformingBlocks {
         });
         self.next = self.strains.clone();
         self.flown.push(Flown::default());
+        let forms = block.shape.parts().iter().map(|part| &part.form);
+        let vertices = forms.flat_map(|form| match form {
+            Form::Convex(polyhedron) => polyhedron.vertices(),
+            Form::Sphere { .. } => &[],
+        });
+        let reach = vertices.map(|v| affine.lever(*v)).fold(0.0, f64::max);
         self.list.push(Deforming {
             block: index,
             affine,
             held,
+            reach,
         });
         self.list.len() as u32 - 1
     }
@@ -174,13 +186,15 @@ impl DeformingBlocks {
         (body.deforming != RIGID).then(|| &self.flown[body.deforming as usize].gradients)
     }
 
-    /// The arm with which a contact at `arm` (m from the centroid, world) counts for the longest step: as it is
-    /// for a rigid block, and for one that deforms its lever against the smallest second moment.
-    pub fn lever(&self, body: &Body, arm: DVec3) -> DVec3 {
-        match self.of(body) {
-            None => arm,
-            Some((one, strain)) => DVec3::X * one.affine.lever(strain.deformation.inverse() * arm),
-        }
+    /// Arm and width, m, with which a contact of `width` (m) at `arm` (m from the centroid, world) counts for
+    /// the longest step: as they are for a rigid block. One that deforms has its lever against the smallest
+    /// second moment, and no section of it reaches farther than its vertices.
+    pub fn lever(&self, body: &Body, arm: DVec3, width: f64) -> (DVec3, f64) {
+        let Some((one, strain)) = self.of(body) else {
+            return (arm, width);
+        };
+        let lever = one.affine.lever(strain.deformation.inverse() * arm);
+        (DVec3::X * lever.hypot(0.5 * width).min(one.reach), 0.0)
     }
 
     /// Speed of the fastest point of a block, m/s, or a bound of it.

@@ -35,11 +35,11 @@ pub(super) fn of_touches(
             sum.force += force;
             sum.torque += arm.cross(force) + moment;
             // Among rigid blocks alone nobody looks into the bodies, which are far away in memory.
-            let arm = match deforming.is_empty() {
-                true => arm,
-                false => deforming.lever(&bodies[block], arm),
+            let (arm, width) = match deforming.is_empty() {
+                true => (arm, touch.width),
+                false => deforming.lever(&bodies[block], arm, touch.width),
             };
-            sum.stiffness.add(joint, touch.area, arm, touch.width);
+            sum.stiffness.add(joint, touch.area, arm, width);
         }
     }
 }

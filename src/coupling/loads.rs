@@ -1,7 +1,10 @@
 //! From what the fluid did to the solid in its cells to the load on a block.
 
-use crate::{bodies::Load, formula::Formula};
-use glam::{DMat3, DVec3};
+use crate::{
+    bodies::{Load, outer},
+    formula::Formula,
+};
+use glam::DVec3;
 
 /// What acts on fluid and rock everywhere.
 ///
@@ -49,11 +52,6 @@ fn spread(force: DVec3, volume: f64, moment: DVec3) -> Load {
         moment: outer(force, moment),
         ..Load::default()
     }
-}
-
-/// a ⊗ b.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
 /// The sum of two loads on a block; the volumes are those of the first.

@@ -16,7 +16,8 @@ pub struct Probe {
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
-    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces, and no other fields.
+    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
+    /// its stress if it deforms, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.

@@ -11,7 +11,7 @@ mod lattice_setup;
 mod needs;
 mod wall_units;
 
-pub use block_fields::{block_polyhedra, contact_cloud};
+pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
 pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;

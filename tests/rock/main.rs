@@ -1,7 +1,10 @@
 //! Dry blocks against exact solutions.
 
+mod affine;
 mod continuity;
 mod corner;
+mod deformable;
+mod deformable_faults;
 mod faults;
 mod free_body;
 mod incline;

@@ -1,5 +1,6 @@
 //! From a scene to the blocks in it.
 
+mod deformable;
 mod masses;
 mod materials;
 mod meshes;

@@ -9,7 +9,7 @@ use super::super::{
 use super::Rock;
 use anyhow::Result;
 use glam::DVec3;
-use riprap::{Error, output::Csv, scene::Probe};
+use riprap::{Error, output::Csv, scene::Probe, simulation::voigt};
 use std::path::{Path, PathBuf};
 
 /// What is measured of every block, each along x, y and z.
@@ -18,6 +18,20 @@ const MEASURED: [&str; 6] = [
 ];
 /// What is measured of a block in a fluid as well.
 const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+/// What is measured of a block with fixed points as well: the force with which they hold it.
+const SUPPORT: &str = "support";
+/// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
+/// Mises stress, Pa, and the strain energy, J.
+const STRESSED: [&str; 8] = [
+    "stress_xx",
+    "stress_yy",
+    "stress_zz",
+    "stress_xy",
+    "stress_yz",
+    "stress_xz",
+    "von_mises",
+    "strain_energy",
+];
 
 pub struct BlockProbe {
     schedule: Schedule,
@@ -49,8 +63,15 @@ impl BlockProbe {
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
         }
+        if rock.blocks.support(block).is_some() {
+            measured.push(SUPPORT);
+        }
+        let stressed = rock.blocks.stress(block).is_some();
         let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
-        let columns: Vec<String> = measured.iter().flat_map(along).collect();
+        let mut columns: Vec<String> = measured.iter().flat_map(along).collect();
+        if stressed {
+            columns.extend(STRESSED.map(Into::into));
+        }
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
             schedule: Schedule::of(probe.every, engine.time_step(), last),
@@ -61,7 +82,7 @@ impl BlockProbe {
     }
 }
 
-/// The vectors of `MEASURED`, and of `IN_FLUID` where there is one.
+/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, and of `SUPPORT` where something holds it.
 fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
@@ -74,6 +95,18 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     if let Some(felt) = rock.felt.get(block) {
         all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
     }
+    all.extend(blocks.support(block));
+    all
+}
+
+/// The numbers of `STRESSED`; none of a rigid block.
+fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
+    let Some(stress) = rock.blocks.stress(block) else {
+        return Vec::new();
+    };
+    let mut all = voigt(stress).to_vec();
+    all.extend(rock.blocks.von_mises(block));
+    all.extend(rock.blocks.strain_energy(block));
     all
 }
 
@@ -85,7 +118,8 @@ impl<E: Engine> Recorder<E> for BlockProbe {
     fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
         if let Some(rock) = engine.rock() {
             let vectors = measure(&rock, self.block).into_iter();
-            let values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            let mut values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            values.extend(stressed(&rock, self.block));
             self.table.append(rock.step, rock.time, &values)?;
             notes.file(self.path.clone());
         }

@@ -71,8 +71,13 @@ impl Rock<'_> {
     pub fn counted(&self) -> String {
         let parts = self.setup.blocks[..self.shown].iter();
         let parts: usize = parts.map(|block| block.shape.parts().len()).sum();
+        let soft = (0..self.shown).filter(|&block| self.blocks.stress(block).is_some());
+        let soft = match soft.count() {
+            0 => String::new(),
+            count => format!("; {count} deformable"),
+        };
         format!(
-            "{}: {} free, {} driven, {} fixed; {parts} parts",
+            "{}: {} free, {} driven, {} fixed{soft}; {parts} parts",
             self.shown,
             self.count(|motion| *motion == Motion::Free),
             self.count(|motion| matches!(motion, Motion::Driven { .. })),

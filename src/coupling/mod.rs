@@ -6,6 +6,7 @@
 
 mod advice;
 mod coupled;
+mod faces;
 mod gaps;
 mod gathered;
 mod inner_fluid;

@@ -1,7 +1,9 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Frame, MOST_FACES, Motion, Part, Plan, WRENCH,
+    FACE_LOAD, FaceLoad, Frame, MOST_FACES, Motion, Part, Plan, WRENCH,
+    face_load::plane_faces,
+    face_sums::FaceSums,
     frame::{FARTHEST, finite},
     kernels::Kernels,
     outline::{outline, rows},
@@ -23,6 +25,8 @@ pub struct Submerged {
     pub shape: Arc<Shape>,
     /// Whether somebody wants to know what the fluid does to it.
     pub loaded: bool,
+    /// Whether somebody wants to know what it does to each of its faces.
+    pub faces: bool,
 }
 
 /// What was computed anew since the start.
@@ -58,6 +62,8 @@ pub struct Immersed {
     outlines: Vec<Vec<Outline>>,
     plan: Plan,
     kernels: Kernels,
+    /// None where nobody asks for faces.
+    face_sums: Option<FaceSums>,
     work: Work,
 }
 
@@ -100,7 +106,14 @@ impl Immersed {
             }
             first_part.push(first_face.len() as u32 - 1);
         }
+        let asked = |block: &usize| blocks[*block].faces;
+        let asked: Vec<usize> = (0..blocks.len()).filter(asked).collect();
+        let face_sums = match asked.is_empty() {
+            true => None,
+            false => Some(FaceSums::new(device, lattice, asked)?),
+        };
         Ok(Self {
+            face_sums,
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
@@ -192,6 +205,11 @@ impl Immersed {
             self.poses.clear();
             self.make_room(device, queue, lattice)?;
             self.upload_plan(queue);
+            if let Some(faces) = &mut self.face_sums {
+                let held = (&*lattice, &self.kernels);
+                let plan = (&self.plan, &self.first_part[..]);
+                faces.lay(device, queue, held, plan, &self.outlines)?;
+            }
             self.work.searches += 1;
         }
         self.poses = poses;
@@ -357,6 +375,54 @@ impl Immersed {
         Ok(self.number.iter().map(load).collect())
     }
 
+    /// Records the sums of what the fluid does to single faces, after [`Lattice::record_saturated`]; nothing where
+    /// nobody asks.
+    pub fn record_faces(&self, pass: &mut wgpu::ComputePass<'_>) {
+        if let Some(faces) = &self.face_sums {
+            faces.record(pass);
+        }
+    }
+
+    /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that ask: see [`Immersed::face_loads`]. None where
+    /// nobody asks; another buffer after [`Immersed::place`], if it had to grow.
+    pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
+        self.face_sums.as_ref().map(FaceSums::loads)
+    }
+
+    /// How many numbers of [`Immersed::face_sums`] hold sums.
+    pub fn face_sum_count(&self) -> usize {
+        self.face_sums.as_ref().map_or(0, FaceSums::count)
+    }
+
+    /// The loads on the faces of all blocks where they were placed last, from the numbers of
+    /// [`Immersed::face_sums`]; blocks that do not ask have none, nor have spheres. Pressures are those in the cells
+    /// beside a face, without what a body force adds on the way to it.
+    ///
+    /// # Errors
+    /// If there are too few numbers.
+    pub fn face_loads(&self, sums: &[f32]) -> Result<Vec<Vec<FaceLoad>>> {
+        let mut loads = vec![Vec::new(); self.blocks.len()];
+        let Some(faces) = &self.face_sums else {
+            return Ok(loads);
+        };
+        if sums.len() < faces.count() || self.poses.is_empty() {
+            let message = format!("{} numbers, not {}", sums.len(), faces.count());
+            return Err(Error::scene("face_sums", message));
+        }
+        let mut sums = sums.chunks_exact(FACE_LOAD);
+        for &block in &faces.asked {
+            let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
+            let parts = shape.parts().iter().enumerate();
+            let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
+            let load = |(face, sums)| FaceLoad::new(&self.frame, face, sums);
+            loads[block] = its.zip(&mut sums).map(load).collect();
+        }
+        let given = self.number.iter();
+        Ok(given
+            .map(|&place| std::mem::take(&mut loads[place]))
+            .collect())
+    }
+
     /// Bricks that blocks reach.
     pub fn bricks(&self) -> &[u32] {
         &self.plan.bricks
@@ -379,7 +445,8 @@ impl Immersed {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.kernels.bytes()
+        let faces = self.face_sums.as_ref().map_or(0, FaceSums::bytes);
+        self.kernels.bytes() + faces
     }
 
     /// Cells of the domain, and which of its axes are periodic.

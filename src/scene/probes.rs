@@ -73,6 +73,13 @@ pub enum ProbePlace {
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,
+        /// Whether to measure the loads of the fluid on each of its plane faces too, and what they mean for
+        /// its safety. Adds to the table of the block the factors of safety against sliding, uplift and
+        /// toppling, the force on faces that look down against gravity (N) and the mean pressure in its
+        /// joints (Pa); and writes `NAME_faces.csv`, a row a face, with area (m²), wetted area (m²), pressure
+        /// (Pa), force (N), shear stress (Pa), and whether it is a joint. Needs a fluid. Default false.
+        #[schemars(default)]
+        faces: bool,
     },
 }
 
@@ -104,6 +111,7 @@ struct Flat {
     max: Option<[f64; 3]>,
     normal: Option<Direction>,
     block: Option<String>,
+    faces: Option<bool>,
 }
 
 impl Flat {
@@ -119,6 +127,7 @@ impl Flat {
             ("max", self.max.is_some()),
             ("normal", self.normal.is_some()),
             ("block", self.block.is_some()),
+            ("faces", self.faces.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
         let place = match self.kind {
@@ -167,7 +176,7 @@ impl Flat {
                 }
             }
             Kind::Block => {
-                only("block", &["block"])?;
+                only("block", &["block", "faces"])?;
                 if self.fields.is_some() {
                     return Err(
                         "a `block` probe always gives position, velocity, rotation, spin, \
@@ -177,6 +186,7 @@ impl Flat {
                 }
                 ProbePlace::Block {
                     block: need(self.block, "block", "block")?,
+                    faces: self.faces.unwrap_or_default(),
                 }
             }
         };

@@ -172,6 +172,7 @@ impl Simulation {
         self.lattice
             .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
         coupled.record_loads(device, &mut encoder, self.lattice.step() + 1);
+        coupled.record_faces(device, &mut encoder, self.lattice.step() + 1);
         queue.submit([encoder.finish()]);
         let mut encoder = device.create_command_encoder(&Default::default());
         self.lattice

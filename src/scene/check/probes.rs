@@ -40,6 +40,11 @@ impl Scene {
                 point[axis.index()] = *position;
                 within("position", point)
             }
+            ProbePlace::Block { faces: true, .. } if !self.has_fluid() => refuse(
+                format!("{key}.faces"),
+                "there is no fluid in this scene that could load the faces of a block; remove `faces`, or \
+                 add [fluid]",
+            ),
             // Whether there is a block of that name, only the blocks themselves can tell.
             ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
             ProbePlace::Block { .. } => refuse(

@@ -105,7 +105,7 @@ fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
         }
     }
     for (index, probe) in scene.probes.iter().enumerate() {
-        if let ProbePlace::Block { block } = &probe.place
+        if let ProbePlace::Block { block, .. } = &probe.place
             && !names.contains(block.as_str())
         {
             let alike = |name: &&str| strsim::jaro_winkler(name, block);

@@ -96,7 +96,7 @@ impl Engine for Dry {
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
         let mut recorders: Recorders<Self> = Vec::new();
         for probe in &self.scene().probes {
-            let ProbePlace::Block { block } = &probe.place else {
+            let ProbePlace::Block { block, .. } = &probe.place else {
                 let message = "measures a fluid, and there is none";
                 return Err(Error::scene(format!("probes.{}", probe.name), message).into());
             };

@@ -173,7 +173,7 @@ impl Engine for Flow {
         let mut recorders: Recorders<Self> = vec![Box::new(Watch::new(self, last))];
         for probe in &scene.probes {
             recorders.push(match &probe.place {
-                ProbePlace::Block { block } => {
+                ProbePlace::Block { block, .. } => {
                     Box::new(BlockProbe::new(self, folder, last, (probe, block))?)
                 }
                 _ => Box::new(ProbeTable::new(self, folder, last, probe)?),

@@ -11,7 +11,7 @@ use crate::{
 /// Whether a probe of the scene follows the block called `name`, and whether one asks for its faces.
 pub(super) fn asked(scene: &Scene, name: &str) -> [bool; 2] {
     let of = |place: &ProbePlace| match place {
-        ProbePlace::Block { block, faces } if block == name => Some(*faces),
+        ProbePlace::Block { block, faces, .. } if block == name => Some(*faces),
         _ => None,
     };
     let probes = || scene.probes.iter().filter_map(|probe| of(&probe.place));

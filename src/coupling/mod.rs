@@ -10,6 +10,7 @@ mod faces;
 mod gaps;
 mod gathered;
 mod inner_fluid;
+mod joints;
 mod loads;
 mod near;
 mod reading;

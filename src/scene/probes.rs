@@ -73,13 +73,15 @@ pub enum ProbePlace {
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,
-        /// Whether to measure the loads of the fluid on each of its plane faces too, and what they mean for
-        /// its safety. Adds to the table of the block the factors of safety against sliding, uplift and
-        /// toppling, the force on faces that look down against gravity (N) and the mean pressure in its
-        /// joints (Pa); and writes `NAME_faces.csv`, a row a face, with area (m²), wetted area (m²), pressure
-        /// (Pa), force (N), shear stress (Pa), and whether it is a joint. Needs a fluid. Default false.
+        /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
+        /// row a face, and adds to the table of the block the force of the fluid on faces that look down,
+        /// against gravity (N), and the mean pressure in its joints (Pa). Needs a fluid. Default false.
         #[schemars(default)]
         faces: bool,
+        /// Whether to add its factors of safety to its table, and to the summary of the run: against sliding,
+        /// uplift and toppling, by limit equilibrium of weight, fluid and its contacts. Default false.
+        #[schemars(default)]
+        safety: bool,
     },
 }
 
@@ -112,6 +114,7 @@ struct Flat {
     normal: Option<Direction>,
     block: Option<String>,
     faces: Option<bool>,
+    safety: Option<bool>,
 }
 
 impl Flat {
@@ -128,6 +131,7 @@ impl Flat {
             ("normal", self.normal.is_some()),
             ("block", self.block.is_some()),
             ("faces", self.faces.is_some()),
+            ("safety", self.safety.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
         let place = match self.kind {
@@ -176,7 +180,7 @@ impl Flat {
                 }
             }
             Kind::Block => {
-                only("block", &["block", "faces"])?;
+                only("block", &["block", "faces", "safety"])?;
                 if self.fields.is_some() {
                     return Err(
                         "a `block` probe always gives position, velocity, rotation, spin, \
@@ -187,6 +191,7 @@ impl Flat {
                 ProbePlace::Block {
                     block: need(self.block, "block", "block")?,
                     faces: self.faces.unwrap_or_default(),
+                    safety: self.safety.unwrap_or_default(),
                 }
             }
         };

@@ -11,6 +11,7 @@ mod rebound;
 mod repeat;
 mod rest;
 mod rig;
+mod safety;
 mod sleep;
 mod toppling;
 mod wedge;

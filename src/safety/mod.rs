@@ -2,7 +2,8 @@
 //!
 //! A factor is what resists over what drives, from the weight W of the block, the force F of the fluid on it with its
 //! buoyancy and all pressure in joints and under its base, and the contacts that it has: it stands while all are
-//! above one. Where nothing drives, a factor is infinite; where there is no contact, none is known: NaN. Contacts
+//! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
+//! Where nothing drives, a factor is infinite; where there is no contact, none is known: NaN. Contacts
 //! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a
 //! block in motion the factors say what it would need to stand.
 //!
@@ -23,6 +24,7 @@ mod patch;
 mod sliding;
 mod standing;
 mod toppling;
+mod touching;
 mod uplift;
 
 pub use sliding::{Mode, Plane, Sliding, sliding};

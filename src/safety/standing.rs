@@ -1,11 +1,7 @@
 //! The safety of a block among its neighbours.
 
-use super::{Base, Plane, Sliding, patch::patch, sliding, toppling, uplift};
-use crate::{
-    block::Part,
-    bodies::{Blocks, ContactPoint, Pose, Setup},
-    contact::Placed,
-};
+use super::{Base, Plane, Sliding, sliding, toppling, touching::touching, uplift};
+use crate::bodies::{Blocks, Setup};
 use glam::DVec3;
 
 /// Cosine of the angle between the normals of contacts of one plane, 5°: contacts of plane faces differ by less.
@@ -67,53 +63,26 @@ impl Standing {
 
 /// The planes that a block touches.
 fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
-    let poses = blocks.poses();
     let mut supports: Vec<Support> = Vec::new();
-    for contact in blocks.contacts().filter(|c| c.blocks.contains(&block)) {
-        // The normal goes from the first block to the second.
-        let second = contact.blocks[1] == block;
-        let normal = if second {
-            contact.normal
-        } else {
-            -contact.normal
-        };
-        let joint = blocks.joint(contact.blocks);
-        let same = |support: &&mut Support| support.plane.normal.dot(normal) > SAME;
-        let support = match supports.iter_mut().find(same) {
-            Some(support) => support,
-            None => {
-                supports.push(Support::default());
-                let Some(last) = supports.last_mut() else {
-                    continue;
-                };
-                last
-            }
-        };
-        let Plane {
-            area, normal: mean, ..
-        } = support.plane;
-        let whole = area + contact.area;
-        support.friction += contact.area * joint.friction_angle.tan();
-        support.cohesion += contact.area * joint.cohesion;
+    for touch in touching(setup, blocks, block) {
+        let joint = blocks.joint([block, touch.other]);
+        let same = |support: &Support| support.plane.normal.dot(touch.normal) > SAME;
+        let known = supports.iter().position(same).unwrap_or_else(|| {
+            supports.push(Support::default());
+            supports.len() - 1
+        });
+        let support = &mut supports[known];
+        let (area, mean) = (support.plane.area, support.plane.normal);
+        let whole = area + touch.area;
+        support.friction += touch.area * joint.friction_angle.tan();
+        support.cohesion += touch.area * joint.cohesion;
         support.plane = Plane {
-            normal: (area * mean + contact.area * normal).normalize_or(normal),
+            normal: (area * mean + touch.area * touch.normal).normalize_or(touch.normal),
             area: whole,
             cohesion: support.cohesion / whole,
             friction_angle: (support.friction / whole).atan(),
         };
-        support.corners.extend(touched(setup, &poses, &contact));
+        support.corners.extend(touch.corners);
     }
     supports
-}
-
-/// Corners of the patch of a contact.
-fn touched(setup: &Setup, poses: &[Pose], contact: &ContactPoint) -> Vec<DVec3> {
-    let [a, b] = [0, 1].map(|side| {
-        let block = contact.blocks[side];
-        let before = &setup.blocks[..block];
-        let first: usize = before.iter().map(|block| block.shape.parts().len()).sum();
-        let part: &Part = &setup.blocks[block].shape.parts()[contact.parts[side] - first];
-        Placed::of(part, &poses[block])
-    });
-    patch(contact.point, contact.normal, [&a, &b])
 }

@@ -51,6 +51,25 @@ fn a_column_topples_over_its_edge() {
     assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
 }
 
+/// As it was put there, before a step of it: by the faces that lie on others.
+#[test]
+fn before_it_presses_it_stands_on_its_faces() {
+    for alpha in [10f64, 20.0] {
+        let setup = column(alpha);
+        let found = Standing::of(&setup, &blocks(setup.clone()), 1, [DVec3::ZERO; 2]);
+        let tan_alpha = alpha.to_radians().tan();
+        let tan_phi = 50f64.to_radians().tan();
+        assert!(
+            (found.sliding.factor * tan_alpha / tan_phi - 1.0).abs() < 1e-9,
+            "{found:?}"
+        );
+        assert!(
+            (found.toppling * tan_alpha / 0.5 - 1.0).abs() < 1e-3,
+            "{found:?}"
+        );
+    }
+}
+
 #[test]
 fn a_wedge_on_two_planes() {
     let planes = [[45.0, 105.0, 20.0], [70.0, 235.0, 30.0]];

@@ -269,6 +269,12 @@ fn a_block_tells_its_faces_and_how_safely_it_stands() {
         // The water is weightless and at rest.
         assert!(pressure[face].is_nan() == base && (base || pressure[face].abs() < 1e-3));
     }
+    let shown = read_with_vtk(&folder.join("out/faces.pvd"));
+    assert_eq!(shown["points"].as_array().unwrap().len(), 24);
+    for name in ["block", "pressure", "wetted", "shear"] {
+        let values = shown["arrays"][name].as_array().unwrap();
+        assert_eq!(values.len(), 6, "{name}");
+    }
 }
 
 /// Loads on a block that never moves are read when somebody asks, and do not depend on when others asked.

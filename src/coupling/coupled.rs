@@ -4,7 +4,7 @@ use super::{
     Ambient, Gap, Gathered, InnerFluid, Matter, Reading, faces::asked, gaps::gaps, loads::sum,
 };
 use crate::{
-    Result,
+    Error, Result,
     bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
     broadphase::AutoBroadphase,
     immersed::{FaceLoad, Frame, Immersed, Submerged, Work},
@@ -138,23 +138,39 @@ impl Coupled {
     /// Puts the blocks where they are and records their cells, unless that is done.
     ///
     /// # Errors
-    /// If the device does not hold the cells.
-    pub fn place(
+    /// If the device does not hold the cells: [`Error::Device`] where its memory ends, after which the simulation is
+    /// to be made anew.
+    pub async fn place(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<()> {
-        if !self.placed {
-            let poses = self.poses();
-            self.immersed
-                .place(device, queue, lattice, &poses[..self.in_fluid])?;
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.immersed.record_cells(&mut pass);
-            drop(pass);
-            self.placed = true;
+        if self.placed {
+            return Ok(());
         }
+        let poses = self.poses();
+        // What a buffer that is none is bound to is not valid either.
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let placed = self
+            .immersed
+            .place(device, queue, lattice, &poses[..self.in_fluid]);
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = validity.await.or(memory.await);
+        placed?;
+        if let Some(error) = refused {
+            return Err(Error::Device(format!(
+                "it does not hold the cells of {} blocks in the fluid ({error}); use fewer or smaller ones, or a \
+                 larger cell",
+                self.in_fluid
+            )));
+        }
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        self.immersed.record_cells(&mut pass);
+        drop(pass);
+        self.placed = true;
         Ok(())
     }
 

@@ -5,16 +5,20 @@ use crate::{
     block::{Form, Part},
     bodies::Pose,
     contact::Placed,
-    immersed::corners,
+    immersed::{area_of, corners},
 };
+use glam::DVec3;
 
 /// Cells within which another block over a face makes it a joint: with less fluid in it pressure is all that a face
 /// feels. The first height finds blocks that touch.
 const HEIGHTS: [f64; 4] = [0.25, 1.0, 2.0, 3.0];
+/// Share of a face over which the other block must lie: that on which a block stands is beside its other faces, and has
+/// their lower edges.
+const COVERED: f64 = 0.01;
 
 impl Coupled {
     /// Whether over each plane face of a block, part by part, there is another block, a solid or a wall of the domain
-    /// within three cells, over part of it at least.
+    /// within three cells, over a hundredth of it at least.
     pub fn joints(&self, block: usize) -> Vec<bool> {
         let poses = self.blocks().poses();
         let setup = &self.setup().setup.blocks;
@@ -42,10 +46,12 @@ fn faces_in_joints(part: &Part, pose: &Pose, others: &[Placed], cell: f64) -> Ve
     let own = Placed::of(part, pose);
     let in_joint = |(face, plane): (usize, &crate::block::HalfSpace)| {
         let polygon = corners(shape, face, part.offset, pose);
+        let area = |corners: &[DVec3]| area_of(corners).1.length();
+        let least = COVERED * area(&polygon);
         let covers = |other: &Placed| {
             HEIGHTS.iter().any(|height| {
                 let shifted = polygon.iter().map(|x| x + height * cell * plane.normal);
-                other.clipped(shifted.collect()).len() > 2
+                area(&other.clipped(shifted.collect())) > least
             })
         };
         others.iter().any(covers)
@@ -57,7 +63,7 @@ fn faces_in_joints(part: &Part, pose: &Pose, others: &[Placed], cell: f64) -> Ve
 mod tests {
     use super::*;
     use crate::block::Polyhedron;
-    use glam::{DQuat, DVec3};
+    use glam::DQuat;
 
     #[test]
     fn a_face_is_in_a_joint_where_another_block_is_near_over_it() {

@@ -11,9 +11,9 @@ use glam::DVec3;
 
 /// Gap within which two faces touch, as a share of the block's radius: the rounding of scenes.
 const CLOSED: f64 = 1e-4;
-/// Least area of a touch, as a share of the square of the block's radius: what two blocks share that only have an edge
-/// in common.
-const AREA: f64 = 1e-6;
+/// Least area of a touch, as a share of the square of the block's radius: faces beside that on which a block stands reach
+/// its ground with their edges, by the overlap of contacts.
+const AREA: f64 = 1e-3;
 
 /// A patch in which a block touches another one.
 #[derive(Clone, Debug)]

@@ -136,7 +136,10 @@ impl Simulation {
         let (device, queue) = (self.device.clone(), self.queue.clone());
         let mut encoder = device.create_command_encoder(&Default::default());
         if let Some(coupled) = &mut self.coupled {
-            coupled.place(&device, &queue, &mut self.lattice, &mut encoder)?;
+            let lattice = &mut self.lattice;
+            coupled
+                .place(&device, &queue, lattice, &mut encoder)
+                .await?;
         }
         loop {
             let next = self.step() + 1;

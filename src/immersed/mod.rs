@@ -15,6 +15,7 @@
 
 mod face_load;
 mod face_sums;
+mod felt;
 mod frame;
 #[expect(clippy::module_inception, reason = "the type that the module is about")]
 mod immersed;

@@ -74,12 +74,19 @@ pub enum ProbePlace {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,
         /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
-        /// row a face, and adds to the table of the block the force of the fluid on faces that look down,
-        /// against gravity (N), and the mean pressure in its joints (Pa). Needs a fluid. Default false.
+        /// row a face, with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure`
+        /// and `shear` stress (Pa), whether it is in a `joint` (another block, solid or wall within three cells
+        /// over it), `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
+        /// the block (N m), and the vector of the shear stress; and `faces_*.vtp`. Adds to the table of the
+        /// block `uplift_of_faces`, the force on faces that look down, against gravity (N), and
+        /// `joint_pressure`, the mean over its joints (Pa). Pressure is that of the fluid: above the
+        /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
+        /// beside. Needs a fluid. Default false.
         #[schemars(default)]
         faces: bool,
-        /// Whether to add its factors of safety to its table, and to the summary of the run: against sliding,
-        /// uplift and toppling, by limit equilibrium of weight, fluid and its contacts. Default false.
+        /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
+        /// `safety_toppling`, by limit equilibrium of weight, fluid and its contacts, and to tell them in the
+        /// summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. Default false.
         #[schemars(default)]
         safety: bool,
     },

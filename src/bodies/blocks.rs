@@ -19,7 +19,7 @@ use crate::{
     Error, Result,
     broadphase::{Broadphase, Item},
     contact::{Counts, Options},
-    law,
+    law::{self, Joint},
 };
 use glam::DVec3;
 
@@ -240,6 +240,17 @@ impl Blocks {
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> + '_ {
         let real = self.touches.iter().filter(|touch| touch.area > 0.0);
         real.map(ContactPoint::of)
+    }
+
+    /// The joint between two blocks, by their materials.
+    pub fn joint(&self, [a, b]: [usize; 2]) -> &Joint {
+        let material = |block: usize| self.bodies[block].material;
+        self.joints.of(material(a), material(b))
+    }
+
+    /// Gravity, m/s².
+    pub fn gravity(&self) -> DVec3 {
+        self.gravity
     }
 
     /// Energies since the start.

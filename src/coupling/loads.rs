@@ -26,13 +26,14 @@ pub struct Ambient {
 impl Ambient {
     /// Force and moment of the body force on what the block entrains: ρ b ΣB.
     pub fn push(&self, load: &Load, centre: DVec3) -> Load {
-        let place = centre.to_array();
+        spread(self.weight(centre), load.entrained, load.entrained_moment)
+    }
+
+    /// The body force on the fluid at a place, ρ b, N/m³.
+    pub fn weight(&self, place: DVec3) -> DVec3 {
+        let place = place.to_array();
         let b = [0, 1, 2].map(|k| self.acceleration[k].eval_at(place, 0.0));
-        spread(
-            self.density * DVec3::from_array(b),
-            load.entrained,
-            load.entrained_moment,
-        )
+        self.density * DVec3::from_array(b)
     }
 
     /// Buoyancy: −ρ g Σε.

@@ -14,6 +14,7 @@ mod rebound;
 mod repeat;
 mod rest;
 mod rig;
+mod safety;
 mod sleep;
 mod toppling;
 mod wedge;

@@ -27,7 +27,7 @@ pub(crate) use flow::Flow;
 pub(crate) use rock::Rock;
 
 pub use flow::Coupling;
-pub use rock::Rocks;
+pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 

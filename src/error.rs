@@ -81,6 +81,18 @@ pub enum Error {
         /// What to change.
         remedy: String,
     },
+    /// The water of particles left the range in which the method is stable.
+    #[error("diverged at step {step}: {}{cause}; {remedy}", particle.map_or_else(String::new, |id| format!("particle {id}: ")))]
+    ParticleLost {
+        /// Its number at the start, if it is one of them.
+        particle: Option<u32>,
+        /// Step of the water, from 0.
+        step: u64,
+        /// Likely cause.
+        cause: String,
+        /// What to change.
+        remedy: String,
+    },
     /// Two blocks overlap by more than hard blocks may.
     #[error(
         "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, which hard blocks may; {remedy}"

@@ -1,6 +1,7 @@
 //! Particles at the start: those of the water, and those inside what holds it.
 
 mod fill;
+mod gauges;
 mod kernel;
 mod shell;
 

@@ -154,7 +154,7 @@ fn particles_that_contradict_themselves_are_refused() {
         (
             "spacing = 0.05",
             "spacing = 0.2",
-            ["domain.size[1]", "at least 8"],
+            ["domain.size[1]", "at least 12"],
         ),
         (
             "spacing = 0.05",

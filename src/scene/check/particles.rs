@@ -83,7 +83,8 @@ impl Scene {
                 continue;
             }
             let count = size / spacing;
-            let fewest = 2 * particles.layers();
+            // Three cells of the device, each as wide as the kernel reaches.
+            let fewest = 3 * particles.layers();
             if (count - count.round()).abs() > WHOLE || count.round() < f64::from(fewest) {
                 return refuse(
                     key,

@@ -1,0 +1,11 @@
+// The clock where many write to it: the same fields as Clock.
+
+struct ClockShared {
+    step: f32,
+    limit: f32,
+    elapsed: f32,
+    left: f32,
+    steps: u32,
+    fault: atomic<u32>,
+    escaped: atomic<u32>,
+}

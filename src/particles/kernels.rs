@@ -1,0 +1,165 @@
+//! The kernels of a step and the memory that they share.
+
+use super::{
+    Clock, Grid, Home, Motion, Setup, program,
+    sorting::{Sorted, Sorting},
+};
+use crate::{
+    Result,
+    kernel::Kernel,
+    search::{WORKGROUP, at_most, storage},
+};
+
+/// Limits of which an invocation takes the least.
+const RUN: u32 = 64;
+/// Numbers of a load.
+pub(super) const NUMBERS: usize = 12;
+
+/// Numbers of particles and bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Numbers {
+    /// Particles of water, those that have left included.
+    pub water: u32,
+    /// Particles of shells.
+    pub shell: u32,
+    /// Of them those of bodies with loads, which come first.
+    pub loaded_shell: u32,
+    /// Bodies.
+    pub bodies: u32,
+    /// Bodies with loads, which come first.
+    pub loaded: u32,
+}
+
+/// All that is on the device.
+#[derive(Debug)]
+pub(super) struct Kernels {
+    numbers: Numbers,
+    sorting: Sorting,
+    pub water: Sorted,
+    pub shell: Sorted,
+    pub homes: wgpu::Buffer,
+    pub motions: wgpu::Buffer,
+    pub loads: wgpu::Buffer,
+    pub clock: wgpu::Buffer,
+    place: (Kernel, wgpu::BindGroup),
+    pressure: (Kernel, wgpu::BindGroup),
+    accelerate: (Kernel, wgpu::BindGroup),
+    force: (Kernel, wgpu::BindGroup),
+    load: (Kernel, wgpu::BindGroup),
+    drift: (Kernel, wgpu::BindGroup),
+    least: Kernel,
+    /// From many limits to one, with the number of those that come out.
+    leasts: Vec<(wgpu::BindGroup, u32)>,
+    tick: (Kernel, wgpu::BindGroup),
+}
+
+impl Kernels {
+    pub fn new(
+        device: &wgpu::Device,
+        setup: &Setup,
+        grid: &Grid,
+        numbers: Numbers,
+    ) -> Result<Self> {
+        let sorting = Sorting::new(device, setup, grid)?;
+        let water = sorting.of(device, grid, numbers.water)?;
+        let shell = sorting.of(device, grid, numbers.shell)?;
+        let buffer = |label, count: u32, one: usize| {
+            let bytes = u64::from(count.max(1)) * one as u64;
+            at_most(device, label, bytes)?;
+            Ok::<_, crate::Error>(storage(device, label, bytes))
+        };
+        let homes = buffer("homes of shells", numbers.shell, size_of::<Home>())?;
+        let motions = buffer("motions of bodies", numbers.bodies, size_of::<Motion>())?;
+        let forces = buffer("forces on shells", numbers.loaded_shell, 16)?;
+        let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
+        let fresh = buffer("velocities", numbers.water, 16)?;
+        let clock = buffer("clock", 1, size_of::<Clock>())?;
+        let constants = program::constants(setup, grid);
+        let kernel = |name: &str| {
+            let linked = program::program(setup, grid, name).link()?;
+            Kernel::new(device, &linked, name, &constants)
+        };
+        let buffers = [
+            ("particles", &water.sorted),
+            ("starts", &water.starts),
+            ("shell", &shell.sorted),
+            ("shell_starts", &shell.starts),
+            ("homes", &homes),
+            ("motions", &motions),
+            ("clock", &clock),
+            ("fresh", &fresh),
+            ("moved", &water.unsorted),
+            ("unsorted", &shell.unsorted),
+            ("forces", &forces),
+            ("loads", &loads),
+        ];
+        let bound = |name: &str| {
+            let kernel = kernel(name)?;
+            let bind = kernel.bind(device, &buffers)?;
+            Ok::<_, crate::Error>((kernel, bind))
+        };
+        let least = kernel("least")?;
+        let (mut limits, mut count, mut leasts) = (fresh.clone(), numbers.water.max(1), Vec::new());
+        while count > 1 {
+            count = count.div_ceil(RUN);
+            let fewer = buffer("limits of runs", count, 16)?;
+            let names = [("limits", &limits), ("run_limits", &fewer)];
+            leasts.push((least.bind(device, &names)?, count));
+            limits = fewer;
+        }
+        let tick = kernel("tick")?;
+        let tick_bound = tick.bind(device, &[("limits", &limits), ("clock", &clock)])?;
+        Ok(Self {
+            numbers,
+            place: bound("shell_place")?,
+            pressure: bound("shell_pressure")?,
+            accelerate: bound("accelerate")?,
+            force: bound("shell_force")?,
+            load: bound("body_load")?,
+            drift: bound("drift")?,
+            least,
+            leasts,
+            tick: (tick, tick_bound),
+            sorting,
+            water,
+            shell,
+            homes,
+            motions,
+            loads,
+            clock,
+        })
+    }
+
+    /// Records where the shells are.
+    pub fn record_shells(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let groups = self.numbers.shell.div_ceil(WORKGROUP);
+        self.place.0.record(&mut pass, &self.place.1, groups);
+        drop(pass);
+        self.sorting.record(encoder, &self.shell);
+    }
+
+    /// Records a step of the water, its shells in place.
+    pub fn record_step(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.sorting.record(encoder, &self.water);
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let water = self.numbers.water.div_ceil(WORKGROUP);
+        let shell = self.numbers.shell.div_ceil(WORKGROUP);
+        self.pressure.0.record(&mut pass, &self.pressure.1, shell);
+        self.accelerate
+            .0
+            .record(&mut pass, &self.accelerate.1, water);
+        if self.numbers.loaded > 0 {
+            self.force.0.record(&mut pass, &self.force.1, shell);
+            self.load
+                .0
+                .record(&mut pass, &self.load.1, self.numbers.loaded);
+        }
+        self.drift.0.record(&mut pass, &self.drift.1, water);
+        for (bind, count) in &self.leasts {
+            self.least
+                .record(&mut pass, bind, count.div_ceil(WORKGROUP));
+        }
+        self.tick.0.record(&mut pass, &self.tick.1, 1);
+    }
+}

@@ -1,0 +1,82 @@
+//! Which files and numbers make the kernels of particles.
+
+use super::{Grid, Setup, StateEquation};
+use crate::link::Program;
+use std::f64::consts::PI;
+
+/// Storage buffers of the kernel that has the most of them, `drift`.
+pub const MOST_BINDINGS: u32 = 7;
+
+/// The kernels of a step, each an entry point of the file of its name.
+pub const KERNELS: [&str; 11] = [
+    "sort_count",
+    "sort_list",
+    "sort_order",
+    "shell_place",
+    "shell_pressure",
+    "accelerate",
+    "shell_force",
+    "body_load",
+    "drift",
+    "least",
+    "tick",
+];
+
+/// The program of a kernel: slots that it does not have are passed over.
+pub fn program(setup: &Setup, grid: &Grid, kernel: &str) -> Program {
+    let periodic = grid.period.iter().any(|period| *period > 0);
+    Program::new(kernel)
+        .slot(
+            "runs",
+            if periodic {
+                "runs_periodic"
+            } else {
+                "runs_open"
+            },
+        )
+        .slot(
+            "state",
+            match setup.state {
+                StateEquation::Linear => "state_linear",
+                StateEquation::Tait => "state_tait",
+            },
+        )
+}
+
+/// The numbers that they take.
+pub fn constants(setup: &Setup, grid: &Grid) -> Vec<(&'static str, f64)> {
+    let h = setup.smoothing;
+    let scale = match setup.plane {
+        true => 7.0 / (4.0 * PI * h.powi(2)),
+        false => 21.0 / (16.0 * PI * h.powi(3)),
+    };
+    let gravity = grid.acceleration(setup.gravity);
+    let [from, to] = grid.kept;
+    vec![
+        ("EDGE_X", grid.edge[0].into()),
+        ("EDGE_Y", grid.edge[1].into()),
+        ("EDGE_Z", grid.edge[2].into()),
+        ("CELLS_X", grid.cells[0].into()),
+        ("CELLS_Y", grid.cells[1].into()),
+        ("CELLS_Z", grid.cells[2].into()),
+        ("PERIOD_X", grid.period[0].into()),
+        ("PERIOD_Y", grid.period[1].into()),
+        ("PERIOD_Z", grid.period[2].into()),
+        ("QUANTUM", 1.0 / grid.quanta),
+        ("SUPPORT_SQUARED", 4.0 * h * h),
+        ("SMOOTHING", h),
+        ("KERNEL_SCALE", scale),
+        ("GRAVITY_X", gravity.x),
+        ("GRAVITY_Y", gravity.y),
+        ("GRAVITY_Z", gravity.z),
+        ("ARTIFICIAL_VISCOSITY", setup.artificial_viscosity),
+        ("DENSITY_DIFFUSION", setup.density_diffusion),
+        ("COURANT", setup.courant),
+        ("KEPT_FROM_X", from[0].into()),
+        ("KEPT_FROM_Y", from[1].into()),
+        ("KEPT_FROM_Z", from[2].into()),
+        ("KEPT_TO_X", to[0].into()),
+        ("KEPT_TO_Y", to[1].into()),
+        ("KEPT_TO_Z", to[2].into()),
+    ]
+}

@@ -12,9 +12,9 @@ const LEAST_BITS: i32 = 10;
 const PLACE_BITS: i32 = 29;
 
 /// Cells and units. Lengths on the device are in spacings Δx, times in Δx/c₀, masses in those of a particle;
-/// places are whole numbers of quanta from the lower corner of the grid.
+/// places are whole numbers of quanta from the lower corner of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
+pub struct Frame {
     /// Lower corner, m.
     pub origin: DVec3,
     /// Quanta a spacing, a power of two.
@@ -33,8 +33,8 @@ pub struct Grid {
     unit_force: f64,
 }
 
-impl Grid {
-    /// The grid of a setup.
+impl Frame {
+    /// The frame of a setup.
     ///
     /// # Errors
     /// [`Error::Scene`] if a periodic axis is not a whole number of spacings or shorter than three cells, or if the
@@ -56,7 +56,7 @@ impl Grid {
         }
         let quanta = f64::from(1 << bits);
         let support = (2.0 * setup.smoothing * quanta).ceil() as i32;
-        let mut grid = Self {
+        let mut frame = Self {
             origin: setup.origin,
             quanta,
             cells: [1; 3],
@@ -71,35 +71,35 @@ impl Grid {
             let length = spacings[axis];
             if setup.plane && axis == 1 {
                 // All are in one plane, in the middle of the only cell.
-                grid.origin.y = setup.origin.y + 0.5 * (setup.size.y - setup.spacing);
+                frame.origin.y = setup.origin.y + 0.5 * (setup.size.y - setup.spacing);
                 continue;
             }
             match setup.faces[axis] {
                 [Side::Periodic, Side::Periodic] => {
-                    grid.repeat(axis, length, support)?;
+                    frame.repeat(axis, length, support)?;
                 }
                 [Side::Periodic, _] | [_, Side::Periodic] => {
                     let message = "a periodic face wants the opposite one to be periodic";
                     return Err(Error::scene("boundaries", message));
                 }
                 sides => {
-                    grid.origin[axis] = setup.origin[axis] - margin * setup.spacing;
+                    frame.origin[axis] = setup.origin[axis] - margin * setup.spacing;
                     let whole = ((length + 2.0 * margin) * quanta).ceil();
-                    grid.cells[axis] = (whole / f64::from(support)).ceil() as i32;
+                    frame.cells[axis] = (whole / f64::from(support)).ceil() as i32;
                     // What is a spacing deep in a wall has passed it.
                     let through = |side| if side == Side::Open { 0.0 } else { 1.0 };
-                    grid.kept[0][axis] = ((margin - through(sides[0])) * quanta).floor() as i32;
-                    grid.kept[1][axis] =
+                    frame.kept[0][axis] = ((margin - through(sides[0])) * quanta).floor() as i32;
+                    frame.kept[1][axis] =
                         ((margin + length + through(sides[1])) * quanta).ceil() as i32;
                 }
             }
         }
-        let cells = grid.cells.map(f64::from);
+        let cells = frame.cells.map(f64::from);
         if cells.iter().product::<f64>() >= f64::from(u32::MAX >> 2) {
-            let message = "the grid of the search has over a billion cells; use a larger spacing";
+            let message = "the frame of the search has over a billion cells; use a larger spacing";
             return Err(Error::scene("particles.spacing", message));
         }
-        Ok(grid)
+        Ok(frame)
     }
 
     /// Makes an axis of `length` spacings periodic.
@@ -160,7 +160,7 @@ impl Grid {
         self.origin + DVec3::from(place.map(f64::from)) / self.quanta * self.spacing
     }
 
-    /// Whether a place lies in the grid.
+    /// Whether a place lies in the frame.
     pub fn holds(&self, place: [i32; 3]) -> bool {
         (0..3).all(|axis| {
             let at = i64::from(place[axis]);

@@ -1,7 +1,7 @@
 //! The kernels of a step and the memory that they share.
 
 use super::{
-    Clock, Grid, Home, Motion, Setup, program,
+    Clock, Frame, Home, Motion, Setup, program,
     sorting::{Sorted, Sorting},
 };
 use crate::{
@@ -57,12 +57,12 @@ impl Kernels {
     pub fn new(
         device: &wgpu::Device,
         setup: &Setup,
-        grid: &Grid,
+        frame: &Frame,
         numbers: Numbers,
     ) -> Result<Self> {
-        let sorting = Sorting::new(device, setup, grid)?;
-        let water = sorting.of(device, grid, numbers.water)?;
-        let shell = sorting.of(device, grid, numbers.shell)?;
+        let sorting = Sorting::new(device, setup, frame)?;
+        let water = sorting.of(device, frame, numbers.water)?;
+        let shell = sorting.of(device, frame, numbers.shell)?;
         let buffer = |label, count: u32, one: usize| {
             let bytes = u64::from(count.max(1)) * one as u64;
             at_most(device, label, bytes)?;
@@ -74,9 +74,9 @@ impl Kernels {
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
         let clock = buffer("clock", 1, size_of::<Clock>())?;
-        let constants = program::constants(setup, grid);
+        let constants = program::constants(setup, frame);
         let kernel = |name: &str| {
-            let linked = program::program(setup, grid, name).link()?;
+            let linked = program::program(setup, frame, name).link()?;
             Kernel::new(device, &linked, name, &constants)
         };
         let buffers = [

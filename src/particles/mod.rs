@@ -11,6 +11,7 @@ mod crowd;
 mod facet;
 mod fill;
 mod frame;
+mod from_scene;
 mod gauges;
 mod kernel;
 mod kernels;
@@ -29,7 +30,8 @@ mod water;
 
 pub use cloud::cloud;
 pub use fill::{Start, fill};
-pub use frame::Grid;
+pub use frame::Frame;
+pub use from_scene::particle_setup;
 pub use gauges::Gauges;
 pub use kernel::Kernel;
 pub use kernels::Numbers;

@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Grid, Home, Motion, Numbers, Particle, Setup, Water,
+    Clock, Frame, Home, Motion, Numbers, Particle, Setup, Water,
     kernels::{Kernels, NUMBERS},
 };
 use crate::{
@@ -33,7 +33,7 @@ pub struct Exchange {
 #[derive(Debug)]
 pub struct Particles {
     setup: Setup,
-    grid: Grid,
+    frame: Frame,
     numbers: Numbers,
     /// Bodies in the order of the device, those with loads first, and the place of each in it.
     order: Vec<usize>,
@@ -65,7 +65,7 @@ impl Particles {
         velocities: &[DVec3],
         pressures: &[f64],
     ) -> Result<Self> {
-        let grid = Grid::new(&setup)?;
+        let frame = Frame::new(&setup)?;
         if positions.len() != velocities.len() || positions.len() != pressures.len() {
             let message = "there must be a velocity and a pressure for each particle";
             return Err(Error::scene("water", message));
@@ -85,7 +85,7 @@ impl Particles {
             number[body] = place;
             let shell = &setup.bodies[body].shell;
             homes.extend(shell.iter().map(|x| Home {
-                place: grid.length(*x).as_vec3().to_array(),
+                place: frame.length(*x).as_vec3().to_array(),
                 body: place as u32,
             }));
             first.push(too_many(homes.len())?);
@@ -100,12 +100,12 @@ impl Particles {
             bodies: order.len() as u32,
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
-        let kernels = Kernels::new(device, &setup, &grid, numbers)?;
+        let kernels = Kernels::new(device, &setup, &frame, numbers)?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {
-            let at = grid.place(*position);
+            let at = frame.place(*position);
             let (velocity, pressure) = (velocities[id], pressures[id]);
-            if !grid.holds(at) || !velocity.is_finite() || !pressure.is_finite() {
+            if !frame.holds(at) || !velocity.is_finite() || !pressure.is_finite() {
                 return Err(Error::scene(
                     "water",
                     format!(
@@ -117,7 +117,7 @@ impl Particles {
             particles.push(Particle {
                 at,
                 id: id as u32,
-                velocity: grid.velocity(velocity).as_vec3().to_array(),
+                velocity: frame.velocity(velocity).as_vec3().to_array(),
                 excess: setup.excess(pressure) as f32,
             });
         }
@@ -135,7 +135,7 @@ impl Particles {
         let fastest = velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
         Ok(Self {
             clock: Clock {
-                limit: first_limit(&setup, &grid, fastest),
+                limit: first_limit(&setup, &frame, fastest),
                 ..Clock::default()
             },
             before: Vec::new(),
@@ -145,7 +145,7 @@ impl Particles {
             readback: Readback::default(),
             steps: 0,
             setup,
-            grid,
+            frame,
             numbers,
             order,
             number,
@@ -156,7 +156,7 @@ impl Particles {
 
     /// The longest step (s) that the water allowed at last.
     pub fn limit(&self) -> f64 {
-        f64::from(self.clock.limit) * self.grid.unit_time()
+        f64::from(self.clock.limit) * self.frame.unit_time()
     }
 
     /// Lets the water run for `time` (s) beside bodies that are where `poses` has them and move on as they do, in as
@@ -212,24 +212,24 @@ impl Particles {
                     rate = (pose.velocity - *velocity) / self.lasted;
                     change = (pose.deformation_rate - *turning) * (1.0 / self.lasted);
                 }
-                let unit = self.grid.unit_time();
+                let unit = self.frame.unit_time();
                 Motion::of(
-                    self.grid.place(pose.centre),
+                    self.frame.place(pose.centre),
                     shell,
                     [
-                        self.grid.velocity(pose.velocity),
-                        self.grid.acceleration(rate),
+                        self.frame.velocity(pose.velocity),
+                        self.frame.acceleration(rate),
                     ],
                     [
                         pose.deformation,
-                        self.grid.rate(pose.deformation_rate),
+                        self.frame.rate(pose.deformation_rate),
                         change * (unit * unit),
                     ],
                 )
             })
             .collect();
         queue.write_buffer(&self.kernels.motions, 0, bytemuck::cast_slice(&motions));
-        let left = (time / self.grid.unit_time()) as f32;
+        let left = (time / self.frame.unit_time()) as f32;
         self.clock = Clock {
             step: left / (left / self.clock.limit).ceil().max(1.0),
             elapsed: 0.0,
@@ -276,7 +276,7 @@ impl Particles {
 
     /// Whether all particles are somewhere and time goes on.
     fn look(&self) -> Result<()> {
-        let shortest = SHORTEST * (self.setup.acoustic_step() / self.grid.unit_time()) as f32;
+        let shortest = SHORTEST * (self.setup.acoustic_step() / self.frame.unit_time()) as f32;
         let (cause, id) = match self.clock {
             Clock {
                 fault: 0, limit, ..
@@ -286,7 +286,7 @@ impl Particles {
             } => (
                 format!(
                     "water is so fast that a step would be {:.2e} s",
-                    f64::from(limit) * self.grid.unit_time()
+                    f64::from(limit) * self.frame.unit_time()
                 ),
                 None,
             ),
@@ -306,9 +306,9 @@ impl Particles {
     }
 
     fn exchange(&self, numbers: &[f32], time: f64) -> Exchange {
-        let unit = time / self.grid.unit_time();
+        let unit = time / self.frame.unit_time();
         let load = |&place: &usize| match numbers.get(place * NUMBERS..(place + 1) * NUMBERS) {
-            Some(numbers) => self.grid.load(numbers, unit),
+            Some(numbers) => self.frame.load(numbers, unit),
             None => Load::default(),
         };
         Exchange {
@@ -323,7 +323,7 @@ impl Particles {
     /// [`Error::DeviceLost`].
     pub async fn water(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Water> {
         let particles = self.particles(device, queue).await?;
-        Ok(Water::of(&self.setup, &self.grid, &particles))
+        Ok(Water::of(&self.setup, &self.frame, &particles))
     }
 
     /// The particles in the units and the order of the device, those that have left included.
@@ -351,6 +351,24 @@ impl Particles {
         }
     }
 
+    /// Whether particles are as many as these.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if not.
+    pub fn check(&self, particles: &[Particle]) -> Result<()> {
+        if particles.len() == self.numbers.water as usize {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "restart",
+            format!(
+                "the checkpoint has {} particles and the scene {}; restart with the scene that wrote it",
+                particles.len(),
+                self.numbers.water
+            ),
+        ))
+    }
+
     /// Goes back to a state of this water, to the same bits.
     ///
     /// # Errors
@@ -361,16 +379,7 @@ impl Particles {
         particles: &[Particle],
         state: &State,
     ) -> Result<()> {
-        if particles.len() != self.numbers.water as usize {
-            return Err(Error::scene(
-                "restart",
-                format!(
-                    "the checkpoint has {} particles and the scene {}; restart with the scene that wrote it",
-                    particles.len(),
-                    self.numbers.water
-                ),
-            ));
-        }
+        self.check(particles)?;
         let bytes = bytemuck::cast_slice(particles);
         queue.write_buffer(&self.kernels.water.unsorted, 0, bytes);
         self.clock = Clock {
@@ -391,8 +400,8 @@ impl Particles {
     }
 
     /// Cells and units.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
+    pub fn frame(&self) -> &Frame {
+        &self.frame
     }
 
     /// Numbers of particles and bodies.
@@ -428,9 +437,9 @@ pub struct State {
 
 /// The longest first step, of water that is pushed by gravity alone and moves at `fastest` (m/s), in units of the
 /// device.
-fn first_limit(setup: &Setup, grid: &Grid, fastest: f64) -> f32 {
+fn first_limit(setup: &Setup, frame: &Frame, fastest: f64) -> f32 {
     let h = setup.smoothing;
-    let by_force = (h / grid.acceleration(setup.gravity).length().max(1e-30)).sqrt();
+    let by_force = (h / frame.acceleration(setup.gravity).length().max(1e-30)).sqrt();
     let by_sound = h / (10.0 * fastest / setup.sound_speed).max(1.0);
     (setup.courant * by_force.min(by_sound)) as f32
 }

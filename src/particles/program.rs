@@ -1,6 +1,6 @@
 //! Which files and numbers make the kernels of particles.
 
-use super::{Grid, Setup, StateEquation};
+use super::{Frame, Setup, StateEquation};
 use crate::link::Program;
 use std::f64::consts::PI;
 
@@ -23,8 +23,8 @@ pub const KERNELS: [&str; 11] = [
 ];
 
 /// The program of a kernel: slots that it does not have are passed over.
-pub fn program(setup: &Setup, grid: &Grid, kernel: &str) -> Program {
-    let periodic = grid.period.iter().any(|period| *period > 0);
+pub fn program(setup: &Setup, frame: &Frame, kernel: &str) -> Program {
+    let periodic = frame.period.iter().any(|period| *period > 0);
     Program::new(kernel)
         .slot(
             "runs",
@@ -44,25 +44,25 @@ pub fn program(setup: &Setup, grid: &Grid, kernel: &str) -> Program {
 }
 
 /// The numbers that they take.
-pub fn constants(setup: &Setup, grid: &Grid) -> Vec<(&'static str, f64)> {
+pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
     let h = setup.smoothing;
     let scale = match setup.plane {
         true => 7.0 / (4.0 * PI * h.powi(2)),
         false => 21.0 / (16.0 * PI * h.powi(3)),
     };
-    let gravity = grid.acceleration(setup.gravity);
-    let [from, to] = grid.kept;
+    let gravity = frame.acceleration(setup.gravity);
+    let [from, to] = frame.kept;
     vec![
-        ("EDGE_X", grid.edge[0].into()),
-        ("EDGE_Y", grid.edge[1].into()),
-        ("EDGE_Z", grid.edge[2].into()),
-        ("CELLS_X", grid.cells[0].into()),
-        ("CELLS_Y", grid.cells[1].into()),
-        ("CELLS_Z", grid.cells[2].into()),
-        ("PERIOD_X", grid.period[0].into()),
-        ("PERIOD_Y", grid.period[1].into()),
-        ("PERIOD_Z", grid.period[2].into()),
-        ("QUANTUM", 1.0 / grid.quanta),
+        ("EDGE_X", frame.edge[0].into()),
+        ("EDGE_Y", frame.edge[1].into()),
+        ("EDGE_Z", frame.edge[2].into()),
+        ("CELLS_X", frame.cells[0].into()),
+        ("CELLS_Y", frame.cells[1].into()),
+        ("CELLS_Z", frame.cells[2].into()),
+        ("PERIOD_X", frame.period[0].into()),
+        ("PERIOD_Y", frame.period[1].into()),
+        ("PERIOD_Z", frame.period[2].into()),
+        ("QUANTUM", 1.0 / frame.quanta),
         ("SUPPORT_SQUARED", 4.0 * h * h),
         ("SMOOTHING", h),
         ("KERNEL_SCALE", scale),

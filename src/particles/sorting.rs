@@ -1,6 +1,6 @@
 //! Green (2010): particles sorted by the cells that they are in, by count, scan and scatter.
 
-use super::{Grid, Setup, layout::Particle, program};
+use super::{Frame, Setup, layout::Particle, program};
 use crate::{
     Result,
     kernel::Kernel,
@@ -35,10 +35,10 @@ impl Sorting {
     ///
     /// # Errors
     /// [`crate::Error::Limit`] if the device cannot run them.
-    pub fn new(device: &wgpu::Device, setup: &Setup, grid: &Grid) -> Result<Self> {
-        let constants = program::constants(setup, grid);
+    pub fn new(device: &wgpu::Device, setup: &Setup, frame: &Frame) -> Result<Self> {
+        let constants = program::constants(setup, frame);
         let kernel = |name| {
-            let linked = program::program(setup, grid, name).link()?;
+            let linked = program::program(setup, frame, name).link()?;
             Kernel::new(device, &linked, name, &constants)
         };
         Ok(Self {
@@ -53,10 +53,10 @@ impl Sorting {
     ///
     /// # Errors
     /// [`crate::Error::Limit`] if the device cannot bind them.
-    pub fn of(&self, device: &wgpu::Device, grid: &Grid, count: u32) -> Result<Sorted> {
+    pub fn of(&self, device: &wgpu::Device, frame: &Frame, count: u32) -> Result<Sorted> {
         let count = count.max(1);
         let bytes = u64::from(count) * size_of::<Particle>() as u64;
-        let cells = 4 * (grid.cell_count() + 2);
+        let cells = 4 * (frame.cell_count() + 2);
         at_most(device, "particles", bytes)?;
         at_most(device, "cells of particles", cells)?;
         let unsorted = storage(device, "particles as they come", bytes);

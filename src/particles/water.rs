@@ -1,6 +1,6 @@
 //! The state of the water as others see it, SI.
 
-use super::{Grid, Particle, Setup, StateEquation};
+use super::{Frame, Particle, Setup, StateEquation};
 use glam::{DVec3, Vec3};
 
 /// Particles of water that have not left, by their ids.
@@ -19,13 +19,13 @@ pub struct Water {
 }
 
 impl Water {
-    pub(super) fn of(setup: &Setup, grid: &Grid, particles: &[Particle]) -> Self {
+    pub(super) fn of(setup: &Setup, frame: &Frame, particles: &[Particle]) -> Self {
         let mut there: Vec<&Particle> = particles.iter().filter(|p| p.at[0] >= 0).collect();
         there.sort_unstable_by_key(|particle| particle.id);
         let mut water = Self::default();
         for particle in there {
             let excess = f64::from(particle.excess);
-            let mut position = grid.position(particle.at);
+            let mut position = frame.position(particle.at);
             if setup.plane {
                 position.y = setup.origin.y + 0.5 * setup.size.y;
             }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use riprap::{
     layout,
     particles::{
-        Clock, Grid, Home, KERNELS, Motion, Particle, Setup, Side, StateEquation, program,
+        Clock, Frame, Home, KERNELS, Motion, Particle, Setup, Side, StateEquation, program,
     },
 };
 use std::mem::offset_of;
@@ -18,9 +18,9 @@ fn all_variants_compile() {
             if periodic {
                 setup.faces[0] = [Side::Periodic; 2];
             }
-            let grid = Grid::new(&setup).unwrap();
+            let frame = Frame::new(&setup).unwrap();
             for kernel in KERNELS {
-                program(&setup, &grid, kernel).link().unwrap();
+                program(&setup, &frame, kernel).link().unwrap();
             }
         }
     }
@@ -29,8 +29,8 @@ fn all_variants_compile() {
 #[test]
 fn structures_lie_as_on_the_device() {
     let setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
-    let grid = Grid::new(&setup).unwrap();
-    let place = program(&setup, &grid, "shell_place").link().unwrap();
+    let frame = Frame::new(&setup).unwrap();
+    let place = program(&setup, &frame, "shell_place").link().unwrap();
     let particle = [
         ("at", offset_of!(Particle, at)),
         ("id", offset_of!(Particle, id)),
@@ -76,6 +76,6 @@ fn structures_lie_as_on_the_device() {
         ("escaped", offset_of!(Clock, escaped)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
-    let drift = program(&setup, &grid, "drift").link().unwrap();
+    let drift = program(&setup, &frame, "drift").link().unwrap();
     layout::check::<Clock>(&drift.module, "ClockShared", &clock).unwrap();
 }

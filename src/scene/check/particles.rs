@@ -3,8 +3,7 @@
 use super::rules::{finite, not_negative, positive, refuse};
 use crate::error::Result;
 use crate::scene::{
-    Axis, Boundary, Coupling, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity,
-    Scene,
+    Axis, Boundary, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity, Scene,
 };
 
 /// How far from whole the number of particles along a periodic edge may be: far above the rounding of a
@@ -132,7 +131,6 @@ impl Scene {
         let tables = [
             ("numerics", self.numerics != Numerics::default()),
             ("initial", self.initial != Initial::default()),
-            ("coupling", self.coupling != Coupling::default()),
             ("output.slices", !self.output.slices.is_empty()),
         ];
         for (key, given) in tables {

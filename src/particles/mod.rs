@@ -6,6 +6,7 @@
 //! particle beside them finds as much to sum as one in the middle of the water. From there on they are on the
 //! device ([`Particles`]).
 
+mod advise;
 mod cloud;
 mod crowd;
 mod facet;
@@ -28,6 +29,7 @@ mod sphere;
 mod totals;
 mod water;
 
+pub use advise::advise;
 pub use cloud::cloud;
 pub use fill::{Start, fill};
 pub use frame::Frame;

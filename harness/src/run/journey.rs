@@ -144,6 +144,9 @@ impl<E: Engine> Journey<E> {
 pub fn leaves_range(error: &Error) -> bool {
     matches!(
         error,
-        Error::Diverged { .. } | Error::DeepOverlap { .. } | Error::NotFinite { .. }
+        Error::Diverged { .. }
+            | Error::ParticleLost { .. }
+            | Error::DeepOverlap { .. }
+            | Error::NotFinite { .. }
     )
 }

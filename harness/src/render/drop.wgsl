@@ -32,18 +32,22 @@ fn drop_vertex(in: Dot, @builtin(vertex_index) index: u32) -> Disc {
         // At the eye: outside the picture.
         return Disc(vec4f(0.0, 0.0, 2.0, 1.0), vec2f(0.0), vec4f(0.0), vec4f(0.0));
     }
-    let s = middle + vec3f(corner * radius, 0.0);
+    // Wider by half a pixel, for the soft edge.
+    let wide = corner * (1.0 + 0.5 * middle.z / (view.eye.w * radius));
+    let s = middle + vec3f(wide * radius, 0.0);
     let clip = vec4f(s.x * view.right.w, s.y * view.up.w, near, s.z);
-    return Disc(clip, corner, vec4f(in.ball.xyz, radius), in.colour);
+    return Disc(clip, wide, vec4f(in.ball.xyz, radius), in.colour);
 }
 
 @fragment
 fn drop_fragment(in: Disc) -> Point {
-    let square = dot(in.across, in.across);
-    if (square > 1.0) {
+    let out = length(in.across);
+    // Soft within a pixel; opacity covers as many of its samples.
+    let covered = clamp((1.0 - out) / max(fwidth(out), 1e-6) + 0.5, 0.0, 1.0);
+    if (covered == 0.0) {
         discard;
     }
-    let towards = sqrt(1.0 - square);
+    let towards = sqrt(max(1.0 - out * out, 0.0));
     let normal = in.across.x * view.right.xyz + in.across.y * view.up.xyz - towards * view.forward.xyz;
     let p = in.ball.xyz + in.ball.w * normal;
     // All of the sky, without a look into its directions: a pixel of water is none to wait for.
@@ -52,5 +56,5 @@ fn drop_fragment(in: Disc) -> Point {
     let below = 0.5 - 0.5 * dot(normal, view.zenith.xyz);
     let light = view.weights.x * reached(0u, p, normal, 0) + sky * (1.0 - below) + view.zenith.w * below;
     let colour = linear_of_srgb(in.colour.rgb) * exposed(light);
-    return Point(vec4f(colour, 1.0), view.forward.w / seen(p).z);
+    return Point(vec4f(colour, covered), view.forward.w / seen(p).z);
 }

@@ -2,6 +2,7 @@
 
 use super::drawing::{Colours, check_finite};
 use super::scales::Scales;
+use crate::picture::Palette;
 use crate::picture::colour_bar::ColourBar;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -39,7 +40,11 @@ impl Drops {
     pub(super) fn bar(&self) -> anyhow::Result<ColourBar> {
         let Colours { label, unit, range } = &self.colours;
         let values = self.drops.iter().map(|drop| drop.value);
-        ColourBar::fitting(label, unit, *range, values, true)
+        let mut bar = ColourBar::fitting(label, unit, *range, values, true)?;
+        if bar.palette == Palette::Sequential {
+            bar.palette = Palette::FromBlue;
+        }
+        Ok(bar)
     }
 
     pub(super) fn check(&self) -> std::result::Result<(), String> {

@@ -110,7 +110,7 @@ enum Kind {
     /// Covers samples by its opacity.
     Plane,
     Stroke,
-    /// With a depth of its own at each pixel.
+    /// With a depth of its own at each pixel, covering samples by its opacity.
     Drop,
     Shadow,
 }
@@ -142,7 +142,7 @@ fn pipeline(
         write_mask: match kind {
             Kind::Depth => wgpu::ColorWrites::empty(),
             // Opacity counts the samples alone.
-            Kind::Plane => wgpu::ColorWrites::COLOR,
+            Kind::Plane | Kind::Drop => wgpu::ColorWrites::COLOR,
             _ => wgpu::ColorWrites::ALL,
         },
     };
@@ -181,7 +181,7 @@ fn pipeline(
         }),
         multisample: wgpu::MultisampleState {
             count: if kind == Kind::Shadow { 1 } else { SAMPLES },
-            alpha_to_coverage_enabled: kind == Kind::Plane,
+            alpha_to_coverage_enabled: matches!(kind, Kind::Plane | Kind::Drop),
             ..Default::default()
         },
         fragment: (kind != Kind::Shadow).then_some(wgpu::FragmentState {

@@ -9,6 +9,9 @@ use riprap::{
     scene::Field,
 };
 
+/// Radius of a ball of the volume of a particle, (3/4π)^⅓, of the spacing.
+const BALL: f64 = 0.62;
+
 impl Shown for Pond {
     fn blocks(&self) -> &[Block] {
         &self.simulation.setup().setup.blocks[..self.shown()]
@@ -44,7 +47,7 @@ impl Shown for Pond {
                 .zip(&water.velocities)
                 .map(drop)
                 .collect(),
-            radius: 0.5 * setup.spacing,
+            radius: BALL * setup.spacing,
             colours: Colours {
                 label: "speed".into(),
                 unit: "m/s".into(),

@@ -36,6 +36,7 @@ mod stability;
 mod turbulent_channel;
 mod wake;
 mod wale;
+mod water;
 
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
@@ -146,6 +147,12 @@ pub const CASES: &[Case] = &[
     short("rock/arch", rock_rest::arch),
     short("rock/contact-sign", rock_contact::sign),
     short("rock/broadphase", rock_broadphase::run),
+    short("water/still", water::still::run),
+    short("water/submerged", water::buoyancy::submerged),
+    short("water/floating", water::buoyancy::floating),
+    short("water/standing-wave", water::wave::run),
+    short("water/dam-break", water::dam::run),
+    short("water/wave-maker", water::maker::run),
 ];
 
 /// The cases whose names match.

@@ -2,8 +2,11 @@
 
 use super::Setup;
 use crate::{
+    Result,
     block::Form,
-    bodies::Motion,
+    bodies::{Blocks, Motion},
+    broadphase::HostBroadphase,
+    coupling::{Gap, gaps},
     scene::{Advice, Scene, Warning},
     simulation::BlockSetup,
 };
@@ -14,8 +17,17 @@ use glam::DVec3;
 const FEW: f64 = 10.0;
 
 /// What may disappoint in the water of `scene`, which `setup` computes: its particles are at `positions` (m) at the
-/// start, beside the blocks of `blocks`.
-pub fn advise(scene: &Scene, blocks: &BlockSetup, setup: &Setup, positions: &[DVec3]) -> Advice {
+/// start, beside the blocks of `blocks`, which are as `state` says.
+///
+/// # Errors
+/// None that is known of: blocks that stand do so in finite places.
+pub async fn advise(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    state: &Blocks,
+    setup: &Setup,
+    positions: &[DVec3],
+) -> Result<Advice> {
     let mut advice = Advice::new();
     let mut warn = |place: String, message: String| advice.push(Warning { place, message });
     let spacing = setup.spacing;
@@ -67,5 +79,24 @@ pub fn advise(scene: &Scene, blocks: &BlockSetup, setup: &Setup, positions: &[DV
             ),
         );
     }
-    advice
+    let mut finder = HostBroadphase;
+    let width = 2.0 * spacing;
+    let mut narrow = gaps(&blocks.setup, state, blocks.in_fluid, width, &mut finder).await?;
+    narrow.retain(|gap| !gap.is_closed(spacing));
+    let least = |a: &&Gap, b: &&Gap| a.width.total_cmp(&b.width);
+    if let Some(narrowest) = narrow.iter().min_by(least) {
+        let [first, second] = narrowest
+            .blocks
+            .map(|block| blocks.setup.blocks[block].name.as_str());
+        warn(
+            "particles.spacing".into(),
+            format!(
+                "{} gaps between blocks are narrower than two spacings, the narrowest of {:.2e} m between `{first}` and \
+                 `{second}`: no water goes in; close them, or use a smaller spacing",
+                narrow.len(),
+                narrowest.width
+            ),
+        );
+    }
+    Ok(advice)
 }

@@ -1,5 +1,6 @@
 //! Particles at the start: those of the water, and those inside what holds it.
 
+mod advice;
 mod fill;
 mod gauges;
 mod kernel;

@@ -82,7 +82,14 @@ impl Pond {
         let water = pond.water()?;
         let simulation = &pond.simulation;
         let setup = simulation.particles().setup();
-        let advice = particles::advise(scene, simulation.setup(), setup, &water.positions);
+        let advice = particles::advise(
+            scene,
+            simulation.setup(),
+            simulation.blocks(),
+            setup,
+            &water.positions,
+        );
+        let advice = gpu::drive(&pond.device, PATIENCE, "looking for gaps", advice)??;
         pond.warnings = advice.iter().map(ToString::to_string).collect();
         Ok(pond)
     }

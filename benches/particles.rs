@@ -13,7 +13,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DMat3, DVec3};
 use riprap::{
     bodies::Pose,
-    particles::{Body, Particles, Setup, Side},
+    particles::{Body, Neighbours, Particles, Setup, Side},
     wgpu,
 };
 use std::time::{Duration, Instant};
@@ -65,7 +65,10 @@ fn bench(
 ) -> Result<String, riprap::Error> {
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
-    let (setup, positions) = tank(edge);
+    let (mut setup, positions) = tank(edge);
+    if software {
+        setup.neighbours = Neighbours::Lists;
+    }
     let pressures: Vec<f64> = positions
         .iter()
         .map(|x| setup.density * 9.81 * (setup.size.z - x.z))
@@ -99,7 +102,8 @@ fn bench(
                 for _ in 0..iterations {
                     let (cpu, wall) = (ProcessTime::now(), Instant::now());
                     let time = particles.limit() * f64::from(STEPS) * 0.999;
-                    let done = particles.advance(&device, &queue, &[pose], time);
+                    let poses = [pose];
+                    let done = particles.advance(&device, &queue, &poses, time);
                     let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
                     let steps = match done {
                         Ok(Ok(done)) => f64::from(done.steps),

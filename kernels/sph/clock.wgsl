@@ -15,4 +15,8 @@ struct Clock {
     fault: u32,
     // Particles that have left since the start.
     escaped: u32,
+    // The longest list of neighbours that had no room; 0 if all had.
+    crowd: u32,
+    // The step that waits for room.
+    held: f32,
 }

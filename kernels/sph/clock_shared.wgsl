@@ -8,4 +8,6 @@ struct ClockShared {
     steps: u32,
     fault: atomic<u32>,
     escaped: atomic<u32>,
+    crowd: atomic<u32>,
+    held: f32,
 }

@@ -1,5 +1,5 @@
-// Particles in a grid of cells as wide as the support of the kernel function. Lengths are in particle spacings,
-// times in those that sound takes for one, masses in those of a particle. Positions are whole numbers of quanta from
+// Particles in a grid of cells half as wide as the support of the kernel function: those that a particle feels are in
+// its cell and two around it. Lengths are in particle spacings, times in those that sound takes for one, masses in those of a particle. Positions are whole numbers of quanta from
 // the lower corner of the grid: their differences are exact anywhere, and a cell is one division away.
 
 struct Particle {

@@ -1,15 +1,15 @@
 // The cells around one, by rows along x; nothing is periodic.
 // needs particle_grid
 
-const RUNS = 9;
+const RUNS = 25;
 
 // Row n of the cells around `home`: from .x to before .y.
 fn run(home: vec3<i32>, n: i32) -> vec2<u32> {
-    let y = home.y + n % 3 - 1;
-    let z = home.z + n / 3 - 1;
+    let y = home.y + n % 5 - 2;
+    let z = home.z + n / 5 - 2;
     let inside = y >= 0 && y < CELLS_Y && z >= 0 && z < CELLS_Z;
     let row = (z * CELLS_Y + y) * CELLS_X;
-    let cells = vec2(row + max(home.x - 1, 0), row + min(home.x + 2, CELLS_X));
+    let cells = vec2(row + max(home.x - 2, 0), row + min(home.x + 3, CELLS_X));
     return vec2<u32>(select(vec2(0), cells, inside));
 }
 

@@ -1,4 +1,4 @@
-// The cells around one, by rows along x; axes with a period go on at their other end. There are at least three cells
+// The cells around one, by rows along x; axes with a period go on at their other end. There are at least five cells
 // in a period, so that no cell is met twice.
 // needs particle_grid
 
@@ -7,23 +7,25 @@ override PERIOD_X: i32 = 0;
 override PERIOD_Y: i32 = 0;
 override PERIOD_Z: i32 = 0;
 
-// Nine rows, and what is left of each beyond an end of x.
-const RUNS = 18;
+// Rows, and what is left of each beyond an end of x.
+const ROWS = 25;
+const RUNS = 50;
 
 // Run n of the cells around `home`: from .x to before .y.
 fn run(home: vec3<i32>, n: i32) -> vec2<u32> {
-    let row_of = n % 9;
-    var y = home.y + row_of % 3 - 1;
-    var z = home.z + row_of / 3 - 1;
+    let row_of = n % ROWS;
+    var y = home.y + row_of % 5 - 2;
+    var z = home.z + row_of / 5 - 2;
     y = select(y, (y + CELLS_Y) % CELLS_Y, PERIOD_Y > 0);
     z = select(z, (z + CELLS_Z) % CELLS_Z, PERIOD_Z > 0);
     let inside = y >= 0 && y < CELLS_Y && z >= 0 && z < CELLS_Z;
-    var cells = vec2(max(home.x - 1, 0), min(home.x + 2, CELLS_X));
-    if (n >= 9) {
-        // The neighbour beyond the end, if there is one.
-        let before = select(0, CELLS_X, home.x == 0);
-        let after = select(before, 1, home.x == CELLS_X - 1);
-        cells = select(vec2(0), vec2(after - 1, after), PERIOD_X > 0 && after > 0);
+    let reach = vec2(home.x - 2, home.x + 3);
+    var cells = clamp(reach, vec2(0), vec2(CELLS_X));
+    if (n >= ROWS) {
+        // What is beyond the lower end is at the upper one, and the other way round.
+        let below = vec2(CELLS_X + min(reach.x, 0), CELLS_X);
+        let above = vec2(0, max(reach.y - CELLS_X, 0));
+        cells = select(vec2(0), select(above, below, reach.x < 0), PERIOD_X > 0);
     }
     let row = (z * CELLS_Y + y) * CELLS_X;
     return vec2<u32>(select(vec2(0), row + cells, inside));

@@ -11,6 +11,9 @@ const LEAST_BITS: i32 = 10;
 /// Bits of a place, so that differences of two and a period more do not overflow.
 const PLACE_BITS: i32 = 29;
 
+/// Cells of a period at least, so that no cell is met twice.
+const LEAST_CELLS: i32 = 5;
+
 /// Cells and units. Lengths on the device are in spacings Δx, times in Δx/c₀, masses in those of a particle;
 /// places are whole numbers of quanta from the lower corner of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +40,7 @@ impl Frame {
     /// The frame of a setup.
     ///
     /// # Errors
-    /// [`Error::Scene`] if a periodic axis is not a whole number of spacings or shorter than three cells, or if the
+    /// [`Error::Scene`] if a periodic axis is not a whole number of spacings or shorter than five cells, or if the
     /// domain has too many spacings.
     pub fn new(setup: &Setup) -> Result<Self> {
         setup.check()?;
@@ -55,12 +58,13 @@ impl Frame {
             ));
         }
         let quanta = f64::from(1 << bits);
-        let support = (2.0 * setup.smoothing * quanta).ceil() as i32;
+        // Half the support: neighbours are in this cell and two around it.
+        let half = (setup.smoothing * quanta).ceil() as i32;
         let mut frame = Self {
             origin: setup.origin,
             quanta,
             cells: [1; 3],
-            edge: [support; 3],
+            edge: [half; 3],
             period: [0; 3],
             kept: [[i32::MIN; 3], [i32::MAX; 3]],
             spacing: setup.spacing,
@@ -76,7 +80,7 @@ impl Frame {
             }
             match setup.faces[axis] {
                 [Side::Periodic, Side::Periodic] => {
-                    frame.repeat(axis, length, support)?;
+                    frame.repeat(axis, length, half)?;
                 }
                 [Side::Periodic, _] | [_, Side::Periodic] => {
                     let message = "a periodic face wants the opposite one to be periodic";
@@ -85,7 +89,7 @@ impl Frame {
                 sides => {
                     frame.origin[axis] = setup.origin[axis] - margin * setup.spacing;
                     let whole = ((length + 2.0 * margin) * quanta).ceil();
-                    frame.cells[axis] = (whole / f64::from(support)).ceil() as i32;
+                    frame.cells[axis] = (whole / f64::from(half)).ceil() as i32;
                     // What is a spacing deep in a wall has passed it.
                     let through = |side| if side == Side::Open { 0.0 } else { 1.0 };
                     frame.kept[0][axis] = ((margin - through(sides[0])) * quanta).floor() as i32;
@@ -103,7 +107,7 @@ impl Frame {
     }
 
     /// Makes an axis of `length` spacings periodic.
-    fn repeat(&mut self, axis: usize, length: f64, support: i32) -> Result<()> {
+    fn repeat(&mut self, axis: usize, length: f64, half: i32) -> Result<()> {
         let name = ["x", "y", "z"][axis];
         let whole = length.round();
         if (length - whole).abs() > 1e-6 * whole {
@@ -118,10 +122,10 @@ impl Frame {
         // The last cell may be a little shorter than the others.
         let fits = |cells: i32| {
             let edge = (f64::from(period) / f64::from(cells)).ceil() as i32;
-            (edge >= support && period - edge * (cells - 1) >= support).then_some(edge)
+            (edge >= half && period - edge * (cells - 1) >= half).then_some(edge)
         };
-        let most = period / support;
-        let found = (3..=most)
+        let most = period / half;
+        let found = (LEAST_CELLS..=most)
             .rev()
             .find_map(|cells| Some((cells, fits(cells)?)));
         let Some((cells, edge)) = found else {
@@ -130,7 +134,7 @@ impl Frame {
                 format!(
                     "{name} is periodic and {whole} spacings long, and a particle must not meet another one twice; \
                      make it at least {} spacings, or use particles.plane",
-                    (3.0 * f64::from(support) / self.quanta).ceil()
+                    (f64::from(LEAST_CELLS * half) / self.quanta).ceil()
                 ),
             ));
         };

@@ -1,6 +1,6 @@
 //! From a scene to its water.
 
-use super::{Body, Setup, Side, Start, StateEquation, fill, shells};
+use super::{Body, Neighbours, Setup, Side, Start, StateEquation, fill, shells};
 use crate::{
     Error, Result,
     bodies::{Block, Motion},
@@ -65,6 +65,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
             scene::EquationOfState::Tait => StateEquation::Tait,
         },
         plane: particles.plane,
+        neighbours: Neighbours::Cells,
         bodies: bodies.collect(),
     };
     Ok((setup, start))

@@ -1,7 +1,9 @@
 //! The kernels of a step and the memory that they share.
 
 use super::{
-    Clock, Frame, Home, Motion, Setup, program,
+    Clock, Frame, Home, Motion, Setup,
+    near::{Near, usual_room},
+    program,
     sorting::{Sorted, Sorting},
 };
 use crate::{
@@ -43,10 +45,10 @@ pub(super) struct Kernels {
     pub clock: wgpu::Buffer,
     place: (Kernel, wgpu::BindGroup),
     pressure: (Kernel, wgpu::BindGroup),
-    accelerate: (Kernel, wgpu::BindGroup),
+    near: Near,
+    fresh: wgpu::Buffer,
     force: (Kernel, wgpu::BindGroup),
     load: (Kernel, wgpu::BindGroup),
-    drift: (Kernel, wgpu::BindGroup),
     least: Kernel,
     /// From many limits to one, with the number of those that come out.
     leasts: Vec<(wgpu::BindGroup, u32)>,
@@ -56,6 +58,7 @@ pub(super) struct Kernels {
 impl Kernels {
     pub fn new(
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         setup: &Setup,
         frame: &Frame,
         numbers: Numbers,
@@ -98,6 +101,8 @@ impl Kernels {
             let bind = kernel.bind(device, &buffers)?;
             Ok::<_, crate::Error>((kernel, bind))
         };
+        let room = usual_room(setup);
+        let near = Near::new(device, queue, (setup, frame), numbers.water, room, &buffers)?;
         let least = kernel("least")?;
         let (mut limits, mut count, mut leasts) = (fresh.clone(), numbers.water.max(1), Vec::new());
         while count > 1 {
@@ -113,10 +118,10 @@ impl Kernels {
             numbers,
             place: bound("shell_place")?,
             pressure: bound("shell_pressure")?,
-            accelerate: bound("accelerate")?,
             force: bound("shell_force")?,
             load: bound("body_load")?,
-            drift: bound("drift")?,
+            near,
+            fresh,
             least,
             leasts,
             tick: (tick, tick_bound),
@@ -128,6 +133,28 @@ impl Kernels {
             loads,
             clock,
         })
+    }
+
+    /// Makes the lists of neighbours longer.
+    pub fn grow(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        (setup, frame): (&Setup, &Frame),
+        capacity: u32,
+    ) -> Result<()> {
+        let buffers = [
+            ("particles", &self.water.sorted),
+            ("starts", &self.water.starts),
+            ("shell", &self.shell.sorted),
+            ("shell_starts", &self.shell.starts),
+            ("clock", &self.clock),
+            ("fresh", &self.fresh),
+            ("moved", &self.water.unsorted),
+        ];
+        let count = self.numbers.water;
+        self.near = Near::new(device, queue, (setup, frame), count, capacity, &buffers)?;
+        Ok(())
     }
 
     /// Records where the shells are.
@@ -143,19 +170,16 @@ impl Kernels {
     pub fn record_step(&self, encoder: &mut wgpu::CommandEncoder) {
         self.sorting.record(encoder, &self.water);
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        let water = self.numbers.water.div_ceil(WORKGROUP);
         let shell = self.numbers.shell.div_ceil(WORKGROUP);
         self.pressure.0.record(&mut pass, &self.pressure.1, shell);
-        self.accelerate
-            .0
-            .record(&mut pass, &self.accelerate.1, water);
+        self.near.record_accelerate(&mut pass);
         if self.numbers.loaded > 0 {
             self.force.0.record(&mut pass, &self.force.1, shell);
             self.load
                 .0
                 .record(&mut pass, &self.load.1, self.numbers.loaded);
         }
-        self.drift.0.record(&mut pass, &self.drift.1, water);
+        self.near.record_drift(&mut pass);
         for (bind, count) in &self.leasts {
             self.least
                 .record(&mut pass, bind, count.div_ceil(WORKGROUP));

@@ -95,4 +95,8 @@ pub struct Clock {
     pub fault: u32,
     /// Particles that have left since the start.
     pub escaped: u32,
+    /// The longest list of neighbours that had no room; 0 if all had.
+    pub crowd: u32,
+    /// The step that waits for room.
+    pub held: f32,
 }

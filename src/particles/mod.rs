@@ -18,6 +18,7 @@ mod kernel;
 mod kernels;
 mod lattice;
 mod layout;
+mod near;
 #[allow(clippy::module_inception)]
 mod particles;
 mod placed;
@@ -40,7 +41,7 @@ pub use kernels::Numbers;
 pub use layout::{Clock, Home, Motion, Particle};
 pub use particles::{Exchange, Particles, State};
 pub use program::{KERNELS, MOST_BINDINGS, constants, program};
-pub use setup::{Body, Setup, Side, StateEquation};
+pub use setup::{Body, Neighbours, Setup, Side, StateEquation};
 pub use shell::shells;
 pub use sorting::{Sorted, Sorting};
 pub use totals::Totals;

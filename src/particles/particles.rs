@@ -3,6 +3,7 @@
 use super::{
     Clock, Frame, Home, Motion, Numbers, Particle, Setup, Water,
     kernels::{Kernels, NUMBERS},
+    near,
 };
 use crate::{
     Error, Result,
@@ -100,7 +101,7 @@ impl Particles {
             bodies: order.len() as u32,
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
-        let kernels = Kernels::new(device, &setup, &frame, numbers)?;
+        let kernels = Kernels::new(device, queue, &setup, &frame, numbers)?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {
             let at = frame.place(*position);
@@ -186,6 +187,10 @@ impl Particles {
             self.report = Some(report);
             let (clock, loads) = words.split_at(size_of::<Clock>() / 4);
             self.clock = *bytemuck::from_bytes(bytemuck::cast_slice(clock));
+            if self.clock.crowd > 0 {
+                self.make_room(device, queue)?;
+                continue;
+            }
             self.look()?;
             if self.clock.step == 0.0 {
                 self.steps += u64::from(self.clock.steps);
@@ -245,6 +250,17 @@ impl Particles {
             .map(|pose| (pose.velocity, pose.deformation_rate))
             .collect();
         self.lasted = time;
+    }
+
+    /// Makes the lists of neighbours longer and goes on with the step that waits for it.
+    fn make_room(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        let room = near::more_room(self.clock.crowd);
+        self.kernels
+            .grow(device, queue, (&self.setup, &self.frame), room)?;
+        self.clock.crowd = 0;
+        self.clock.step = self.clock.held;
+        queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
+        Ok(())
     }
 
     /// Records a step of the exchange; one that is over does nothing.

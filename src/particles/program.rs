@@ -1,19 +1,21 @@
 //! Which files and numbers make the kernels of particles.
 
-use super::{Frame, Setup, StateEquation};
+use super::{Frame, Neighbours, Setup, StateEquation};
 use crate::link::Program;
 use std::f64::consts::PI;
 
-/// Storage buffers of the kernel that has the most of them, `drift`.
+/// Storage buffers of the kernel that has the most of them, `drift` and `neighbours`.
 pub const MOST_BINDINGS: u32 = 7;
 
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 11] = [
+pub const KERNELS: [&str; 13] = [
     "sort_count",
     "sort_list",
     "sort_order",
     "shell_place",
     "shell_pressure",
+    "neighbours",
+    "admit",
     "accelerate",
     "shell_force",
     "body_load",
@@ -32,6 +34,13 @@ pub fn program(setup: &Setup, frame: &Frame, kernel: &str) -> Program {
                 "runs_periodic"
             } else {
                 "runs_open"
+            },
+        )
+        .slot(
+            "around",
+            match setup.neighbours {
+                Neighbours::Cells => "around_cells",
+                Neighbours::Lists => "around_lists",
             },
         )
         .slot(

@@ -25,6 +25,17 @@ pub enum StateEquation {
     Tait,
 }
 
+/// How the sums over neighbours find them; the sums are the same up to rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Neighbours {
+    /// From their cells, each time: takes no memory, for GPUs.
+    #[default]
+    Cells,
+    /// From lists, made once a step: for CPU adapters, where the pairs that are too far apart cost as much as the
+    /// others.
+    Lists,
+}
+
 /// A wall or block that water meets, by the particles of its shell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
@@ -68,6 +79,8 @@ pub struct Setup {
     pub state: StateEquation,
     /// Whether nothing varies along y: each particle stands for the whole width of the domain.
     pub plane: bool,
+    /// How neighbours are found.
+    pub neighbours: Neighbours,
     /// Walls and blocks.
     pub bodies: Vec<Body>,
 }
@@ -90,6 +103,7 @@ impl Setup {
             courant: 0.2,
             state: StateEquation::Linear,
             plane: false,
+            neighbours: Neighbours::Cells,
             bodies: Vec::new(),
         }
     }

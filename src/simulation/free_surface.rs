@@ -7,7 +7,7 @@ use crate::{
     broadphase::AutoBroadphase,
     checkpoint::WaterCheckpoint,
     coupling::Felt,
-    particles::{Particles, Water, particle_setup},
+    particles::{Neighbours, Particles, Water, particle_setup},
     scene::{Scene, Search},
 };
 
@@ -44,7 +44,10 @@ impl FreeSurface {
     /// What the scene lacks, or what the device cannot hold.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         let mut setup = block_setup(scene)?;
-        let (water, start) = particle_setup(scene, &setup)?;
+        let (mut water, start) = particle_setup(scene, &setup)?;
+        if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
+            water.neighbours = Neighbours::Lists;
+        }
         let usual = ACOUSTIC_STEPS * water.acoustic_step();
         let time_step = match scene.run.duration {
             // A whole number of steps, so that the run ends when it is said to.

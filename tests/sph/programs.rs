@@ -4,7 +4,8 @@ use glam::DVec3;
 use riprap::{
     layout,
     particles::{
-        Clock, Frame, Home, KERNELS, Motion, Particle, Setup, Side, StateEquation, program,
+        Clock, Frame, Home, KERNELS, Motion, Neighbours, Particle, Setup, Side, StateEquation,
+        program,
     },
 };
 use std::mem::offset_of;
@@ -18,9 +19,12 @@ fn all_variants_compile() {
             if periodic {
                 setup.faces[0] = [Side::Periodic; 2];
             }
-            let frame = Frame::new(&setup).unwrap();
-            for kernel in KERNELS {
-                program(&setup, &frame, kernel).link().unwrap();
+            for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+                setup.neighbours = neighbours;
+                let frame = Frame::new(&setup).unwrap();
+                for kernel in KERNELS {
+                    program(&setup, &frame, kernel).link().unwrap();
+                }
             }
         }
     }
@@ -74,6 +78,8 @@ fn structures_lie_as_on_the_device() {
         ("steps", offset_of!(Clock, steps)),
         ("fault", offset_of!(Clock, fault)),
         ("escaped", offset_of!(Clock, escaped)),
+        ("crowd", offset_of!(Clock, crowd)),
+        ("held", offset_of!(Clock, held)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
     let drift = program(&setup, &frame, "drift").link().unwrap();

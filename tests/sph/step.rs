@@ -8,7 +8,7 @@ use crate::{
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     bodies::Pose,
-    particles::{Body, Particles, Setup, Side, StateEquation},
+    particles::{Body, Neighbours, Particles, Setup, Side, StateEquation},
 };
 
 /// Numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
@@ -52,6 +52,15 @@ fn base(plane: bool, periodic: bool) -> Setup {
 
 /// A turned body of dummy particles in disturbed water, and the walls: one step, everything compared.
 fn check(setup: Setup) {
+    for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+        check_with(Setup {
+            neighbours,
+            ..setup.clone()
+        });
+    }
+}
+
+fn check_with(setup: Setup) {
     let plane = setup.plane;
     let mut setup = setup;
     let mut noise = Noise(7);
@@ -208,4 +217,47 @@ fn with_the_state_equation_of_tait() {
     let mut setup = base(true, false);
     setup.state = StateEquation::Tait;
     check(setup);
+}
+
+#[test]
+fn lists_grow_where_water_is_squeezed() {
+    // Three times as many particles as the lattice has, without a push of their own.
+    let mut setup = base(true, false);
+    setup.neighbours = Neighbours::Lists;
+    setup.bodies = vec![walls(&setup)];
+    let places = lattice(&setup, [0; 3], [13, 1, 9]);
+    let mut noise = Noise(3);
+    let positions: Vec<DVec3> = (0..3)
+        .flat_map(|_| {
+            places
+                .iter()
+                .map(|x| *x + 0.03 * noise.vector(true))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let still = vec![DVec3::ZERO; positions.len()];
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut ends = Vec::new();
+    for neighbours in [Neighbours::Lists, Neighbours::Cells] {
+        let setup = Setup {
+            neighbours,
+            ..setup.clone()
+        };
+        let pressures = vec![0.0; positions.len()];
+        let mut particles =
+            Particles::new(device, queue, setup, &positions, &still, &pressures).unwrap();
+        let poses = [resting(DVec3::ZERO)];
+        let time = 0.9 * particles.limit();
+        let done = rig
+            .wait(particles.advance(device, queue, &poses, time))
+            .unwrap();
+        assert_eq!(done.steps, 1);
+        ends.push(rig.wait(particles.water(device, queue)).unwrap());
+    }
+    let [lists, cells] = [&ends[0], &ends[1]];
+    for n in 0..lists.len() {
+        assert!((lists.velocities[n] - cells.velocities[n]).length() < 1e-5);
+        assert!((lists.densities[n] - cells.densities[n]).abs() < 1e-3);
+    }
 }

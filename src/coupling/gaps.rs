@@ -32,7 +32,7 @@ impl Gap {
 
 /// The pairs of blocks, one of them among the first `in_fluid`, that are less than a cell of `cell` m
 /// apart, in their order.
-pub(super) async fn gaps(
+pub(crate) async fn gaps(
     setup: &Setup,
     blocks: &Blocks,
     in_fluid: usize,

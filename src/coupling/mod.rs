@@ -18,6 +18,7 @@ mod state;
 
 pub use coupled::{Coupled, Exchanges, Felt};
 pub use gaps::Gap;
+pub(crate) use gaps::gaps;
 pub use gathered::Gathered;
 pub use inner_fluid::{InnerFluid, Matter};
 pub use loads::Ambient;

@@ -1,6 +1,6 @@
 //! Points that keep a distance.
 
-use super::grid::Grid;
+use super::lattice::Lattice;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -10,17 +10,17 @@ pub(super) const NEAREST: f64 = 0.6;
 
 /// Points of which no two are nearer than [`NEAREST`] spacings, periodic images included.
 pub(super) struct Crowd<'a> {
-    grid: &'a Grid,
+    lattice: &'a Lattice,
     distance: f64,
     cells: HashMap<[i64; 3], Vec<DVec3>>,
 }
 
 impl<'a> Crowd<'a> {
-    pub fn new(grid: &'a Grid) -> Self {
+    pub fn new(lattice: &'a Lattice) -> Self {
         Self {
-            grid,
+            lattice,
             // Points that stand exactly so far apart may both stay.
-            distance: (NEAREST - 1e-6) * grid.spacing,
+            distance: (NEAREST - 1e-6) * lattice.spacing,
             cells: HashMap::new(),
         }
     }
@@ -35,7 +35,7 @@ impl<'a> Crowd<'a> {
     }
 
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        let cell = (point - self.grid.low) / self.distance;
+        let cell = (point - self.lattice.low) / self.distance;
         cell.to_array().map(|c| c.floor() as i64)
     }
 
@@ -56,12 +56,12 @@ impl<'a> Crowd<'a> {
 
     /// The point, and where it is seen once more near the ends of periods.
     fn images(&self, point: DVec3) -> impl Iterator<Item = DVec3> + use<> {
-        let (low, high) = (self.grid.low, self.grid.high);
+        let (low, high) = (self.lattice.low, self.lattice.high);
         let shifts: [[f64; 3]; 3] = std::array::from_fn(|axis| {
             let period = high[axis] - low[axis];
             let near = |end: f64| (point[axis] - end).abs() < self.distance;
             let seen = |there: bool, shift: f64| if there { shift } else { 0.0 };
-            let periodic = self.grid.periodic[axis];
+            let periodic = self.lattice.periodic[axis];
             [
                 0.0,
                 seen(periodic && near(low[axis]), period),

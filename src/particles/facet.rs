@@ -1,6 +1,6 @@
 //! The plane polygon that is left of a facet some way below it, and rows of points on it.
 
-use super::grid::Grid;
+use super::lattice::Lattice;
 use crate::block::HalfSpace;
 use glam::DVec3;
 
@@ -45,17 +45,17 @@ impl Facet {
     }
 
     /// Whether it lies along an axis, across all of the domain.
-    fn spans(&self, grid: &Grid, axis: usize) -> bool {
+    fn spans(&self, lattice: &Lattice, axis: usize) -> bool {
         let [low, high] = self.extent(DVec3::AXES[axis]);
         self.plane.normal[axis].abs() < WITHIN
-            && low <= grid.low[axis] + grid.tolerance()
-            && high >= grid.high[axis] - grid.tolerance()
+            && low <= lattice.low[axis] + lattice.tolerance()
+            && high >= lattice.high[axis] - lattice.tolerance()
     }
 
     /// Points a spacing apart: those of the lattice along an axis that it spans, so that they match the rows
     /// of the fluid and the ends of a period; along others evenly from edge to edge, both included.
-    pub fn points(&self, grid: &Grid) -> Vec<DVec3> {
-        let spanned = (0..3).find(|axis| self.spans(grid, *axis));
+    pub fn points(&self, lattice: &Lattice) -> Vec<DVec3> {
+        let spanned = (0..3).find(|axis| self.spans(lattice, *axis));
         let along = match spanned {
             Some(axis) => DVec3::AXES[axis],
             None => self.longest_edge(),
@@ -65,22 +65,22 @@ impl Facet {
         let other = (0..3).find(|axis| across[*axis].abs() > 1.0 - WITHIN);
         let across = other.map_or(across, |axis| DVec3::AXES[axis]);
         let range = self.extent(across);
-        let rows = match other.filter(|axis| self.spans(grid, *axis)) {
-            Some(axis) => grid.row(axis, range),
-            None => grid.fitted(range),
+        let rows = match other.filter(|axis| self.spans(lattice, *axis)) {
+            Some(axis) => lattice.row(axis, range),
+            None => lattice.fitted(range),
         };
         let origin = self.plane.normal * self.plane.distance;
         let mut points = Vec::new();
         for row in rows {
             // Just inside, or rounding would hide one end of an edge that the row runs along.
-            let inset = (1e-3 * grid.tolerance()).min(0.5 * (range[1] - range[0]));
+            let inset = (1e-3 * lattice.tolerance()).min(0.5 * (range[1] - range[0]));
             let inside = row.clamp(range[0] + inset, range[1] - inset);
             let Some(range) = self.section(along, across, inside) else {
                 continue;
             };
             let row_points = match spanned {
-                Some(axis) => grid.row(axis, range),
-                None => grid.fitted(range),
+                Some(axis) => lattice.row(axis, range),
+                None => lattice.fitted(range),
             };
             points.extend(
                 row_points

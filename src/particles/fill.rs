@@ -1,6 +1,6 @@
 //! Particles of the fluid at the start.
 
-use super::{crowd::NEAREST, grid::Grid, placed::Placed};
+use super::{crowd::NEAREST, lattice::Lattice, placed::Placed};
 use crate::{
     Error, Result,
     block::Shape,
@@ -57,7 +57,7 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
     let Some(particles) = &scene.particles else {
         return Err(none());
     };
-    let grid = Grid::of(scene, particles);
+    let lattice = Lattice::of(scene, particles);
     let blocks = &setup.setup.blocks;
     let solids: Vec<Placed<'_>> = blocks.iter().flat_map(Placed::of).collect();
     let mut bodies = Vec::with_capacity(scene.water.len());
@@ -78,8 +78,8 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
     let mut start = Start::default();
     for (index, water) in waters.iter().enumerate() {
         let key = format!("water[{index}]");
-        check_place(&key, water, &grid)?;
-        let mut points = points(&key, water, &solids, &grid)?;
+        check_place(&key, water, &lattice)?;
+        let mut points = points(&key, water, &solids, &lattice)?;
         if points.is_empty() {
             return Err(Error::scene(
                 key,
@@ -92,7 +92,7 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
                 .map(|other| other.depth(*x))
                 .fold(f64::NEG_INFINITY, f64::max)
         };
-        if let Some(point) = points.iter().find(|x| deepest(x) > grid.tolerance()) {
+        if let Some(point) = points.iter().find(|x| deepest(x) > lattice.tolerance()) {
             return Err(Error::scene(
                 key,
                 format!("it overlaps other water at {point} m; move one of them, or cut it"),
@@ -100,10 +100,10 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
         }
         // What lies on the face between two bodies is in the first.
         points.retain(|x| deepest(x) < 0.0);
-        check_open(scene, &key, &points, &grid, gravity)?;
+        check_open(scene, &key, &points, &lattice, gravity)?;
         start
             .pressures
-            .extend(pressures(scene, &points, &solids, &grid, gravity));
+            .extend(pressures(scene, &points, &solids, &lattice, gravity));
         let velocity = DVec3::from(scene.water[index].velocity);
         start
             .velocities
@@ -124,7 +124,7 @@ fn points(
     key: &str,
     water: &[Placed<'_>],
     solids: &[Placed<'_>],
-    grid: &Grid,
+    lattice: &Lattice,
 ) -> Result<Vec<DVec3>> {
     let low = water
         .iter()
@@ -132,7 +132,7 @@ fn points(
     let high = water
         .iter()
         .fold(DVec3::NEG_INFINITY, |high, part| high.max(part.high));
-    let room = ((high - low) / grid.spacing).max(DVec3::ONE);
+    let room = ((high - low) / lattice.spacing).max(DVec3::ONE);
     if room.x * room.y * room.z > MOST {
         return Err(Error::scene(
             "particles.spacing",
@@ -142,8 +142,8 @@ fn points(
             ),
         ));
     }
-    let rows = [0, 1, 2].map(|axis| grid.row(axis, [low[axis], high[axis]]));
-    let free = CLEARANCE * grid.spacing;
+    let rows = [0, 1, 2].map(|axis| lattice.row(axis, [low[axis], high[axis]]));
+    let free = CLEARANCE * lattice.spacing;
     let slab = |z: &f64| {
         let mut points = Vec::new();
         for y in &rows[1] {
@@ -169,16 +169,16 @@ fn points(
 }
 
 /// Water is in the domain.
-fn check_place(key: &str, water: &[Placed<'_>], grid: &Grid) -> Result<()> {
-    let slack = grid.tolerance();
+fn check_place(key: &str, water: &[Placed<'_>], lattice: &Lattice) -> Result<()> {
+    let slack = lattice.tolerance();
     for part in water {
-        let out = part.low.cmplt(grid.low - slack) | part.high.cmpgt(grid.high + slack);
+        let out = part.low.cmplt(lattice.low - slack) | part.high.cmpgt(lattice.high + slack);
         if out.any() {
             return Err(Error::scene(
                 key,
                 format!(
                     "it reaches from {} to {} m, and the domain from {} to {} m; cut it, or enlarge the domain",
-                    part.low, part.high, grid.low, grid.high
+                    part.low, part.high, lattice.low, lattice.high
                 ),
             ));
         }
@@ -191,7 +191,7 @@ fn check_open(
     scene: &Scene,
     key: &str,
     points: &[DVec3],
-    grid: &Grid,
+    lattice: &Lattice,
     gravity: DVec3,
 ) -> Result<()> {
     for (face, boundary) in scene.boundaries.iter() {
@@ -200,7 +200,7 @@ fn check_open(
             continue;
         }
         let at = scene.domain.face_position(face);
-        let touches = |x: &DVec3| (x[axis] - at).abs() < grid.spacing;
+        let touches = |x: &DVec3| (x[axis] - at).abs() < lattice.spacing;
         if points.iter().any(touches) {
             return Err(Error::scene(
                 key,
@@ -220,19 +220,19 @@ fn pressures(
     scene: &Scene,
     points: &[DVec3],
     solids: &[Placed<'_>],
-    grid: &Grid,
+    lattice: &Lattice,
     gravity: DVec3,
 ) -> Vec<f64> {
     let down = gravity.normalize_or_zero();
     let below = |x: &DVec3| {
-        let foot = *x + down * grid.spacing;
+        let foot = *x + down * lattice.spacing;
         solids.iter().any(|solid| solid.depth(foot) >= 0.0)
     };
     if down == DVec3::ZERO || !points.iter().any(below) {
         return vec![0.0; points.len()];
     }
     let heights = points.iter().map(|x| -down.dot(*x));
-    let top = heights.fold(f64::NEG_INFINITY, f64::max) + 0.5 * grid.spacing;
+    let top = heights.fold(f64::NEG_INFINITY, f64::max) + 0.5 * lattice.spacing;
     let weight = scene.fluid.density * gravity.length();
     let depth = |x: &DVec3| top + down.dot(*x);
     points.iter().map(|x| weight * depth(x)).collect()

@@ -24,7 +24,8 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         scene::Scheme::Mueller => vec![Vec::new(); blocks.setup.blocks.len()],
     };
     let probed = |name: &str| {
-        let of = |place: &ProbePlace| matches!(place, ProbePlace::Block { block } if block == name);
+        let of =
+            |place: &ProbePlace| matches!(place, ProbePlace::Block { block, .. } if block == name);
         scene.probes.iter().any(|probe| of(&probe.place))
     };
     let bodies = blocks

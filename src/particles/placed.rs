@@ -1,6 +1,6 @@
 //! Convex parts of blocks and of water where they are at the start.
 
-use super::grid::Grid;
+use super::lattice::Lattice;
 use crate::{
     block::{Form, HalfSpace, Shape},
     bodies::Block,
@@ -113,19 +113,19 @@ pub(super) enum Solid {
 impl Solid {
     /// A part whose faces at both ends of a period are none; if it is `fixed`, neither are those at the faces
     /// of the domain, behind which the walls, or nothing, are.
-    pub fn of(part: &Placed<'_>, grid: &Grid, fixed: bool) -> Self {
+    pub fn of(part: &Placed<'_>, lattice: &Lattice, fixed: bool) -> Self {
         if let Form::Sphere { radius } = part.form {
             return Self::Sphere {
                 centre: part.centre,
                 radius: *radius,
             };
         }
-        let tolerance = grid.tolerance();
+        let tolerance = lattice.tolerance();
         let planes = part.planes();
         let ends = [0, 1, 2].map(|axis| {
-            let low = part.low[axis] <= grid.low[axis] + tolerance;
-            let high = part.high[axis] >= grid.high[axis] - tolerance;
-            match grid.endless(axis) {
+            let low = part.low[axis] <= lattice.low[axis] + tolerance;
+            let high = part.high[axis] >= lattice.high[axis] - tolerance;
+            match lattice.endless(axis) {
                 true => [low && high, low && high],
                 false => [fixed && low, fixed && high],
             }
@@ -136,8 +136,8 @@ impl Solid {
                 let end = usize::from(plane.normal[axis] > 0.0);
                 let at = plane.distance * plane.normal[axis].signum();
                 let beyond = match end {
-                    0 => at <= grid.low[axis] + tolerance,
-                    _ => at >= grid.high[axis] - tolerance,
+                    0 => at <= lattice.low[axis] + tolerance,
+                    _ => at >= lattice.high[axis] - tolerance,
                 };
                 ends[axis][end] && beyond
             })

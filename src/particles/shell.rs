@@ -3,7 +3,7 @@
 use super::{
     crowd::Crowd,
     facet::Facet,
-    grid::Grid,
+    lattice::Lattice,
     placed::{Placed, Solid},
     sphere::spiral,
 };
@@ -31,7 +31,7 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
     let Some(particles) = &scene.particles else {
         return Err(super::fill::none());
     };
-    let grid = Grid::of(scene, particles);
+    let lattice = Lattice::of(scene, particles);
     let blocks = &setup.setup.blocks;
     let walls = setup.in_fluid + scene.solids.len();
     let faces: Vec<Face> = scene
@@ -44,31 +44,31 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
     for (index, block) in blocks.iter().enumerate() {
         let parts = Placed::of(block);
         if index < walls {
-            check(block, &parts, &grid)?;
+            check(block, &parts, &lattice)?;
         }
         let fixed = block.motion == Motion::Fixed;
-        let solid = |part: &Placed<'_>| Solid::of(part, &grid, fixed);
+        let solid = |part: &Placed<'_>| Solid::of(part, &lattice, fixed);
         solids.push(parts.iter().map(solid).collect::<Vec<_>>());
     }
     let still: Vec<usize> = (0..blocks.len())
         .filter(|index| blocks[*index].motion == Motion::Fixed)
         .collect();
-    let mut crowd = Crowd::new(&grid);
+    let mut crowd = Crowd::new(&lattice);
     let mut shells = Vec::with_capacity(blocks.len());
     for (index, block) in blocks.iter().enumerate() {
         let fixed = block.motion == Motion::Fixed;
         let points = match faces.get(index.wrapping_sub(walls)) {
-            Some(face) => wall(&grid, *face),
-            None => layers(block, &solids[index], &grid, fixed),
+            Some(face) => wall(&lattice, *face),
+            None => layers(block, &solids[index], &lattice, fixed),
         };
-        let mut own = Crowd::new(&grid);
+        let mut own = Crowd::new(&lattice);
         let crowd = if fixed { &mut crowd } else { &mut own };
         let deepest = |index: usize, point: DVec3| {
             let depths = solids[index].iter().map(|solid| solid.depth(point));
             depths.fold(f64::NEG_INFINITY, f64::max)
         };
         let mine = |point: DVec3| {
-            let depth = deepest(index, point) + grid.tolerance();
+            let depth = deepest(index, point) + lattice.tolerance();
             let others = |other: &usize| *other == index || deepest(*other, point) <= depth;
             still.iter().all(others)
         };
@@ -82,18 +82,22 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
 }
 
 /// The lattice outside the domain through one of its faces, corners included, m.
-fn wall(grid: &Grid, face: Face) -> Vec<DVec3> {
+fn wall(lattice: &Lattice, face: Face) -> Vec<DVec3> {
     let normal = face.axis().index();
-    if grid.plane && normal == 1 {
+    if lattice.plane && normal == 1 {
         return Vec::new();
     }
     let out = face.outward();
-    let plane = if face.is_max() { grid.high } else { grid.low };
+    let plane = if face.is_max() {
+        lattice.high
+    } else {
+        lattice.low
+    };
     let rows: [Vec<f64>; 3] = std::array::from_fn(|axis| match axis == normal {
-        true => (0..grid.layers)
-            .map(|layer| plane[axis] + out * grid.depth(layer))
+        true => (0..lattice.layers)
+            .map(|layer| plane[axis] + out * lattice.depth(layer))
             .collect(),
-        false => grid.row(axis, grid.reach(axis)),
+        false => lattice.row(axis, lattice.reach(axis)),
     });
     let [x, y, z] = &rows;
     let mut points = Vec::with_capacity(x.len() * y.len() * z.len());
@@ -106,26 +110,26 @@ fn wall(grid: &Grid, face: Face) -> Vec<DVec3> {
 }
 
 /// The layers of a block, the outermost of all its facets first, m.
-fn layers(block: &Block, solids: &[Solid], grid: &Grid, fixed: bool) -> Vec<DVec3> {
+fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Vec<DVec3> {
     let mut points = Vec::new();
-    for layer in 0..grid.layers {
-        let depth = grid.depth(layer);
+    for layer in 0..lattice.layers {
+        let depth = lattice.depth(layer);
         for solid in solids {
             match solid {
                 Solid::Faces(planes) => {
-                    for facet in facets(block, planes, depth, grid, fixed) {
-                        points.extend(facet.points(grid));
+                    for facet in facets(block, planes, depth, lattice, fixed) {
+                        points.extend(facet.points(lattice));
                     }
                 }
-                Solid::Sphere { centre, radius } if *radius >= depth - grid.tolerance() => {
-                    let sphere = spiral((radius - depth).max(0.0), grid.spacing);
+                Solid::Sphere { centre, radius } if *radius >= depth - lattice.tolerance() => {
+                    let sphere = spiral((radius - depth).max(0.0), lattice.spacing);
                     points.extend(sphere.map(|point| *centre + point));
                 }
                 Solid::Sphere { .. } => {}
             }
         }
     }
-    let reach = [0, 1, 2].map(|axis| grid.reach(axis));
+    let reach = [0, 1, 2].map(|axis| lattice.reach(axis));
     points.retain(|x| {
         let inside = |axis: usize| x[axis] >= reach[axis][0] && x[axis] <= reach[axis][1];
         !fixed || (0..3).all(inside)
@@ -134,18 +138,25 @@ fn layers(block: &Block, solids: &[Solid], grid: &Grid, fixed: bool) -> Vec<DVec
 }
 
 /// The facets of what is left when the faces `planes` have moved in by `depth` (m).
-fn facets(block: &Block, planes: &[HalfSpace], depth: f64, grid: &Grid, fixed: bool) -> Vec<Facet> {
+fn facets(
+    block: &Block,
+    planes: &[HalfSpace],
+    depth: f64,
+    lattice: &Lattice,
+    fixed: bool,
+) -> Vec<Facet> {
     let moved = |plane: &HalfSpace, by: f64| HalfSpace {
         distance: plane.distance - by,
         ..*plane
     };
     // Where nothing is left but a plane or a line, that still carries points.
-    let slack = 0.1 * grid.tolerance();
+    let slack = 0.1 * lattice.tolerance();
     // A block that moves takes all its shells along, but for what spans a period.
-    let ends = (0..3).filter(|axis| fixed || grid.endless(*axis) && is_endless(planes, *axis));
-    let ends: Vec<HalfSpace> = ends.flat_map(|axis| grid.sides(axis)).collect();
-    let middle = 0.5 * (grid.low + grid.high);
-    let size = (grid.high - grid.low).length() + 2.0 * f64::from(grid.layers) * grid.spacing;
+    let ends = (0..3).filter(|axis| fixed || lattice.endless(*axis) && is_endless(planes, *axis));
+    let ends: Vec<HalfSpace> = ends.flat_map(|axis| lattice.sides(axis)).collect();
+    let middle = 0.5 * (lattice.low + lattice.high);
+    let size =
+        (lattice.high - lattice.low).length() + 2.0 * f64::from(lattice.layers) * lattice.spacing;
     let (about, reach) = match fixed {
         true => (middle, 2.0 * size),
         false => (block.centre, 2.0 * block.shape.radius() + size),
@@ -165,9 +176,9 @@ fn is_endless(planes: &[HalfSpace], axis: usize) -> bool {
 }
 
 /// A block can carry shells.
-fn check(block: &Block, parts: &[Placed<'_>], grid: &Grid) -> Result<()> {
+fn check(block: &Block, parts: &[Placed<'_>], lattice: &Lattice) -> Result<()> {
     let refuse = |message: String| Err(Error::scene(format!("block {}", block.name), message));
-    if grid.plane {
+    if lattice.plane {
         for part in parts {
             let Form::Convex(_) = part.form else {
                 return refuse(
@@ -187,27 +198,27 @@ fn check(block: &Block, parts: &[Placed<'_>], grid: &Grid) -> Result<()> {
                         .into(),
                 );
             }
-            let tolerance = 1e-6 * (grid.high.y - grid.low.y);
-            let (low, high) = (part.low.y - grid.low.y, part.high.y - grid.high.y);
+            let tolerance = 1e-6 * (lattice.high.y - lattice.low.y);
+            let (low, high) = (part.low.y - lattice.low.y, part.high.y - lattice.high.y);
             let fits = low <= tolerance && high >= -tolerance;
             let exact = low.abs() <= tolerance && high.abs() <= tolerance;
             if !(exact || fits && block.motion != Motion::Free) {
                 return refuse(format!(
                     "reaches from y = {} to {} m, and a plane (particles.plane) stands for all of the domain, from \
                      {} to {} m; give it that width",
-                    part.low.y, part.high.y, grid.low.y, grid.high.y
+                    part.low.y, part.high.y, lattice.low.y, lattice.high.y
                 ));
             }
         }
     }
-    let depth = grid.depth(0);
+    let depth = lattice.depth(0);
     let thick = |part: &Placed<'_>| match part.form {
-        Form::Sphere { radius } => *radius >= depth - grid.tolerance(),
+        Form::Sphere { radius } => *radius >= depth - lattice.tolerance(),
         Form::Convex(_) => {
-            let Solid::Faces(planes) = Solid::of(part, grid, false) else {
+            let Solid::Faces(planes) = Solid::of(part, lattice, false) else {
                 return true;
             };
-            !facets(block, &planes, depth, grid, false).is_empty()
+            !facets(block, &planes, depth, lattice, false).is_empty()
         }
     };
     if parts.iter().any(thick) {
@@ -216,6 +227,6 @@ fn check(block: &Block, parts: &[Placed<'_>], grid: &Grid) -> Result<()> {
     refuse(format!(
         "is thinner than the spacing of {} m, so that no particle fits into it; use a smaller particles.spacing, or a \
          thicker block",
-        grid.spacing
+        lattice.spacing
     ))
 }

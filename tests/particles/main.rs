@@ -1,6 +1,8 @@
 //! Particles at the start: those of the water, and those inside what holds it.
 
+mod advice;
 mod fill;
+mod gauges;
 mod kernel;
 mod shell;
 

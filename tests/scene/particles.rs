@@ -154,7 +154,7 @@ fn particles_that_contradict_themselves_are_refused() {
         (
             "spacing = 0.05",
             "spacing = 0.2",
-            ["domain.size[1]", "at least 8"],
+            ["domain.size[1]", "at least 12"],
         ),
         (
             "spacing = 0.05",
@@ -244,7 +244,6 @@ fn what_is_of_a_lattice_is_refused_among_particles() {
     for (more, parts) in [
         ("[numerics]\nmach = 0.1\n", ["numerics", "lattice"]),
         ("[initial]\npressure = 1\n", ["initial", "lattice"]),
-        ("[coupling]\ninterval = 2\n", ["coupling", "lattice"]),
         (slice, ["output.slices", "lattice"]),
         (
             "[output]\nfields = [\"vorticity\"]\n",

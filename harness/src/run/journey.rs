@@ -145,6 +145,7 @@ pub fn leaves_range(error: &Error) -> bool {
     matches!(
         error,
         Error::Diverged { .. }
+            | Error::ParticleLost { .. }
             | Error::DeepOverlap { .. }
             | Error::NotFinite { .. }
             | Error::Inverted { .. }

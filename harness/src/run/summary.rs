@@ -5,6 +5,7 @@ use super::{
     progress::clock,
     recorder::Notes,
     rock::{Rocks, Safety},
+    water::Pool,
 };
 use riprap::output::replace;
 use serde::Serialize;
@@ -78,6 +79,9 @@ pub struct Summary {
     /// How blocks and fluid met, where there are both.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
+    /// What particles of water did, where there are some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pool: Option<Pool>,
     /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
@@ -189,6 +193,9 @@ impl fmt::Display for Summary {
             if let Some(y_plus) = y_plus {
                 writeln!(f, "  largest y⁺ half a cell from {what}: {y_plus:.2}")?;
             }
+        }
+        if let Some(pool) = &self.pool {
+            writeln!(f, "{pool}")?;
         }
         if let Some(coupling) = &self.coupling {
             writeln!(f, "{coupling}")?;

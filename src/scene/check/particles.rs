@@ -3,8 +3,7 @@
 use super::rules::{finite, not_negative, positive, refuse};
 use crate::error::Result;
 use crate::scene::{
-    Axis, Boundary, Coupling, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity,
-    Scene,
+    Axis, Boundary, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity, Scene,
 };
 
 /// How far from whole the number of particles along a periodic edge may be: far above the rounding of a
@@ -83,7 +82,8 @@ impl Scene {
                 continue;
             }
             let count = size / spacing;
-            let fewest = 2 * particles.layers();
+            // Three cells of the device, each as wide as the kernel reaches.
+            let fewest = 3 * particles.layers();
             if (count - count.round()).abs() > WHOLE || count.round() < f64::from(fewest) {
                 return refuse(
                     key,
@@ -131,7 +131,6 @@ impl Scene {
         let tables = [
             ("numerics", self.numerics != Numerics::default()),
             ("initial", self.initial != Initial::default()),
-            ("coupling", self.coupling != Coupling::default()),
             ("output.slices", !self.output.slices.is_empty()),
         ];
         for (key, given) in tables {

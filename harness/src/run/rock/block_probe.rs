@@ -9,7 +9,9 @@ use super::super::{
 use super::{Rock, Safety};
 use anyhow::Result;
 use glam::DVec3;
-use riprap::{Error, coupling::Coupled, output::Csv, safety::Standing, scene::Probe, simulation::voigt};
+use riprap::{
+    Error, coupling::Coupled, output::Csv, safety::Standing, scene::Probe, simulation::voigt,
+};
 use std::path::{Path, PathBuf};
 
 /// What is measured of every block, each along x, y and z.

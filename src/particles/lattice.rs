@@ -8,7 +8,7 @@ use glam::DVec3;
 
 /// Points (i + ½) Δx from the lower corner of the domain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(super) struct Lattice {
     /// Corners of the domain, m.
     pub low: DVec3,
     pub high: DVec3,
@@ -21,7 +21,7 @@ pub(super) struct Grid {
     pub plane: bool,
 }
 
-impl Grid {
+impl Lattice {
     pub fn of(scene: &Scene, particles: &Particles) -> Self {
         let lower = [Face::XMin, Face::YMin, Face::ZMin];
         Self {

@@ -79,6 +79,60 @@ fn still_water_presses_by_its_depth() {
     }
 }
 
+/// A box that goes four cells along x, through two searches of tiles: its faces never miss a cell.
+#[test]
+fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
+    let text = format!(
+        r#"{}{}
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.2
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        faces = true
+        [[blocks]]
+        name = "ball"
+        kind = "sphere"
+        radius = 1
+        position = [10, 10, 10]
+        motion = "fixed"
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [4, 3, 2.5]
+        position = [3, 3, 3.25]
+        motion = "driven"
+        velocity = [0.2, 0, 0]"#,
+        fluid([24; 3], 0.1),
+        material("rock", 2650.0)
+    );
+    let mut world = World::new(&text);
+    for step in 1..=40 {
+        world.advance(1);
+        let coupled = world.sim.coupled().unwrap();
+        assert!(coupled.faces(0).is_empty(), "nobody asks about the ball");
+        assert_eq!(coupled.faces(1).len(), 6);
+        for load in coupled.faces(1) {
+            // 8 × 6 × 5 cells; of those along x one more in sight where both ends fall on centres of cells.
+            let area = 4.0 * load.face.area;
+            let cells = f64::from(load.cells);
+            let most = if load.face.normal.x.abs() > 0.5 {
+                area
+            } else {
+                area * 9.0 / 8.0
+            };
+            assert!(
+                (area..=most).contains(&cells),
+                "step {step}: {cells} of {area}"
+            );
+        }
+    }
+    let searches = world.sim.coupled().unwrap().exchanges().cells.searches;
+    assert!(searches > 2, "{searches}");
+}
+
 /// On the bottom there is no water below, and the rest of the faces stay as they are.
 #[test]
 fn a_face_on_the_ground_is_dry() {

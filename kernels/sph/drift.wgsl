@@ -1,26 +1,16 @@
 // Fourtakas et al. 2019, Comput. Fluids 190:346, continuity with density diffusion, and the way of the particles:
 // both with the velocities at the end of the step.
-// needs invocation, particle_grid, $runs, wendland, clock_shared, $around
+// needs invocation, particle_grid, $runs, wendland, clock_shared, arrive, $around
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
 @group(0) @binding(4) var<storage, read> fresh: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> moved: array<Particle>;
-@group(0) @binding(6) var<storage, read_write> clock: ClockShared;
 
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = 0.0;
 override GRAVITY_Z: f32 = 0.0;
 // delta.
 override DENSITY_DIFFUSION: f32 = 0.0;
-// Where a particle is still in the domain or not yet through a wall, quanta.
-override KEPT_FROM_X: i32 = 0;
-override KEPT_FROM_Y: i32 = 0;
-override KEPT_FROM_Z: i32 = 0;
-override KEPT_TO_X: i32 = 0;
-override KEPT_TO_Y: i32 = 0;
-override KEPT_TO_Z: i32 = 0;
-
 // The particle, its new velocity and the sums over those around it.
 var<private> here: Particle;
 var<private> velocity: vec3<f32>;
@@ -74,21 +64,5 @@ fn drift(
     let rate = 2.0 * DENSITY_DIFFUSION * SMOOTHING * diffusion - density * flux;
     here.excess += step * rate;
     here.velocity = velocity;
-    // Exponents of all ones: neither infinite nor undefined numbers may become places.
-    let bits = bitcast<vec4<u32>>(vec4(here.velocity, here.excess)) & vec4(0x7f800000u);
-    if (any(bits == vec4(0x7f800000u))) {
-        atomicMax(&clock.fault, here.id + 1u);
-        moved[n] = particles[n];
-        return;
-    }
-    let at = wrapped(here.at + vec3<i32>(round(step * velocity / QUANTUM)));
-    let from_ = vec3(KEPT_FROM_X, KEPT_FROM_Y, KEPT_FROM_Z);
-    let to = vec3(KEPT_TO_X, KEPT_TO_Y, KEPT_TO_Z);
-    if (any(at < from_) || any(at >= to)) {
-        atomicAdd(&clock.escaped, 1u);
-        moved[n] = Particle(vec3(-1), here.id, vec3(0.0), 0.0);
-        return;
-    }
-    here.at = at;
-    moved[n] = here;
+    arrive(n, here);
 }

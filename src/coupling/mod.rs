@@ -6,9 +6,11 @@
 
 mod advice;
 mod coupled;
+mod faces;
 mod gaps;
 mod gathered;
 mod inner_fluid;
+mod joints;
 mod loads;
 mod near;
 mod reading;

@@ -1,6 +1,6 @@
 //! From a scene to its water.
 
-use super::{Body, Neighbours, Setup, Side, Start, StateEquation, fill, shells};
+use super::{Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, shells};
 use crate::{
     Error, Result,
     bodies::{Block, Motion},
@@ -18,9 +18,14 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         return Err(Error::scene("particles", "the scene has none"));
     };
     let start = fill(scene, blocks)?;
-    let shells = shells(scene, blocks)?;
+    let shells = match particles.scheme {
+        scene::Scheme::Delta => shells(scene, blocks)?,
+        // Its walls are springs.
+        scene::Scheme::Mueller => vec![Vec::new(); blocks.setup.blocks.len()],
+    };
     let probed = |name: &str| {
-        let of = |place: &ProbePlace| matches!(place, ProbePlace::Block { block } if block == name);
+        let of =
+            |place: &ProbePlace| matches!(place, ProbePlace::Block { block, .. } if block == name);
         scene.probes.iter().any(|probe| of(&probe.place))
     };
     let bodies = blocks
@@ -30,6 +35,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         .zip(shells)
         .map(|(block, shell)| Body {
             shell,
+            shape: Some(block.shape.clone()),
             moves: block.motion != Motion::Fixed,
             loaded: block.motion == Motion::Free || probed(&block.name),
             accelerates: matches!(block.motion, Motion::Driven { .. }),
@@ -48,7 +54,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let gravity = DVec3::from_array(
         [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0)),
     );
-    let setup = Setup {
+    let mut setup = Setup {
         origin: DVec3::from(scene.domain.origin),
         size: DVec3::from(scene.domain.size),
         faces: sides,
@@ -65,9 +71,17 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
             scene::EquationOfState::Tait => StateEquation::Tait,
         },
         plane: particles.plane,
+        scheme: Scheme::Delta,
         neighbours: Neighbours::Cells,
         bodies: bodies.collect(),
     };
+    if particles.scheme == scene::Scheme::Mueller {
+        let viscosity = match scene.fluid.viscosity {
+            0.0 => setup.viscosity(),
+            given => given,
+        };
+        setup.scheme = Scheme::Mueller { viscosity };
+    }
     Ok((setup, start))
 }
 

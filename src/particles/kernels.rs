@@ -1,7 +1,7 @@
 //! The kernels of a step and the memory that they share.
 
 use super::{
-    Clock, Frame, Home, Motion, Setup,
+    Clock, Frame, Home, Hull, Motion, Scheme, Setup,
     near::{Near, usual_room},
     program,
     sorting::{Sorted, Sorting},
@@ -49,6 +49,9 @@ pub(super) struct Kernels {
     fresh: wgpu::Buffer,
     force: (Kernel, wgpu::BindGroup),
     load: (Kernel, wgpu::BindGroup),
+    /// `mueller_drift`, where the sums leave the places to it.
+    last: Option<(Kernel, wgpu::BindGroup)>,
+    hulls: [wgpu::Buffer; 2],
     least: Kernel,
     /// From many limits to one, with the number of those that come out.
     leasts: Vec<(wgpu::BindGroup, u32)>,
@@ -62,6 +65,7 @@ impl Kernels {
         setup: &Setup,
         frame: &Frame,
         numbers: Numbers,
+        (hulls, planes): (&[Hull], &[[f32; 4]]),
     ) -> Result<Self> {
         let sorting = Sorting::new(device, setup, frame)?;
         let water = sorting.of(device, frame, numbers.water)?;
@@ -77,6 +81,10 @@ impl Kernels {
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
         let clock = buffer("clock", 1, size_of::<Clock>())?;
+        let hull_buffer = buffer("hulls", hulls.len() as u32, size_of::<Hull>())?;
+        let plane_buffer = buffer("faces of hulls", planes.len() as u32, 16)?;
+        queue.write_buffer(&hull_buffer, 0, bytemuck::cast_slice(hulls));
+        queue.write_buffer(&plane_buffer, 0, bytemuck::cast_slice(planes));
         let constants = program::constants(setup, frame);
         let kernel = |name: &str| {
             let linked = program::program(setup, frame, name).link()?;
@@ -95,11 +103,17 @@ impl Kernels {
             ("unsorted", &shell.unsorted),
             ("forces", &forces),
             ("loads", &loads),
+            ("hulls", &hull_buffer),
+            ("planes", &plane_buffer),
         ];
         let bound = |name: &str| {
             let kernel = kernel(name)?;
             let bind = kernel.bind(device, &buffers)?;
             Ok::<_, crate::Error>((kernel, bind))
+        };
+        let (load, last) = match setup.scheme {
+            Scheme::Delta => ("body_load", None),
+            Scheme::Mueller { .. } => ("mueller_load", Some("mueller_drift")),
         };
         let room = usual_room(setup);
         let near = Near::new(device, queue, (setup, frame), numbers.water, room, &buffers)?;
@@ -119,9 +133,11 @@ impl Kernels {
             place: bound("shell_place")?,
             pressure: bound("shell_pressure")?,
             force: bound("shell_force")?,
-            load: bound("body_load")?,
+            load: bound(load)?,
+            last: last.map(bound).transpose()?,
             near,
             fresh,
+            hulls: [hull_buffer, plane_buffer],
             least,
             leasts,
             tick: (tick, tick_bound),
@@ -151,6 +167,9 @@ impl Kernels {
             ("clock", &self.clock),
             ("fresh", &self.fresh),
             ("moved", &self.water.unsorted),
+            ("motions", &self.motions),
+            ("hulls", &self.hulls[0]),
+            ("planes", &self.hulls[1]),
         ];
         let count = self.numbers.water;
         self.near = Near::new(device, queue, (setup, frame), count, capacity, &buffers)?;
@@ -172,14 +191,17 @@ impl Kernels {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         let shell = self.numbers.shell.div_ceil(WORKGROUP);
         self.pressure.0.record(&mut pass, &self.pressure.1, shell);
-        self.near.record_accelerate(&mut pass);
+        self.near.record_first(&mut pass);
         if self.numbers.loaded > 0 {
             self.force.0.record(&mut pass, &self.force.1, shell);
-            self.load
-                .0
-                .record(&mut pass, &self.load.1, self.numbers.loaded);
+            let bodies = self.numbers.loaded;
+            self.load.0.record(&mut pass, &self.load.1, bodies);
         }
-        self.near.record_drift(&mut pass);
+        self.near.record_second(&mut pass);
+        if let Some((kernel, bind)) = &self.last {
+            let water = self.numbers.water.div_ceil(WORKGROUP);
+            kernel.record(&mut pass, bind, water);
+        }
         for (bind, count) in &self.leasts {
             self.least
                 .record(&mut pass, bind, count.div_ceil(WORKGROUP));

@@ -100,3 +100,21 @@ pub struct Clock {
     /// The step that waits for room.
     pub held: f32,
 }
+
+/// A convex part of a body, by its faces.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Hull {
+    /// Centre of its circumscribed sphere in the body's frame, spacings.
+    pub centre: [f32; 3],
+    /// Radius of that, spacings.
+    pub radius: f32,
+    /// Number of the body.
+    pub body: u32,
+    /// Its first face.
+    pub first_face: u32,
+    /// Number of its faces.
+    pub faces: u32,
+    /// Nothing: WGSL fills up sixteen bytes.
+    pub unused: u32,
+}

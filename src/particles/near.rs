@@ -1,6 +1,6 @@
 //! The sums over neighbours: straight from the cells, or from lists that a step makes once.
 
-use super::{Frame, Neighbours, Setup, program};
+use super::{Frame, Neighbours, Scheme, Setup, program};
 use crate::{
     Result,
     kernel::Kernel,
@@ -22,8 +22,10 @@ pub(super) type Buffers<'a> = [(&'a str, &'a wgpu::Buffer)];
 pub(super) struct Near {
     /// Lists and the gate that they must pass, if there are lists.
     lists: Option<(Kernel, Kernel, wgpu::BindGroup)>,
-    accelerate: Kernel,
-    drift: Kernel,
+    /// `accelerate`, or `mueller_density`.
+    first: Kernel,
+    /// `drift`, or `mueller_move`.
+    second: Kernel,
     ranges: Vec<Range>,
 }
 
@@ -32,8 +34,8 @@ pub(super) struct Near {
 struct Range {
     groups: u32,
     lists: Option<wgpu::BindGroup>,
-    accelerate: wgpu::BindGroup,
-    drift: wgpu::BindGroup,
+    first: wgpu::BindGroup,
+    second: wgpu::BindGroup,
 }
 
 /// Room for the neighbours of a particle in a list.
@@ -67,19 +69,23 @@ impl Near {
             let linked = program::program(setup, frame, name).link()?;
             Kernel::new(device, &linked, name, &constants)
         };
-        let (accelerate, drift) = (kernel("accelerate")?, kernel("drift")?);
+        let [first, second] = match setup.scheme {
+            Scheme::Delta => ["accelerate", "drift"],
+            Scheme::Mueller { .. } => ["mueller_density", "mueller_move"],
+        };
+        let (first, second) = (kernel(first)?, kernel(second)?);
         if setup.neighbours == Neighbours::Cells {
             let range = Range {
                 groups: count.div_ceil(WORKGROUP),
                 lists: None,
-                accelerate: accelerate.bind(device, buffers)?,
-                drift: drift.bind(device, buffers)?,
+                first: first.bind(device, buffers)?,
+                second: second.bind(device, buffers)?,
             };
             return Ok(Self {
                 lists: None,
                 ranges: vec![range],
-                accelerate,
-                drift,
+                first,
+                second,
             });
         }
         let (lists, admit) = (kernel("neighbours")?, kernel("admit")?);
@@ -99,13 +105,13 @@ impl Near {
             .max(1);
         let longest = fits.saturating_mul(WORKGROUP).min(count.max(1));
         let mut ranges = Vec::new();
-        let mut first = 0;
-        while first < count.max(1) {
-            let end = first.saturating_add(longest).min(count.max(1));
-            let groups = (end - first).div_ceil(WORKGROUP);
+        let mut start = 0;
+        while start < count.max(1) {
+            let end = start.saturating_add(longest).min(count.max(1));
+            let groups = (end - start).div_ceil(WORKGROUP);
             let near = storage(device, "lists of neighbours", group * u64::from(groups));
             let range = uniform(device, "range of particles", 8);
-            queue.write_buffer(&range, 0, bytemuck::cast_slice(&[first, end]));
+            queue.write_buffer(&range, 0, bytemuck::cast_slice(&[start, end]));
             let mut all = buffers.to_vec();
             all.extend([
                 ("near", &near),
@@ -117,22 +123,22 @@ impl Near {
             ranges.push(Range {
                 groups,
                 lists: Some(lists.bind(device, &all)?),
-                accelerate: accelerate.bind(device, &all)?,
-                drift: drift.bind(device, &all)?,
+                first: first.bind(device, &all)?,
+                second: second.bind(device, &all)?,
             });
-            first = end;
+            start = end;
         }
         let gate = admit.bind(device, buffers)?;
         Ok(Self {
             lists: Some((lists, admit, gate)),
-            accelerate,
-            drift,
+            first,
+            second,
             ranges,
         })
     }
 
-    /// Records the new velocities.
-    pub fn record_accelerate(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// Records the first sums: new velocities, or densities.
+    pub fn record_first(&self, pass: &mut wgpu::ComputePass<'_>) {
         if let Some((lists, admit, gate)) = &self.lists {
             for range in &self.ranges {
                 if let Some(bound) = &range.lists {
@@ -142,15 +148,14 @@ impl Near {
             admit.record(pass, gate, 1);
         }
         for range in &self.ranges {
-            self.accelerate
-                .record(pass, &range.accelerate, range.groups);
+            self.first.record(pass, &range.first, range.groups);
         }
     }
 
-    /// Records the new densities and places.
-    pub fn record_drift(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// Records the second sums: new densities and places, or velocities.
+    pub fn record_second(&self, pass: &mut wgpu::ComputePass<'_>) {
         for range in &self.ranges {
-            self.drift.record(pass, &range.drift, range.groups);
+            self.second.record(pass, &range.second, range.groups);
         }
     }
 }

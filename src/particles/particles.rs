@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Home, Motion, Numbers, Particle, Setup, Water,
+    Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water, hulls,
     kernels::{Kernels, NUMBERS},
     near,
 };
@@ -101,7 +101,11 @@ impl Particles {
             bodies: order.len() as u32,
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
-        let kernels = Kernels::new(device, queue, &setup, &frame, numbers)?;
+        let (hulls, planes) = match setup.scheme {
+            Scheme::Delta => Default::default(),
+            Scheme::Mueller { .. } => hulls::hulls(&setup, &frame, &order)?,
+        };
+        let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {
             let at = frame.place(*position);

@@ -1,14 +1,18 @@
 //! Which files and numbers make the kernels of particles.
 
-use super::{Frame, Neighbours, Setup, StateEquation};
+use super::{Frame, Neighbours, Scheme, Setup, StateEquation};
 use crate::link::Program;
 use std::f64::consts::PI;
 
 /// Storage buffers of the kernel that has the most of them, `drift` and `neighbours`.
 pub const MOST_BINDINGS: u32 = 7;
 
+/// Frequency of a particle on the spring of a wall, over that of sound across a spacing: half of what limits the
+/// step; it is damped to half of its critical damping.
+const PENALTY: f64 = 0.5;
+
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 13] = [
+pub const KERNELS: [&str; 17] = [
     "sort_count",
     "sort_list",
     "sort_order",
@@ -20,6 +24,10 @@ pub const KERNELS: [&str; 13] = [
     "shell_force",
     "body_load",
     "drift",
+    "mueller_density",
+    "mueller_move",
+    "mueller_load",
+    "mueller_drift",
     "least",
     "tick",
 ];
@@ -59,6 +67,24 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         true => 7.0 / (4.0 * PI * h.powi(2)),
         false => 21.0 / (16.0 * PI * h.powi(3)),
     };
+    let reach = 2.0 * h;
+    // Poly6, spiky and Laplacian: see the kernels.
+    let mueller = match setup.plane {
+        true => [
+            4.0 / (PI * reach.powi(8)),
+            30.0 / (PI * reach.powi(5)),
+            40.0 / (PI * reach.powi(5)),
+        ],
+        false => [
+            315.0 / (64.0 * PI * reach.powi(9)),
+            45.0 / (PI * reach.powi(6)),
+            45.0 / (PI * reach.powi(6)),
+        ],
+    };
+    let viscosity = match setup.scheme {
+        Scheme::Delta => 0.0,
+        Scheme::Mueller { viscosity } => viscosity * frame.unit_time() / setup.spacing.powi(2),
+    };
     let gravity = frame.acceleration(setup.gravity);
     let [from, to] = frame.kept;
     vec![
@@ -74,6 +100,13 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         ("QUANTUM", 1.0 / frame.quanta),
         ("SUPPORT_SQUARED", 4.0 * h * h),
         ("SMOOTHING", h),
+        ("REACH", reach),
+        ("POLY6", mueller[0]),
+        ("SPIKY", mueller[1]),
+        ("LAPLACIAN", mueller[2]),
+        ("VISCOSITY", viscosity),
+        ("PENALTY_STIFFNESS", PENALTY.powi(2)),
+        ("PENALTY_DAMPING", PENALTY),
         ("KERNEL_SCALE", scale),
         ("GRAVITY_X", gravity.x),
         ("GRAVITY_Y", gravity.y),

@@ -1,7 +1,8 @@
 //! What particles of water want to know.
 
-use crate::{Error, Result};
+use crate::{Error, Result, block::Shape};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A face of the domain, as particles meet it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,6 +26,21 @@ pub enum StateEquation {
     Tait,
 }
 
+/// Equations of the water.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scheme {
+    /// δ-SPH with dummy particles in walls and bodies: Monaghan (1992), Adami, Hu & Adams (2012), Fourtakas et al.
+    /// (2019).
+    #[default]
+    Delta,
+    /// That of Geraili Mikola & Sitar (2014), after Müller, Charypar & Gross (2003), walls being springs: kept to
+    /// compare with. Still water does not come to rest with it.
+    Mueller {
+        /// Kinematic viscosity, m²/s.
+        viscosity: f64,
+    },
+}
+
 /// How the sums over neighbours find them; the sums are the same up to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Neighbours {
@@ -41,6 +57,8 @@ pub enum Neighbours {
 pub struct Body {
     /// Places of its particles from its centroid, in its own frame, m.
     pub shell: Vec<DVec3>,
+    /// Its shape, which walls that are springs are made of.
+    pub shape: Option<Arc<Shape>>,
     /// Whether it moves at all.
     pub moves: bool,
     /// Whether somebody wants to know what the water does to it.
@@ -79,6 +97,8 @@ pub struct Setup {
     pub state: StateEquation,
     /// Whether nothing varies along y: each particle stands for the whole width of the domain.
     pub plane: bool,
+    /// Equations of the water.
+    pub scheme: Scheme,
     /// How neighbours are found.
     pub neighbours: Neighbours,
     /// Walls and blocks.
@@ -98,11 +118,12 @@ impl Setup {
             sound_speed,
             density: 1000.0,
             gravity: DVec3::new(0.0, 0.0, -9.81),
-            artificial_viscosity: 0.02,
+            artificial_viscosity: 0.01,
             density_diffusion: 0.1,
             courant: 0.2,
             state: StateEquation::Linear,
             plane: false,
+            scheme: Scheme::Delta,
             neighbours: Neighbours::Cells,
             bodies: Vec::new(),
         }
@@ -126,6 +147,14 @@ impl Setup {
             self.spacing
         };
         self.density * self.spacing * self.spacing * depth
+    }
+
+    /// Kinematic viscosity that the artificial viscosity amounts to, m²/s: α h c/10, in a plane α h c/8
+    /// (Monaghan 2005).
+    pub fn viscosity(&self) -> f64 {
+        let h = self.smoothing * self.spacing;
+        let share = if self.plane { 8.0 } else { 10.0 };
+        self.artificial_viscosity * h * self.sound_speed / share
     }
 
     /// Longest step of water that moves at most at a tenth of the speed of sound, s: the bound of

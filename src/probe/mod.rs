@@ -92,7 +92,7 @@ impl Gauge {
                     "it measures a free surface, and a lattice has none; give another kind",
                 ));
             }
-            ProbePlace::Block { block } => {
+            ProbePlace::Block { block, .. } => {
                 return Err(Error::scene(
                     format!("probes.{}", probe.name),
                     format!("it follows the block `{block}` and has no place in the fluid"),

@@ -163,6 +163,8 @@ pub enum Quantity {
     BlockKineticEnergy,
     /// Potential energy of the blocks in gravity, against that at the time 0, J.
     BlockPotentialEnergy,
+    /// Strain energy of the deformable blocks, J.
+    StrainEnergy,
     /// Elastic energy in the contacts of the blocks, J.
     ContactEnergy,
     /// What friction has turned into heat, J.
@@ -180,6 +182,8 @@ pub enum Quantity {
     AwakeBlocks,
     /// Largest speed of a block's centroid, m/s.
     BlockMaxSpeed,
+    /// Largest von Mises stress of a deformable block, Pa.
+    MaxVonMises,
 }
 
 impl Quantity {
@@ -196,6 +200,7 @@ impl Quantity {
             Self::PotentialEnergy => "potential_energy",
             Self::BlockKineticEnergy => "block_kinetic_energy",
             Self::BlockPotentialEnergy => "block_potential_energy",
+            Self::StrainEnergy => "strain_energy",
             Self::ContactEnergy => "contact_energy",
             Self::FrictionWork => "friction_work",
             Self::DampingWork => "damping_work",
@@ -204,6 +209,7 @@ impl Quantity {
             Self::Contacts => "contacts",
             Self::AwakeBlocks => "awake_blocks",
             Self::BlockMaxSpeed => "block_max_speed",
+            Self::MaxVonMises => "max_von_mises",
         }
     }
 

@@ -24,7 +24,8 @@ pub struct Particles {
     /// after a fall through the height D of all water at the start, or the largest speed of water and
     /// blocks at the start if that is more.
     pub largest_speed: Option<f64>,
-    /// Artificial viscosity α (Monaghan 1992), no unit, from 0. Default 0.02.
+    /// Artificial viscosity α (Monaghan 1992), no unit, from 0: a kinematic viscosity of
+    /// α h c/10 in space and α h c/8 in a plane. Default 0.01.
     #[serde(default = "Particles::usual_viscosity")]
     pub artificial_viscosity: f64,
     /// Diffusion δ of density (Fourtakas et al. 2019), no unit, from 0. Default 0.1.
@@ -74,7 +75,7 @@ impl Particles {
     }
 
     fn usual_viscosity() -> f64 {
-        0.02
+        0.01
     }
 
     fn usual_diffusion() -> f64 {
@@ -93,6 +94,10 @@ pub enum Scheme {
     /// δ-SPH: continuity with diffusion of density, Wendland's C2 kernel, dummy particles in solids.
     #[default]
     Delta,
+    /// That of Geraili Mikola & Sitar (2014), to compare with: density by a sum, p = c² (ρ − ρ₀), the kernels of
+    /// Müller, Charypar & Gross (2003), walls and blocks as damped springs. Still water does not come to rest with it.
+    /// Viscous by `fluid.viscosity`, or where that is 0 by what `artificial_viscosity` amounts to.
+    Mueller,
 }
 
 /// How pressure p follows from density ρ, with the density at rest ρ₀ and the speed of sound c.

@@ -16,7 +16,8 @@ pub struct Probe {
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
-    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces, and no other fields.
+    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
+    /// its stress if it deforms, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
@@ -73,6 +74,22 @@ pub enum ProbePlace {
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,
+        /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
+        /// row a face, with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure`
+        /// and `shear` stress (Pa), whether it is in a `joint` (another block, solid or wall within three cells
+        /// over it), `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
+        /// the block (N m), and the vector of the shear stress; and `faces_*.vtp`. Adds to the table of the
+        /// block `uplift_of_faces`, the force on faces that look down, against gravity (N), and
+        /// `joint_pressure`, the mean over its joints (Pa). Pressure is that of the fluid: above the
+        /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
+        /// beside. Needs a fluid. Default false.
+        #[schemars(default)]
+        faces: bool,
+        /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
+        /// `safety_toppling`, by limit equilibrium of weight, fluid and its contacts, and to tell them in the
+        /// summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. Default false.
+        #[schemars(default)]
+        safety: bool,
     },
     /// The free surface of particles above a point: its height, m.
     Gauge {
@@ -121,6 +138,8 @@ struct Flat {
     normal: Option<Direction>,
     direction: Option<Direction>,
     block: Option<String>,
+    faces: Option<bool>,
+    safety: Option<bool>,
 }
 
 /// A point, or the foot of a column.
@@ -158,6 +177,8 @@ impl Flat {
             ("normal", self.normal.is_some()),
             ("direction", self.direction.is_some()),
             ("block", self.block.is_some()),
+            ("faces", self.faces.is_some()),
+            ("safety", self.safety.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
         let fixed = |kind: &str, gives: &str| match self.fields {
@@ -212,13 +233,15 @@ impl Flat {
                 }
             }
             Kind::Block => {
-                only("block", &["block"])?;
+                only("block", &["block", "faces", "safety"])?;
                 fixed(
                     "block",
                     "position, velocity, rotation, spin, force and torque",
                 )?;
                 ProbePlace::Block {
                     block: need(self.block, "block", "block")?,
+                    faces: self.faces.unwrap_or_default(),
+                    safety: self.safety.unwrap_or_default(),
                 }
             }
             Kind::Gauge => {

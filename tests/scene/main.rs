@@ -2,6 +2,7 @@
 
 mod advice;
 mod blocks;
+mod deformable;
 mod format;
 mod formulas;
 mod parsing;

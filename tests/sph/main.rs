@@ -3,6 +3,7 @@
 #[path = "../rig/mod.rs"]
 mod rig;
 
+mod mueller;
 mod programs;
 mod step;
 mod still;

@@ -4,8 +4,8 @@ use glam::DVec3;
 use riprap::{
     layout,
     particles::{
-        Clock, Frame, Home, KERNELS, Motion, Neighbours, Particle, Setup, Side, StateEquation,
-        program,
+        Clock, Frame, Home, Hull, KERNELS, Motion, Neighbours, Particle, Setup, Side,
+        StateEquation, program,
     },
 };
 use std::mem::offset_of;
@@ -82,6 +82,15 @@ fn structures_lie_as_on_the_device() {
         ("held", offset_of!(Clock, held)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
+    let hull = [
+        ("centre", offset_of!(Hull, centre)),
+        ("radius", offset_of!(Hull, radius)),
+        ("body", offset_of!(Hull, body)),
+        ("first_face", offset_of!(Hull, first_face)),
+        ("faces", offset_of!(Hull, faces)),
+    ];
+    let load = program(&setup, &frame, "mueller_load").link().unwrap();
+    layout::check::<Hull>(&load.module, "Hull", &hull).unwrap();
     let drift = program(&setup, &frame, "drift").link().unwrap();
     layout::check::<Clock>(&drift.module, "ClockShared", &clock).unwrap();
 }

@@ -12,7 +12,7 @@ use riprap::{
 };
 
 /// Numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
-struct Noise(u64);
+pub struct Noise(pub u64);
 
 impl Noise {
     fn number(&mut self) -> f64 {
@@ -23,7 +23,7 @@ impl Noise {
         (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn vector(&mut self, plane: bool) -> DVec3 {
+    pub fn vector(&mut self, plane: bool) -> DVec3 {
         let v = DVec3::new(self.number(), self.number(), self.number());
         if plane { DVec3::new(v.x, 0.0, v.z) } else { v }
     }
@@ -89,7 +89,7 @@ fn check_with(setup: Setup) {
             shell: block.clone(),
             moves: true,
             loaded: true,
-            accelerates: false,
+            ..Body::default()
         },
     ];
     let cells = (setup.size / setup.spacing)

@@ -148,5 +148,6 @@ pub fn leaves_range(error: &Error) -> bool {
             | Error::ParticleLost { .. }
             | Error::DeepOverlap { .. }
             | Error::NotFinite { .. }
+            | Error::Inverted { .. }
     )
 }

@@ -29,7 +29,7 @@ pub(crate) use rock::Rock;
 pub(crate) use water::Pond;
 
 pub use flow::Coupling;
-pub use rock::Rocks;
+pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 pub use water::Pool;

@@ -1,6 +1,12 @@
 //! What a run was, for people and for programs: `summary.json`.
 
-use super::{flow::Coupling, progress::clock, recorder::Notes, rock::Rocks, water::Pool};
+use super::{
+    flow::Coupling,
+    progress::clock,
+    recorder::Notes,
+    rock::{Rocks, Safety},
+    water::Pool,
+};
 use riprap::output::replace;
 use serde::Serialize;
 use std::{
@@ -79,6 +85,9 @@ pub struct Summary {
     /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
+    /// How safely blocks stand whose probes ask.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub safety: Vec<Safety>,
 }
 
 /// Keys that only a fluid has.
@@ -100,6 +109,7 @@ impl Summary {
     /// Takes over what recorders noted.
     pub fn take(&mut self, notes: &Notes) {
         self.files.clone_from(&notes.files);
+        self.safety.clone_from(&notes.safety);
         self.warnings.extend(notes.warnings.iter().cloned());
         if let Some((step, path)) = &notes.checkpoint {
             self.checkpoint = Some(path.clone());
@@ -192,6 +202,9 @@ impl fmt::Display for Summary {
         }
         if let Some(rocks) = &self.rocks {
             writeln!(f, "{rocks}")?;
+        }
+        for safety in &self.safety {
+            writeln!(f, "  {safety}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

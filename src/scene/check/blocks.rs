@@ -22,6 +22,7 @@ impl Scene {
             finite(format!("{key}.position"), &block.position)?;
             turn(&format!("{key}.rotation"), &block.rotation)?;
             motion(&key, block)?;
+            self.check_deformable(&key, block)?;
             repeats(&key, block)?;
         }
         Ok(())

@@ -3,6 +3,7 @@
 mod blocks;
 mod boundaries;
 mod coupling;
+mod deformable;
 mod domain;
 mod dry;
 mod materials;

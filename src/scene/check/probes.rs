@@ -11,6 +11,19 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             self.check_probe(&format!("probes[{index}]"), probe)?;
         }
+        let asks = |probe: &&Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
+        for asking in self.probes.iter().filter(asks) {
+            let faces = format!("{}_faces", asking.name);
+            if let Some(index) = self.probes.iter().position(|probe| probe.name == faces) {
+                return refuse(
+                    format!("probes[{index}].name"),
+                    format!(
+                        "`{faces}` is the table of the faces of `{}`; give it another name",
+                        asking.name
+                    ),
+                );
+            }
+        }
         Ok(())
     }
 
@@ -40,6 +53,11 @@ impl Scene {
                 point[axis.index()] = *position;
                 within("position", point)
             }
+            ProbePlace::Block { faces: true, .. } if !self.has_fluid() => refuse(
+                format!("{key}.faces"),
+                "there is no fluid in this scene that could load the faces of a block; remove `faces`, or \
+                 add [fluid]",
+            ),
             // Whether there is a block of that name, only the blocks themselves can tell.
             ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
             ProbePlace::Block { .. } => refuse(

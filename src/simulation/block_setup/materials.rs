@@ -18,6 +18,7 @@ pub(super) fn held(scene: &Scene, key: &str, name: Option<&str>) -> Result<usize
 /// The materials in their order; without blocks there is one, whether it is given or not.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     let material = |material: &scene::Material| Material {
+        elastic: material.elastic(),
         density: material.density,
         joint: Joint {
             normal_stiffness: material.normal_stiffness,

@@ -9,7 +9,7 @@ mod shown;
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    rock::{self, BlockFiles, Rock, Rocks},
     summary::Summary,
     views::Views,
 };
@@ -152,6 +152,7 @@ impl Engine for Pond {
             setup: &simulation.setup().setup,
             blocks: simulation.blocks(),
             felt: &simulation.felt()[..shown],
+            coupled: None,
             shown,
             start: &self.start,
         })
@@ -201,12 +202,12 @@ impl Engine for Pond {
         let scene = self.scene().clone();
         let mut recorders: Recorders<Self> = vec![Box::new(Clouds::new(self, folder, last)?)];
         for probe in &scene.probes {
-            recorders.push(match &probe.place {
-                ProbePlace::Block { block } => {
-                    Box::new(BlockProbe::new(self, folder, last, (probe, block))?)
-                }
-                _ => Box::new(GaugeTable::new(self, folder, last, probe)?),
-            });
+            if let ProbePlace::Block { block, safety, .. } = &probe.place {
+                let asked = [false, *safety];
+                recorders.extend(rock::probes(self, folder, last, (probe, block), asked)?);
+            } else {
+                recorders.push(Box::new(GaugeTable::new(self, folder, last, probe)?));
+            }
         }
         if self.shown() > 0 {
             recorders.push(Box::new(BlockFiles::new(self, folder, last)?));

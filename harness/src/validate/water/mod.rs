@@ -5,5 +5,6 @@ pub mod pool;
 pub mod buoyancy;
 pub mod dam;
 pub mod maker;
+pub mod schemes;
 pub mod still;
 pub mod wave;

@@ -2,7 +2,11 @@
 
 use super::super::{Stand, Trial};
 use riprap::{
-    bodies::Pose, coupling::Felt, particles::Water, scene::Scene, simulation::FreeSurface,
+    bodies::Pose,
+    coupling::Felt,
+    particles::Water,
+    scene::{Scene, Scheme},
+    simulation::FreeSurface,
 };
 use std::{path::Path, time::Instant};
 
@@ -47,6 +51,13 @@ pub fn scene(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyho
     let scene = Scene::from_toml(&text, Path::new("."), "pool")?;
     scene.check()?;
     Ok(scene)
+}
+
+/// Chooses the equations of the water.
+pub fn choose(scene: &mut Scene, scheme: Scheme) {
+    if let Some(particles) = &mut scene.particles {
+        particles.scheme = scheme;
+    }
 }
 
 /// A scene that runs, with the time that it took.

@@ -58,6 +58,10 @@ impl Scene {
                 "there is no fluid in this scene that could load the faces of a block; remove `faces`, or \
                  add [fluid]",
             ),
+            ProbePlace::Block { faces: true, .. } if self.has_particles() => refuse(
+                format!("{key}.faces"),
+                "particles load blocks as a whole, and not face by face; remove `faces`, or use a lattice fluid",
+            ),
             // Whether there is a block of that name, only the blocks themselves can tell.
             ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
             ProbePlace::Block { .. } => refuse(

@@ -151,6 +151,7 @@ impl Engine for Pond {
             time: simulation.time(),
             setup: &simulation.setup().setup,
             blocks: simulation.blocks(),
+            coupled: None,
             felt: &simulation.felt()[..shown],
             coupled: None,
             shown,

@@ -331,3 +331,15 @@ fn walls_hold_water_without_a_material() {
     assert_eq!(names, ["solid_1", "wall_x_min", "wall_x_max", "wall_z_min"]);
     assert_eq!(setup.materials.len(), 1);
 }
+
+#[test]
+fn loads_on_faces_are_of_cells() {
+    let block = "[[materials]]\nname = \"rock\"\ndensity = 2500\nnormal_stiffness = 1e8\nfriction = 30\n\
+                 [[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [2, 0.5, 1]\n\
+                 [[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"b\"\n";
+    tank(block).unwrap();
+    refused(
+        tank(&format!("{block}faces = true\n")),
+        &["probes[0].faces", "particles"],
+    );
+}

@@ -153,7 +153,6 @@ impl Engine for Pond {
             blocks: simulation.blocks(),
             coupled: None,
             felt: &simulation.felt()[..shown],
-            coupled: None,
             shown,
             start: &self.start,
         })

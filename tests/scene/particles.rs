@@ -163,8 +163,8 @@ fn particles_that_contradict_themselves_are_refused() {
         ),
         (
             "spacing = 0.05",
-            "spacing = 0.05\nscheme = \"mueller\"",
-            ["no word `mueller`", "delta"],
+            "spacing = 0.05\nscheme = \"muller\"",
+            ["no word `muller`", "delta"],
         ),
         (
             "spacing = 0.05",

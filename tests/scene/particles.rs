@@ -163,8 +163,8 @@ fn particles_that_contradict_themselves_are_refused() {
         ),
         (
             "spacing = 0.05",
-            "spacing = 0.05\nscheme = \"mueller\"",
-            ["no word `mueller`", "delta"],
+            "spacing = 0.05\nscheme = \"muller\"",
+            ["no word `muller`", "delta"],
         ),
         (
             "spacing = 0.05",
@@ -330,4 +330,16 @@ fn walls_hold_water_without_a_material() {
     let names: Vec<&str> = setup.blocks.iter().map(|b| b.name.as_str()).collect();
     assert_eq!(names, ["solid_1", "wall_x_min", "wall_x_max", "wall_z_min"]);
     assert_eq!(setup.materials.len(), 1);
+}
+
+#[test]
+fn loads_on_faces_are_of_cells() {
+    let block = "[[materials]]\nname = \"rock\"\ndensity = 2500\nnormal_stiffness = 1e8\nfriction = 30\n\
+                 [[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [2, 0.5, 1]\n\
+                 [[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"b\"\n";
+    tank(block).unwrap();
+    refused(
+        tank(&format!("{block}faces = true\n")),
+        &["probes[0].faces", "particles"],
+    );
 }

@@ -81,7 +81,7 @@ impl Scene {
             (false, 0.0) => {
                 return refuse(
                     "fluid.viscosity",
-                    "`viscosity` is missing, or 0; a lattice needs one greater than 0, in m²/s",
+                    "is 0 m²/s, or `viscosity` is missing; a lattice needs a number greater than 0",
                 );
             }
             (false, _) => positive("fluid.viscosity", viscosity, "m²/s")?,

@@ -178,6 +178,12 @@ impl Scene {
                         return refuse(format!("{key}.fields"), unknown(field));
                     }
                 }
+                ProbePlace::Block { faces: true, .. } => {
+                    return refuse(
+                        format!("{key}.faces"),
+                        "faces measure the cells before them, and here are particles; leave it out",
+                    );
+                }
                 ProbePlace::Gauge { .. } | ProbePlace::RunUp { .. } | ProbePlace::Block { .. } => {}
                 _ => {
                     return refuse(

@@ -1,8 +1,10 @@
 //! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
 
 mod blocks;
+mod water;
 
 pub use blocks::BlockCheckpoint;
+pub use water::WaterCheckpoint;
 
 use crate::{Error, Result, coupling::CoupledState, lattice::Populations, output::replace};
 use std::path::Path;

@@ -81,6 +81,18 @@ pub enum Error {
         /// What to change.
         remedy: String,
     },
+    /// The water of particles left the range in which the method is stable.
+    #[error("diverged at step {step}: {}{cause}; {remedy}", particle.map_or_else(String::new, |id| format!("particle {id}: ")))]
+    ParticleLost {
+        /// Its number at the start, if it is one of them.
+        particle: Option<u32>,
+        /// Step of the water, from 0.
+        step: u64,
+        /// Likely cause.
+        cause: String,
+        /// What to change.
+        remedy: String,
+    },
     /// Two blocks overlap by more than hard blocks may.
     #[error(
         "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, which hard blocks may; {remedy}"
@@ -106,9 +118,9 @@ pub enum Error {
         /// The pairs, deepest first.
         pairs: Vec<Overlap>,
     },
-    /// The step is too long for the springs of the contacts.
+    /// The step is too long for the springs of the contacts, or for the elasticity of a block.
     #[error(
-        "time_step = {asked:.3e} s is too long for the contacts of {block}: at most {bound:.3e} s \
+        "time_step = {asked:.3e} s is too long for the springs of {block}, its contacts and its own elasticity: at most {bound:.3e} s \
          ({usual:.3e} s is usual), or a lower stiffness"
     )]
     TimeStep {
@@ -118,8 +130,19 @@ pub enum Error {
         bound: f64,
         /// Step taken without `time_step`, s.
         usual: f64,
-        /// Block whose contacts are the stiffest for its mass.
+        /// Block that is the stiffest for its mass.
         block: String,
+    },
+    /// A block that deforms has been crushed to nothing.
+    #[error(
+        "{block} is turned inside out at t = {time} s: what presses it is beyond its elasticity; take a \
+         greater youngs_modulus, or less load"
+    )]
+    Inverted {
+        /// Block, with its index.
+        block: String,
+        /// Time, s.
+        time: f64,
     },
     /// The motion of a block is no longer a number.
     #[error("{block} has a pose or velocity that is not finite at t = {time} s; {remedy}")]

@@ -8,7 +8,8 @@
 //! Rock goes its own way through the host: [`block`] (shapes, and masses cut by joints) →
 //! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
 //! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
-//! [`bodies`] (all of it, a step). What water does to it and it to water is [`immersed`].
+//! [`bodies`] (all of it, a step) → [`safety`] (how far from moving). What water does to it and it to water is
+//! [`immersed`].
 //!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
 //! adapter, reads no environment, never blocks and does not panic on input.
@@ -59,8 +60,10 @@ pub mod law;
 pub mod layout;
 pub mod link;
 pub mod output;
+pub mod particles;
 pub mod probe;
 pub mod readback;
+pub mod safety;
 pub mod scene;
 pub mod search;
 pub mod simulation;

@@ -3,7 +3,7 @@
 //! In lattice units a cell, a time step and the reference density are 1. Everything outside the
 //! kernels is in SI; what crosses the border passes through a function of [`Units`].
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::{Numerics, Scene};
 
 /// Squared speed of sound of the lattice, lattice units.
@@ -32,6 +32,12 @@ impl Units {
     /// # Errors
     /// If the scene gives neither a time step nor any velocity from which one follows.
     pub fn of(scene: &Scene) -> Result<Self> {
+        if scene.has_particles() {
+            return Err(Error::scene(
+                "particles",
+                "a fluid of particles has no lattice; run it as one of particles",
+            ));
+        }
         let cell = scene.domain.cell;
         let time_step = match scene.numerics.time_step {
             Some(time_step) => time_step,

@@ -22,12 +22,15 @@ if not reader.CanReadFile(path):
 reader.SetFileName(path)
 reader.Update()
 data = reader.GetOutput()
-attributes = data.GetCellData() if solid else data.GetPointData()
+surface = not solid and data.GetNumberOfPolys() > 0
+attributes = data.GetCellData() if solid or surface else data.GetPointData()
 arrays = {}
 for number in range(attributes.GetNumberOfArrays()):
     array = attributes.GetArray(number)
     count = array.GetNumberOfTuples()
-    arrays[array.GetName()] = [list(array.GetTuple(item)) for item in range(count)]
+    values = [array.GetTuple(item) for item in range(count)]
+    # JSON has no NaN.
+    arrays[array.GetName()] = [[None if x != x else x for x in value] for value in values]
 cells = []
 if solid:
     sizes = vtkCellSizeFilter()

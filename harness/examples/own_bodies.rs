@@ -99,6 +99,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let submerged = bodies.iter().map(|body| Submerged {
         shape: body.shape.clone(),
         loaded: true,
+        faces: false,
     });
     let mut immersed = Immersed::new(&device, &lattice, frame, submerged.collect())?;
 

@@ -53,6 +53,7 @@ fn main() -> ExitCode {
                 Error::Diverged { .. }
                     | Error::DeepOverlap { .. }
                     | Error::NotFinite { .. }
+                    | Error::Inverted { .. }
                     | Error::DeviceLost(_)
                     | Error::Timeout { .. }
             )

@@ -14,7 +14,7 @@ use std::{path::Path, time::Duration};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Storage buffers of a kernel of the finder.
-const BUFFERS: u32 = 6;
+pub const BUFFERS: u32 = 6;
 
 /// A finder on the host or on a device.
 pub enum Finder {

@@ -240,6 +240,43 @@ fn a_held_block_tells_its_buoyancy_and_feels_no_flow_where_there_is_none() {
     }
 }
 
+/// On the floor of the tank: its base is dry and the only face in a joint, and nothing drives it but its buoyancy, of
+/// which its weight is 2.65 times.
+#[test]
+fn a_block_tells_its_faces_and_how_safely_it_stands() {
+    let folder = folder("coupled_faces");
+    let text = HELD.replace("0.083]", "0.04]").replace(
+        "block = \"cube\"\n",
+        "block = \"cube\"\nfaces = true\nsafety = true\n",
+    );
+    let summary = go(&args(&folder, &text, "out"));
+    let told = summary.to_string();
+    let line = "cube: factor of safety sliding inf, uplift 2.65, toppling inf at";
+    assert!(told.contains(line), "{told}");
+    let cube = folder.join("out/cube.csv");
+    assert_eq!(last(&cube, "safety_sliding"), f64::INFINITY);
+    assert!((last(&cube, "safety_uplift") / 2.65 - 1.0).abs() < 1e-4);
+    assert!(last(&cube, "joint_pressure").is_nan(), "the joint is dry");
+    let faces = folder.join("out/cube_faces.csv");
+    let [normal, area, wetted, pressure, joint] =
+        ["normal_z", "area", "wetted_area", "pressure", "joint"].map(|name| column(&faces, name));
+    assert_eq!(normal.len(), 6);
+    for face in 0..6 {
+        let base = normal[face] < -0.5;
+        assert!((area[face] / 0.0064 - 1.0).abs() < 1e-12);
+        assert_eq!(wetted[face], if base { 0.0 } else { area[face] });
+        assert_eq!(joint[face], f64::from(u8::from(base)));
+        // The water is weightless and at rest.
+        assert!(pressure[face].is_nan() == base && (base || pressure[face].abs() < 1e-3));
+    }
+    let shown = read_with_vtk(&folder.join("out/faces.pvd"));
+    assert_eq!(shown["points"].as_array().unwrap().len(), 24);
+    for name in ["block", "pressure", "wetted", "shear"] {
+        let values = shown["arrays"][name].as_array().unwrap();
+        assert_eq!(values.len(), 6, "{name}");
+    }
+}
+
 /// Loads on a block that never moves are read when somebody asks, and do not depend on when others asked.
 #[test]
 fn the_drag_of_a_held_block_is_that_of_the_last_steps() {

@@ -4,7 +4,8 @@
 // needs velocity, workgroup, $cells, $operator, $reals
 
 // Nine planes of WORKGROUP elements for each brick: the sum of the fractions of all blocks, plus 8 in cells deep inside
-// one, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G.
+// one, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
+// cells beside one that are fluid the last five are 1, rho - 1 and the fluid's velocity.
 @group(0) @binding(35) var<storage, read_write> saturation_planes: array<Reals>;
 
 struct Saturation {
@@ -12,6 +13,7 @@ struct Saturation {
     fraction: Real,
     velocity: Vector,
     near: Mask,
+    beside: Mask,
     deep: Mask,
 }
 
@@ -28,7 +30,7 @@ fn saturation_of(slot: u32, local: u32) -> Saturation {
         get_reals(saturation_planes[plane(slot, 3u, local)]),
     );
     let fraction = max(select(kept, kept - Real(8.0), deep), Real(0.0));
-    return Saturation(fraction, velocity, kept != Real(0.0), deep);
+    return Saturation(fraction, velocity, kept != Real(0.0), kept < Real(0.0), deep);
 }
 
 // What the eddy viscosity of the next step sees: the solid's velocity in the solid.
@@ -70,11 +72,12 @@ fn saturate(
         (*change)[k] += weight * (s[k] - (*change)[k]);
     }
     let fluid = (saturation.fraction > Real(0.0)) & !solid(cell);
+    let beside = saturation.beside & !solid(cell);
     let beta = select(Real(0.0), weight / max(saturation.fraction, Real(1e-30)), fluid);
     let a = factor * rho;
-    saturation_planes[plane(slot, 4u, local)] = put_reals(beta);
-    saturation_planes[plane(slot, 5u, local)] = put_reals(beta * a);
-    saturation_planes[plane(slot, 6u, local)] = put_reals(beta * (s[1u] - a * v.x));
-    saturation_planes[plane(slot, 7u, local)] = put_reals(beta * (s[3u] - a * v.y));
-    saturation_planes[plane(slot, 8u, local)] = put_reals(beta * (s[9u] - a * v.z));
+    saturation_planes[plane(slot, 4u, local)] = put_reals(select(beta, Real(1.0), beside));
+    saturation_planes[plane(slot, 5u, local)] = put_reals(select(beta * a, (*h)[0u], beside));
+    saturation_planes[plane(slot, 6u, local)] = put_reals(select(beta * (s[1u] - a * v.x), u.x, beside));
+    saturation_planes[plane(slot, 7u, local)] = put_reals(select(beta * (s[3u] - a * v.y), u.y, beside));
+    saturation_planes[plane(slot, 8u, local)] = put_reals(select(beta * (s[9u] - a * v.z), u.z, beside));
 }

@@ -1,6 +1,10 @@
-// Gardner & Sitar 2018, eqs. 11-12, by faces: force, moment and wetted area of one face of a part in one tile. What a
-// cell feels belongs to the face that is highest over it; deep cells belong to none. A workgroup is a job.
-// needs solid_cell, face_planes
+// Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
+// layer of cells beside it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
+// no force belongs to one face: full cells reflect what was in them when they were covered. A workgroup is a job.
+// needs solid_cell, beside_face
+
+// Of the fluid, lattice units.
+override VISCOSITY: f32;
 
 struct FaceJob {
     tile: u32,
@@ -10,11 +14,45 @@ struct FaceJob {
 
 @group(0) @binding(4) var<storage, read> jobs: array<FaceJob>;
 @group(0) @binding(5) var<storage, read> parts: array<Part>;
-// FACE_LOAD a job: force (3), moment about the block's centroid (3), area in cells with fluid, cells.
+// FACE_LOAD a job, sums over the cells: traction (3), its moment about the block's centroid (3), height, cells with
+// fluid, cells.
 @group(0) @binding(7) var<storage, read_write> face_partials: array<f32>;
 
-var<workgroup> forces: array<vec4<f32>, 64>;
-var<workgroup> moments: array<vec4<f32>, 64>;
+var<private> sums: array<f32, FACE_LOAD>;
+var<workgroup> sums_of_all: array<f32, 64 * FACE_LOAD>;
+
+fn add_beside(job: FaceJob, tile: Tile, local: u32) {
+    let part = parts[tile.part];
+    let cell = tile.cell + vec3<i32>(place_in_brick(local));
+    let beside = beside_face(part, job.face, centre_from(cell, part.base, part.fraction));
+    if (!beside.here) {
+        return;
+    }
+    sums[8] += 1.0;
+    let first = (tile.slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + tile.lane;
+    let stride = WORKGROUP * LANES_OF_ELEMENT;
+    // Another block may be in the cell, or a wall.
+    if (saturation[first] != NEAR || saturation[first + 4u * stride] == 0.0) {
+        return;
+    }
+    let motion = motions[tile.block];
+    let foot = centre_from(cell, motion.base, motion.fraction) - beside.height * beside.normal;
+    let u = vec3(
+        saturation[first + 6u * stride],
+        saturation[first + 7u * stride],
+        saturation[first + 8u * stride],
+    ) - velocity_at(motion, foot);
+    let along = u - dot(u, beside.normal) * beside.normal;
+    let p = saturation[first + 5u * stride] / 3.0;
+    let traction = VISCOSITY / beside.height * along - p * beside.normal;
+    let moment = cross(foot, traction);
+    for (var i = 0u; i < 3u; i++) { // unroll
+        sums[i] += traction[i];
+        sums[3u + i] += moment[i];
+    }
+    sums[6] += beside.height;
+    sums[7] += 1.0;
+}
 
 @compute @workgroup_size(64)
 fn reduce_faces(
@@ -24,36 +62,25 @@ fn reduce_faces(
 ) {
     let turn = turn_of(group, groups);
     let here = turn < min(TILES, arrayLength(&jobs));
-    var force: vec4<f32>;
-    var moment: vec4<f32>;
     if (here) {
         let job = jobs[turn];
         let tile = tiles[job.tile];
-        let part = parts[tile.part];
         for (var l = local; l < WORKGROUP; l += 64u) {
-            let share = shares[job.tile * WORKGROUP + l];
-            if (share <= 0.0 || share == DEEP) {
-                continue;
+            if (shares[job.tile * WORKGROUP + l] == NEAR) {
+                add_beside(job, tile, l);
             }
-            let cell = solid_cell(tile, share, l);
-            let centre = centre_from(tile.cell + vec3<i32>(place_in_brick(l)), part.base, part.fraction);
-            let face = face_in_cell(part, job.face, centre);
-            force += vec4(select(vec3(0.0), cell.f, face.owns), select(0.0, face.area, cell.beta > 0.0));
-            moment += vec4(select(vec3(0.0), cross(cell.r, cell.f), face.owns), select(0.0, 1.0, face.owns));
         }
     }
-    forces[local] = force;
-    moments[local] = moment;
+    for (var k = 0u; k < FACE_LOAD; k++) {
+        sums_of_all[k * 64u + local] = sums[k];
+    }
     workgroupBarrier();
     if (!here || local >= FACE_LOAD) {
         return;
     }
-    // Numbers 0-2 are the force, 3-5 the moment, then area and cells.
-    let of_force = local < 3u || local == 6u;
-    let component = select(select(local - 3u, 3u, local > 5u), local, local < 3u);
     var sum = 0.0;
     for (var n = 0u; n < 64u; n++) {
-        sum += select(moments[n][component], forces[n][component], of_force);
+        sum += sums_of_all[local * 64u + n];
     }
     face_partials[turn * FACE_LOAD + local] = sum;
 }

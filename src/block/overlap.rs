@@ -24,10 +24,10 @@ impl Part {
                 a + b - apart > COMMON * a.min(*b)
             }
             (Form::Sphere { radius }, Form::Convex(p)) => {
-                distance(p, self.offset - other.offset) < (1.0 - COMMON) * radius
+                p.distance(self.offset - other.offset) < (1.0 - COMMON) * radius
             }
             (Form::Convex(p), Form::Sphere { radius }) => {
-                distance(p, other.offset - self.offset) < (1.0 - COMMON) * radius
+                p.distance(other.offset - self.offset) < (1.0 - COMMON) * radius
             }
         }
     }
@@ -50,26 +50,29 @@ fn common_volume(a: &Polyhedron, at_a: DVec3, b: &Polyhedron, at_b: DVec3) -> f6
     cell.moments(DVec3::ZERO).volume
 }
 
-/// Distance of a point, m from the centroid, from a polyhedron; 0 inside.
-fn distance(p: &Polyhedron, point: DVec3) -> f64 {
-    let at = |v: u32| p.vertices()[v as usize];
-    if p.faces().iter().all(|f| f.height(point) <= 0.0) {
-        return 0.0;
-    }
-    let edges = p.edges().iter().map(|[a, b]| {
-        let (a, along) = (at(*a), at(*b) - at(*a));
-        let t = (point - a).dot(along) / along.length_squared();
-        (a + along * t.clamp(0.0, 1.0)).distance(point)
-    });
-    // Of a face that the point is straight above.
-    let faces = p.faces().iter().zip(p.loops()).filter_map(|(face, ring)| {
-        let height = face.height(point);
-        let mut sides = ring.iter().zip(ring.iter().cycle().skip(1));
-        let above = sides.all(|(a, b)| {
-            let inwards = face.normal.cross(at(*b) - at(*a));
-            inwards.dot(point - at(*a)) >= 0.0
+impl Polyhedron {
+    /// Distance of a point, m from the centroid; 0 inside.
+    pub(crate) fn distance(&self, point: DVec3) -> f64 {
+        let at = |v: u32| self.vertices()[v as usize];
+        if self.faces().iter().all(|f| f.height(point) <= 0.0) {
+            return 0.0;
+        }
+        let edges = self.edges().iter().map(|[a, b]| {
+            let (a, along) = (at(*a), at(*b) - at(*a));
+            let t = (point - a).dot(along) / along.length_squared();
+            (a + along * t.clamp(0.0, 1.0)).distance(point)
         });
-        (height > 0.0 && above).then_some(height)
-    });
-    edges.chain(faces).fold(f64::INFINITY, f64::min)
+        // Of a face that the point is straight above.
+        let faces = self.faces().iter().zip(self.loops());
+        let faces = faces.filter_map(|(face, ring)| {
+            let height = face.height(point);
+            let mut sides = ring.iter().zip(ring.iter().cycle().skip(1));
+            let above = sides.all(|(a, b)| {
+                let inwards = face.normal.cross(at(*b) - at(*a));
+                inwards.dot(point - at(*a)) >= 0.0
+            });
+            (height > 0.0 && above).then_some(height)
+        });
+        edges.chain(faces).fold(f64::INFINITY, f64::min)
+    }
 }

@@ -2,9 +2,11 @@
 
 use super::{
     Body, ContactPoint, Ledger, Load, Pose, Setup, Sleep,
-    body::{Drive, Flight, State},
-    books::Books,
+    body::{Flight, State},
+    books::{All, Books},
     bound, check,
+    deforming::{DeformingBlocks, pose},
+    make,
     narrow::Joints,
     pairs::{self, Mark},
     parts::Parts,
@@ -17,8 +19,7 @@ use crate::{
     Error, Result,
     broadphase::{Broadphase, Item},
     contact::{Counts, Options},
-    integrate::Principal,
-    law,
+    law::{self, Joint},
 };
 use glam::DVec3;
 
@@ -68,6 +69,7 @@ pub struct Blocks {
     pub(super) time_step: f64,
     pub(super) started: bool,
     pub(super) states: Vec<State>,
+    pub(super) deforming: DeformingBlocks,
     /// Poses when the pairs were found; empty: never.
     pub(super) marks: Vec<Mark>,
     pub(super) pairs: Vec<Pair>,
@@ -100,31 +102,12 @@ impl Blocks {
     pub fn with_options(setup: Setup, options: Options) -> Result<Self> {
         check::check(&setup)?;
         let joints = check::joints(&setup);
-        let mut bodies: Vec<Body> = Vec::with_capacity(setup.blocks.len());
-        let mut states = Vec::with_capacity(setup.blocks.len());
-        let mut first = 0;
-        for block in &setup.blocks {
-            let density = setup.materials[block.material].density;
-            let count = block.shape.parts().len();
-            let body = Body {
-                name: block.name.clone(),
-                mass: density * block.shape.volume(),
-                inertia: Principal::of(block.shape.inertia()).scaled(density),
-                shape: block.shape.clone(),
-                radius: block.shape.radius(),
-                material: block.material as u32,
-                drive: Drive::of(&block.motion),
-                parts: first..first + count,
-            };
-            first += count;
-            states.push(start(&body, block));
-            bodies.push(body);
-        }
-        let (frequency_squared, _) = bound::of_shapes(&bodies, &joints);
+        let (bodies, states, deforming) = make::make(&setup);
+        let (frequency_squared, _) = bound::of_shapes(&bodies, &deforming, &joints);
         let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
         let time_step = setup.time_step.unwrap_or(usual);
         let mut blocks = Self {
-            skin: setup.skin.unwrap_or_else(|| usual_skin(&bodies)),
+            skin: setup.skin.unwrap_or_else(|| make::usual_skin(&bodies)),
             joints,
             gravity: setup.gravity,
             damping: setup.damping,
@@ -150,8 +133,9 @@ impl Blocks {
             next_touches: Touches::default(),
             bodies,
             states,
+            deforming,
         };
-        blocks.parts.put(&blocks.bodies, &blocks.states);
+        blocks.place();
         Ok(blocks)
     }
 
@@ -187,7 +171,10 @@ impl Blocks {
 
     /// Where the blocks are and how they move.
     pub fn poses(&self) -> Vec<Pose> {
-        self.states.iter().map(State::pose).collect()
+        let all = self.bodies.iter().zip(&self.states);
+        let strains = &self.deforming.strains;
+        all.map(|(body, state)| pose(body, state, strains))
+            .collect()
     }
 
     /// Name of a block.
@@ -245,7 +232,7 @@ impl Blocks {
     pub fn largest_speed(&self) -> f64 {
         let free = self.bodies.iter().zip(&self.states);
         free.filter(|(body, _)| body.is_free())
-            .map(|(body, state)| state.fastest(body.radius))
+            .map(|(body, state)| self.deforming.fastest(body, state))
             .fold(0.0, f64::max)
     }
 
@@ -255,10 +242,20 @@ impl Blocks {
         real.map(ContactPoint::of)
     }
 
+    /// The joint between two blocks, by their materials.
+    pub fn joint(&self, [a, b]: [usize; 2]) -> &Joint {
+        let material = |block: usize| self.bodies[block].material;
+        self.joints.of(material(a), material(b))
+    }
+
+    /// Gravity, m/s².
+    pub fn gravity(&self) -> DVec3 {
+        self.gravity
+    }
+
     /// Energies since the start.
     pub fn ledger(&self) -> Ledger {
-        self.books
-            .ledger(&self.bodies, &self.states, &self.touches, self.gravity)
+        self.books.ledger(self.all(), &self.touches, self.gravity)
     }
 
     /// What the resolvers have done so far.
@@ -280,7 +277,13 @@ impl Blocks {
     /// the skin.
     pub fn wants_pairs(&self) -> bool {
         self.marks.len() < self.bodies.len()
-            || pairs::outlived(&self.bodies, &self.states, &self.marks, self.ahead())
+            || pairs::outlived(
+                &self.bodies,
+                &self.states,
+                &self.deforming,
+                &self.marks,
+                self.ahead(),
+            )
     }
 
     /// The pairs of [`Blocks::items`] that may touch. What the pairs remember of each other stays.
@@ -296,6 +299,7 @@ impl Blocks {
             room: self.room(i),
         };
         self.marks = self.states.iter().enumerate().map(mark).collect();
+        self.deforming.mark();
         Ok(())
     }
 
@@ -308,7 +312,7 @@ impl Blocks {
             let message = format!("{} loads for {} blocks", loads.len(), self.len());
             return Err(Error::scene("loads", message));
         }
-        let finite = |load: &Load| load.force.is_finite() && load.torque().is_finite();
+        let finite = |load: &Load| load.force.is_finite() && load.moment.is_finite();
         if let Some(i) = loads.iter().position(|load| !finite(load)) {
             let message = format!("the load {:?} is not finite", loads[i].force);
             return Err(Error::scene(self.label(i), message));
@@ -317,7 +321,16 @@ impl Blocks {
             state.load = load.force;
             state.load_torque = load.torque();
         }
-        self.books.reload(&self.bodies, &self.states);
+        let deforming = &mut self.deforming;
+        for (one, strain) in deforming.list.iter().zip(&mut deforming.strains) {
+            strain.load = loads[one.block].moment;
+        }
+        let all = All {
+            bodies: &self.bodies,
+            states: &self.states,
+            deforming: &self.deforming,
+        };
+        self.books.reload(all, self.time);
         self.wake();
         Ok(())
     }
@@ -346,7 +359,7 @@ impl Blocks {
     /// By how much the boxes of a block are grown, m.
     fn room(&self, block: usize) -> f64 {
         let (body, state) = (&self.bodies[block], &self.states[block]);
-        pairs::room(body, state, self.skin, self.ahead())
+        pairs::room(body, state, &self.deforming, self.skin, self.ahead())
     }
 
     /// Time for which pairs must be known ahead, s.
@@ -359,38 +372,17 @@ impl Blocks {
         }
     }
 
+    /// All of them, with their state.
+    fn all(&self) -> All<'_> {
+        All {
+            bodies: &self.bodies,
+            states: &self.states,
+            deforming: &self.deforming,
+        }
+    }
+
     /// A block in a message.
     pub(super) fn label(&self, block: usize) -> String {
         super::narrow::label(block, &self.bodies[block].name)
     }
-}
-
-fn start(body: &Body, block: &super::Block) -> State {
-    let mut state = State {
-        centre: block.centre,
-        rotation: block.rotation.normalize(),
-        velocity: block.velocity,
-        spin: block.spin,
-        ..State::default()
-    };
-    match &body.drive {
-        Drive::Forces => {
-            let frame = state.rotation * body.inertia.axes;
-            state.momentum = frame * ((frame.conjugate() * block.spin) * body.inertia.moments);
-        }
-        Drive::Nothing => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
-        Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
-    }
-    state
-}
-
-/// A tenth of the mean radius of the parts that move: boxes grow little, and the list lives for many steps.
-fn usual_skin(bodies: &[Body]) -> f64 {
-    let moving = bodies.iter().filter(|body| !body.is_fixed());
-    let (mut sum, mut count) = (0.0, 0.0f64);
-    for part in moving.flat_map(|body| body.shape.parts()) {
-        sum += part.form.radius();
-        count += 1.0;
-    }
-    0.1 * sum / count.max(1.0)
 }

@@ -1,12 +1,17 @@
 //! One block: what stays and what changes.
 
-use super::{Motion, Pose, sums::Sum};
+use super::{
+    Block, Motion, Pose,
+    acting::{self, Acting},
+    deforming::{RIGID, Under},
+    sums::Sum,
+};
 use crate::{
     block::Shape,
     formula::Formula,
     integrate::{self, Principal},
 };
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use std::{ops::Range, sync::Arc};
 
 /// What stays.
@@ -15,6 +20,8 @@ pub(super) struct Body {
     pub name: String,
     pub shape: Arc<Shape>,
     pub material: u32,
+    /// Its number among those that deform, or [`RIGID`].
+    pub deforming: u32,
     pub drive: Drive,
     /// kg.
     pub mass: f64,
@@ -29,16 +36,17 @@ pub(super) struct Body {
 /// What moves it. Formulas are rare and elsewhere, so that a body is small: all are read in each step.
 #[derive(Clone, Debug)]
 pub(super) enum Drive {
-    Forces,
+    /// Those of contacts and loads, and maybe more of its own.
+    Forces(Option<Box<Acting>>),
     Nothing,
     /// Velocity and spin.
     Formulas(Box<[[Formula; 3]; 2]>),
 }
 
 impl Drive {
-    pub fn of(motion: &Motion) -> Self {
-        match motion {
-            Motion::Free => Self::Forces,
+    pub fn of(block: &Block) -> Self {
+        match &block.motion {
+            Motion::Free => Self::Forces(Acting::of(block)),
             Motion::Fixed => Self::Nothing,
             Motion::Driven { velocity, spin } => {
                 Self::Formulas(Box::new([velocity.clone(), spin.clone()]))
@@ -49,7 +57,7 @@ impl Drive {
 
 impl Body {
     pub fn is_free(&self) -> bool {
-        matches!(self.drive, Drive::Forces)
+        matches!(self.drive, Drive::Forces(_))
     }
 
     pub fn is_fixed(&self) -> bool {
@@ -61,10 +69,32 @@ impl Body {
         let Drive::Formulas(formulas) = &self.drive else {
             return [DVec3::ZERO; 2];
         };
-        let value = |f: &Formula| f.eval_at([0.0; 3], t);
-        formulas
-            .each_ref()
-            .map(|v| DVec3::from_array(v.each_ref().map(value)))
+        formulas.each_ref().map(|v| acting::value(v, t))
+    }
+
+    /// What acts on it alone.
+    pub fn acting(&self) -> Option<&Acting> {
+        match &self.drive {
+            Drive::Forces(acting) => acting.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Whether it may sleep: what deforms swings on, and formulas of time wake nobody.
+    pub fn may_sleep(&self) -> bool {
+        matches!(self.drive, Drive::Forces(None)) && self.deforming == RIGID
+    }
+
+    /// Force over mass, gravity included, m/s², and torque, N m, on a free rigid block at the time `t` (s).
+    fn pulls(&self, state: &State, gravity: DVec3, t: f64) -> [DVec3; 2] {
+        let mut force = state.force + state.load;
+        let mut torque = state.torque + state.load_torque;
+        if let Some(acting) = self.acting() {
+            let more = acting.pull(DMat3::from_quat(state.rotation), self.mass, t);
+            force += more.force;
+            torque += integrate::axial(more.moment);
+        }
+        [force / self.mass + gravity, torque]
     }
 
     /// 1/kg; 0 if forces do not move it.
@@ -147,7 +177,7 @@ pub(super) struct Flight {
 
 impl Flight {
     /// Of a block that stays where `state` is.
-    fn still(body: &Body, state: &State) -> Self {
+    pub fn still(body: &Body, state: &State) -> Self {
         Self {
             centre: state.centre,
             rotation: state.rotation,
@@ -168,21 +198,20 @@ impl Flight {
     }
 }
 
-/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays.
-pub(super) fn fly(
-    body: &Body,
-    state: &mut State,
-    gravity: DVec3,
-    damping: f64,
-    time: f64,
-    dt: f64,
-) -> Flight {
+/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
+/// goes with its like.
+pub(super) fn fly(body: &Body, state: &mut State, under: Under) -> Flight {
+    let Under {
+        gravity,
+        damping,
+        time,
+        dt,
+    } = under;
     match &body.drive {
         Drive::Nothing => Flight::still(body, state),
-        Drive::Forces if state.asleep => Flight::still(body, state),
-        Drive::Forces => {
-            let rate = (state.force + state.load) / body.mass + gravity;
-            let torque = state.torque + state.load_torque;
+        Drive::Forces(_) if state.asleep || body.deforming != RIGID => Flight::still(body, state),
+        Drive::Forces(_) => {
+            let [rate, torque] = body.pulls(state, gravity, time);
             let velocity = integrate::first_kick(state.velocity, rate, damping, dt);
             let momentum = integrate::first_kick(state.momentum, torque, damping, dt);
             // The dashpots want the velocity at the end of the step, which the force there is part of:
@@ -217,12 +246,17 @@ pub(super) fn fly(
 }
 
 /// The second kick of a step, with the forces at its end.
-pub(super) fn land(body: &Body, state: &mut State, gravity: DVec3, damping: f64, dt: f64) {
-    if !body.is_free() || state.asleep {
+pub(super) fn land(body: &Body, state: &mut State, under: Under) {
+    if !body.is_free() || state.asleep || body.deforming != RIGID {
         return;
     }
-    let rate = (state.force + state.load) / body.mass + gravity;
-    let torque = state.torque + state.load_torque;
+    let Under {
+        gravity,
+        damping,
+        time,
+        dt,
+    } = under;
+    let [rate, torque] = body.pulls(state, gravity, time + dt);
     state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
     state.momentum = integrate::second_kick(state.momentum, torque, damping, dt);
     state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);

@@ -1,18 +1,22 @@
-//! The longest stable step, from what the blocks look like and from what they touch.
+//! The longest stable step, from what the blocks look like, from what they touch, and from their elasticity.
 
-use super::{Body, narrow::Joints, sums::Sum};
+use super::{Body, deforming::DeformingBlocks, narrow::Joints, sums::Sum};
 use crate::{
     block::{Form, Polyhedron},
     law::{Joint, Stiffness},
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Share of its surface over which a block is held, before its contacts are known. With all of it the
 /// step would be √2 too long, which the room between the usual and the largest step covers.
 const HELD: f64 = 0.5;
 
 /// ω² of the stiffest block and which it is, from the faces of the shapes.
-pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
+pub(super) fn of_shapes(
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    joints: &Joints,
+) -> (f64, usize) {
     let stiffness = |body: &Body| {
         let mut sum = Stiffness::default();
         let partners = (0..joints.materials).map(|other| joints.of(body.material, other));
@@ -23,7 +27,10 @@ pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
         for part in body.shape.parts() {
             match &part.form {
                 Form::Convex(shape) => faces(shape, |area, centre, width| {
-                    sum.add(joint, HELD * area, part.offset + centre, width);
+                    let turned = deforming.of(body).map(|(_, strain)| strain.deformation);
+                    let arm = turned.unwrap_or(DMat3::IDENTITY) * (part.offset + centre);
+                    let (arm, width) = deforming.lever(body, arm, width);
+                    sum.add(joint, HELD * area, arm, width);
                 }),
                 // Six balls around it at an overlap of a tenth of the radius, where it would be refused:
                 // sections of π r²/10 each.
@@ -35,20 +42,31 @@ pub(super) fn of_shapes(bodies: &[Body], joints: &Joints) -> (f64, usize) {
         }
         sum
     };
-    stiffest(bodies, bodies.iter().map(stiffness))
+    stiffest(bodies, deforming, bodies.iter().map(stiffness))
 }
 
-/// ω² of the stiffest block and which it is, from the contacts.
-pub(super) fn of_sums(bodies: &[Body], sums: &[Sum]) -> (f64, usize) {
-    stiffest(bodies, sums.iter().map(|sum| sum.stiffness))
+/// ω² of the stiffest block and which it is, from the contacts and the present deformations.
+pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]) -> (f64, usize) {
+    stiffest(bodies, deforming, sums.iter().map(|sum| sum.stiffness))
 }
 
-fn stiffest(bodies: &[Body], sums: impl Iterator<Item = Stiffness>) -> (f64, usize) {
+/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for; the
+/// largest eigenvalue of a sum is at most the sum of the largest.
+fn stiffest(
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    sums: impl Iterator<Item = Stiffness>,
+) -> (f64, usize) {
     let free = bodies.iter().zip(sums).enumerate();
     free.filter(|(_, (body, _))| body.is_free())
         .map(|(i, (body, sum))| {
-            let moment = body.inertia.moments.min_element();
-            (sum.frequency_squared(body.mass, moment), i)
+            let Some((one, strain)) = deforming.of(body) else {
+                let moment = body.inertia.moments.min_element();
+                return (sum.frequency_squared(body.mass, moment), i);
+            };
+            let elastic = one.affine.frequency_squared(strain.deformation);
+            let moment = one.affine.smallest_moment();
+            (elastic + sum.frequency_squared(body.mass, moment), i)
         })
         .fold(
             (0.0, 0),

@@ -1,7 +1,7 @@
 //! Numbers in a row of bytes, little-endian.
 
 use crate::{Error, Result};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// Something that a snapshot holds.
 pub(super) trait Plain: Sized {
@@ -72,6 +72,15 @@ impl Plain for DVec3 {
     }
     fn read(bytes: &mut &[u8]) -> Result<Self> {
         <[f64; 3]>::read(bytes).map(Self::from_array)
+    }
+}
+
+impl Plain for DMat3 {
+    fn write(&self, bytes: &mut Vec<u8>) {
+        self.to_cols_array().write(bytes);
+    }
+    fn read(bytes: &mut &[u8]) -> Result<Self> {
+        <[f64; 9]>::read(bytes).map(|columns| Self::from_cols_array(&columns))
     }
 }
 

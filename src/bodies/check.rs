@@ -1,5 +1,7 @@
 //! A setup that can be computed.
 
+mod deformable;
+
 use super::{Motion, Setup, Sleep, narrow::Joints, narrow::label};
 use crate::{Error, Result, law::Joint};
 
@@ -47,6 +49,9 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let place = format!("materials[{i}]");
         positive(&format!("{place}.density"), material.density, "kg/m³")?;
         material.joint.check(&place)?;
+        if let Some(elastic) = &material.elastic {
+            elastic.check(&place)?;
+        }
     }
     for (i, pair) in setup.pairs.iter().enumerate() {
         let place = format!("pairs[{i}]");
@@ -56,7 +61,13 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         }
         pair.joint.check(&place)?;
     }
-    (0..setup.blocks.len()).try_for_each(|i| check_block(setup, i))
+    for (i, block) in setup.blocks.iter().enumerate() {
+        check_block(setup, i)?;
+        let place = label(i, &block.name);
+        deformable::check(setup, block, &place)?;
+        deformable::check_acting(block, &place)?;
+    }
+    Ok(())
 }
 
 fn check_block(setup: &Setup, index: usize) -> Result<()> {

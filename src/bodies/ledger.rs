@@ -8,10 +8,12 @@
 /// as `lost`, positive or negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// ½mv² + ½ω·L of the free blocks.
+    /// ½mv² + ½ω·L of the free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of those that deform.
     pub kinetic: f64,
     /// −m g·x of the free blocks, from the origin of the coordinates.
     pub potential: f64,
+    /// ∫ ½E:C:E + σ₀:E of the blocks that deform.
+    pub strain: f64,
     /// Work done on the springs of the present contacts, less what friction took of it.
     pub elastic: f64,
     /// Taken by friction.
@@ -24,7 +26,7 @@ pub struct Ledger {
     pub lost: f64,
     /// Done on the blocks by what moves the driven ones.
     pub driven: f64,
-    /// Done on the blocks by external loads.
+    /// Done on the blocks by external loads, point loads and accelerations.
     pub loads: f64,
 }
 
@@ -32,7 +34,9 @@ impl Ledger {
     /// What is there and what was taken, less what was put in: constant but for the error of the time
     /// integration.
     pub fn balance(&self) -> f64 {
-        self.kinetic + self.potential + self.elastic + self.taken() - self.driven - self.loads
+        self.kinetic + self.potential + self.strain + self.elastic + self.taken()
+            - self.driven
+            - self.loads
     }
 
     /// Taken for good.

@@ -4,6 +4,7 @@
 //! are candidates says a [`Broadphase`](crate::broadphase::Broadphase) of the caller's. Forces are summed
 //! in the order of the pairs, so that the bits do not depend on the number of threads.
 
+mod acting;
 mod blocks;
 mod body;
 mod books;
@@ -11,7 +12,9 @@ mod bound;
 mod bytes;
 mod check;
 mod contact_point;
+mod deforming;
 mod ledger;
+mod make;
 mod narrow;
 mod pairs;
 mod parts;
@@ -22,6 +25,7 @@ mod setup;
 mod sleeping;
 mod snapshot;
 mod step;
+mod stress;
 mod sums;
 mod touch;
 mod touches;
@@ -29,8 +33,11 @@ mod touches;
 pub use blocks::Blocks;
 pub use contact_point::ContactPoint;
 pub use ledger::Ledger;
+pub(crate) use pose::outer;
 pub use pose::{Load, Pose, skew};
-pub use setup::{Block, Material, Motion, PairMaterial, Setup, Sleep};
+pub use setup::{
+    Block, Deformable, FixedPoint, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
+};
 pub use snapshot::Snapshot;
 
 use body::Body;

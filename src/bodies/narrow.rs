@@ -3,6 +3,7 @@
 use super::{
     Body,
     body::Flight,
+    deforming::DeformingBlocks,
     parts::Parts,
     resolvers::Resolvers,
     touch::{NONE, Pair, TENTHS, Touch},
@@ -13,12 +14,14 @@ use crate::{
     contact::{Contact, Resolver, Verdict},
     law::{self, History, Joint},
 };
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// What the contacts are computed from.
 pub(super) struct Scene<'a> {
     pub bodies: &'a [Body],
     pub flights: &'a [Flight],
+    pub deforming: &'a DeformingBlocks,
     pub parts: &'a Parts,
     pub joints: &'a Joints,
     /// Contacts of the last step.
@@ -166,8 +169,12 @@ impl Scene<'_> {
         let joint = self.joints.of(a.material, b.material);
         let at = contact.pressure_centre;
         let [ra, rb] = [a, b].map(|block| at - block.centre);
-        let mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
-        let end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
+        let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
+        let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
+        if !self.deforming.is_empty() {
+            let [more, end_more] = self.stretch(blocks, [ra, rb]);
+            (mean, end) = (mean + more, end + end_more);
+        }
         let motion = law::Motion {
             way: mean * self.time_step,
             velocity: end,
@@ -202,6 +209,23 @@ impl Scene<'_> {
             stored: before.map_or(0.0, |touch| touch.stored),
             power: before.map_or(0.0, |touch| touch.power),
         }
+    }
+
+    /// What deformation adds to the velocity of the second of two blocks against the first, over the step and
+    /// at its end, m/s: the symmetric part of ∂v/∂x, whose skew part is the spin.
+    fn stretch(&self, blocks: [u32; 2], arms: [DVec3; 2]) -> [DVec3; 2] {
+        let mut sums = [DVec3::ZERO; 2];
+        for ((block, arm), sign) in blocks.into_iter().zip(arms).zip([-1.0, 1.0]) {
+            let body = &self.bodies[block as usize];
+            for (sum, gradient) in sums
+                .iter_mut()
+                .zip(self.deforming.gradients(body).iter().flat_map(|g| g.iter()))
+            {
+                let symmetric = (*gradient + gradient.transpose()) * 0.5;
+                *sum += symmetric * arm * sign;
+            }
+        }
+        sums
     }
 
     fn name(&self, block: u32) -> String {

@@ -3,6 +3,7 @@
 use super::{
     Body,
     body::State,
+    deforming::DeformingBlocks,
     step::FEW,
     touch::{NONE, Pair},
 };
@@ -21,33 +22,49 @@ pub(super) struct Mark {
 
 impl Mark {
     /// No point of the block has moved farther than this, m.
-    fn moved(&self, state: &State, radius: f64) -> f64 {
+    fn moved(&self, body: &Body, state: &State, deforming: &DeformingBlocks) -> f64 {
+        let way = (state.centre - self.centre).length();
+        if let Some(strayed) = deforming.strayed(body) {
+            return way + strayed;
+        }
         let turn = state.rotation * self.rotation.conjugate();
         // A point at the distance r from the axis moves by 2 r sin(θ/2).
-        let turned = 2.0 * turn.xyz().length() * radius;
-        (state.centre - self.centre).length() + turned
+        way + 2.0 * turn.xyz().length() * body.radius
     }
 }
 
 /// By how much the boxes of a block are grown: half the skin, or two steps' way of a fast one, m.
-pub(super) fn room(body: &Body, state: &State, skin: f64, dt: f64) -> f64 {
-    (0.5 * skin).max(2.0 * ahead(body, state, dt))
+pub(super) fn room(
+    body: &Body,
+    state: &State,
+    deforming: &DeformingBlocks,
+    skin: f64,
+    dt: f64,
+) -> f64 {
+    (0.5 * skin).max(2.0 * ahead(body, state, deforming, dt))
 }
 
 /// Way of the fastest point in a step, m.
-fn ahead(body: &Body, state: &State, dt: f64) -> f64 {
+fn ahead(body: &Body, state: &State, deforming: &DeformingBlocks, dt: f64) -> f64 {
     if body.is_fixed() || state.asleep {
         return 0.0;
     }
-    state.fastest(body.radius) * dt
+    deforming.fastest(body, state) * dt
 }
 
 /// Whether some block may leave its boxes within a step, so that pairs may be missing.
-pub(super) fn outlived(bodies: &[Body], states: &[State], marks: &[Mark], dt: f64) -> bool {
+pub(super) fn outlived(
+    bodies: &[Body],
+    states: &[State],
+    deforming: &DeformingBlocks,
+    marks: &[Mark],
+    dt: f64,
+) -> bool {
     let all = bodies.par_iter().zip(states).zip(marks).with_min_len(FEW);
     all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
         .any(|((body, state), mark)| {
-            mark.moved(state, body.radius) + ahead(body, state, dt) > mark.room
+            let ahead = ahead(body, state, deforming, dt);
+            mark.moved(body, state, deforming) + ahead > mark.room
         })
 }
 

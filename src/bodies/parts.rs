@@ -1,6 +1,11 @@
 //! The convex parts of all blocks where they are now.
 
-use super::{Body, Pose, body::State, step::FEW};
+use super::{
+    Body, Pose,
+    body::State,
+    deforming::{Strain, pose},
+    step::FEW,
+};
 use crate::{block::Form, broadphase::Item, contact::Placed};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -43,22 +48,22 @@ impl Parts {
     }
 
     /// Moves the parts of the blocks that move.
-    pub fn follow(&mut self, bodies: &[Body], states: &[State]) {
+    pub fn follow(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let all = self.placed.par_iter_mut().zip(&self.block).enumerate();
         all.with_min_len(FEW).for_each(|(index, (placed, &block))| {
             let (body, state) = (&bodies[block as usize], &states[block as usize]);
             if !body.is_fixed() && !state.asleep {
-                place(body, index, &state.pose(), placed);
+                place(body, index, &pose(body, state, strains), placed);
             }
         });
     }
 
     /// Puts all parts where their blocks are.
-    pub fn put(&mut self, bodies: &[Body], states: &[State]) {
+    pub fn put(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let all = self.placed.iter_mut().zip(&self.block).enumerate();
         for (index, (placed, &block)) in all {
-            let pose = states[block as usize].pose();
-            place(&bodies[block as usize], index, &pose, placed);
+            let (body, state) = (&bodies[block as usize], &states[block as usize]);
+            place(body, index, &pose(body, state, strains), placed);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
+use crate::integrate::axial;
 use glam::{DMat3, DQuat, DVec3};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
@@ -49,6 +50,11 @@ pub fn skew(w: DVec3) -> DMat3 {
     )
 }
 
+/// a ⊗ b, entry i, j being a_i b_j.
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
 /// What a fluid does to a block in a step, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
@@ -85,18 +91,13 @@ impl Load {
     pub fn at(force: DVec3, r: DVec3) -> Self {
         Self {
             force,
-            moment: DMat3::from_cols(force * r.x, force * r.y, force * r.z),
+            moment: outer(force, r),
             ..Self::default()
         }
     }
 
     /// Torque about the centroid, Σ r × f, N m.
     pub fn torque(&self) -> DVec3 {
-        let m = self.moment;
-        DVec3::new(
-            m.y_axis.z - m.z_axis.y,
-            m.z_axis.x - m.x_axis.z,
-            m.x_axis.y - m.y_axis.x,
-        )
+        axial(self.moment)
     }
 }

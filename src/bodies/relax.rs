@@ -1,6 +1,6 @@
 //! Pushing apart what overlaps before the first step.
 
-use super::{Blocks, touch::TENTHS};
+use super::{Blocks, deforming::pose, touch::TENTHS};
 use crate::{
     Error, Result,
     broadphase::Broadphase,
@@ -43,7 +43,15 @@ impl Blocks {
             let blocks = pair
                 .parts
                 .map(|part| self.parts.block[part as usize] as usize);
-            let inverse = blocks.map(|block| self.bodies[block].inverse_mass());
+            // What fixed points hold stays, too.
+            let inverse = blocks.map(|block| {
+                let body = &self.bodies[block];
+                let held = self
+                    .deforming
+                    .of(body)
+                    .is_some_and(|(one, _)| !one.held.is_empty());
+                if held { 0.0 } else { body.inverse_mass() }
+            });
             let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
             let Verdict::Contact(contact) = resolver.resolve(first, second, &mut pair.cache)?
             else {
@@ -58,14 +66,18 @@ impl Blocks {
                 second: self.label(blocks[1]),
                 depth: contact.overlap,
             });
+            if inverse == [0.0; 2] {
+                continue;
+            }
             // Half the allowed overlap stays, so that neighbours that touch keep touching.
             let way = contact.overlap - 0.5 * most;
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
                 self.states[block].centre += contact.normal * (sign * share * way);
-                let pose = self.states[block].pose();
-                self.parts.put_one(&self.bodies[block], &pose);
+                let body = &self.bodies[block];
+                let pose = pose(body, &self.states[block], &self.deforming.strains);
+                self.parts.put_one(body, &pose);
             }
         }
         Ok(found)

@@ -1,7 +1,11 @@
 //! What blocks there are, and how they are computed.
 
-use crate::{block::Shape, formula::Formula, law::Joint};
-use glam::{DQuat, DVec3};
+use crate::{
+    block::Shape,
+    formula::Formula,
+    law::{Elastic, Joint},
+};
+use glam::{DMat3, DQuat, DVec3};
 use std::sync::Arc;
 
 /// Blocks at the start, SI.
@@ -80,6 +84,52 @@ pub struct Block {
     pub spin: DVec3,
     /// What moves it.
     pub motion: Motion,
+    /// Whether it deforms, and how; only a free block of one convex part whose material is
+    /// [`Elastic`]. It never sleeps.
+    pub deformable: Option<Deformable>,
+    /// Forces on points of it, if it is free. It then never sleeps.
+    pub point_loads: Vec<PointLoad>,
+    /// Acceleration by which it is pulled beside gravity, m/s², formulas of t, if it is free. It then
+    /// never sleeps.
+    pub acceleration: Option<[Formula; 3]>,
+}
+
+/// How a block deforms: as a whole, every point X of it, from its centroid in its own frame, at c + F X.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deformable {
+    /// Stress that it bears at the start without strain, symmetric, along the axes of the world, Pa; tension
+    /// is positive.
+    pub initial_stress: DMat3,
+    /// Points that stay where they are at the start.
+    pub fixed_points: Vec<FixedPoint>,
+}
+
+impl Default for Deformable {
+    /// No stress, and nothing held. Not derived: the default of a matrix is the identity.
+    fn default() -> Self {
+        Self {
+            initial_stress: DMat3::ZERO,
+            fixed_points: Vec::new(),
+        }
+    }
+}
+
+/// A point of a block that is held in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedPoint {
+    /// The point, from the centroid in the block's own frame, m.
+    pub point: DVec3,
+    /// Along which axes of the world it is held.
+    pub axes: [bool; 3],
+}
+
+/// A force on a point of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointLoad {
+    /// The point, from the centroid in the block's own frame, m.
+    pub point: DVec3,
+    /// The force along the axes of the world, N, formulas of t.
+    pub force: [Formula; 3],
 }
 
 impl Block {
@@ -94,6 +144,9 @@ impl Block {
             velocity: DVec3::ZERO,
             spin: DVec3::ZERO,
             motion: Motion::Free,
+            deformable: None,
+            point_loads: Vec::new(),
+            acceleration: None,
         }
     }
 
@@ -101,6 +154,14 @@ impl Block {
     pub fn fixed(self) -> Self {
         Self {
             motion: Motion::Fixed,
+            ..self
+        }
+    }
+
+    /// The same block, deformable, without stress at the start.
+    pub fn deformable(self) -> Self {
+        Self {
+            deformable: Some(Deformable::default()),
             ..self
         }
     }
@@ -139,14 +200,17 @@ pub struct Material {
     pub density: f64,
     /// The joint between two faces of this material.
     pub joint: Joint,
+    /// Elasticity of its deformable blocks, which need one.
+    pub elastic: Option<Elastic>,
 }
 
 impl Default for Material {
-    /// Rock of 2650 kg/m³ with dry joints.
+    /// Rigid rock of 2650 kg/m³ with dry joints.
     fn default() -> Self {
         Self {
             density: 2650.0,
             joint: Joint::default(),
+            elastic: None,
         }
     }
 }

@@ -5,6 +5,7 @@ use super::{
     body::State,
     books::Books,
     bytes::{Plain, fields},
+    deforming::Strain,
     pairs::Mark,
     touch::{Pair, Touch},
     touches::Touches,
@@ -16,9 +17,9 @@ use crate::{
 };
 
 /// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 1\n";
+const MAGIC: &[u8; 16] = b"riprap blocks 2\n";
 
-/// Everything that the next steps depend on: poses, momenta, forces, contact histories, what the
+/// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +33,7 @@ pub struct Snapshot {
     pairs: Vec<Pair>,
     touches: Vec<Touch>,
     books: Books,
+    strains: Vec<Strain>,
 }
 
 impl Snapshot {
@@ -86,6 +88,7 @@ impl Blocks {
         self.touches
             .list(&mut snapshot.pairs, &mut snapshot.touches);
         snapshot.books = self.books;
+        snapshot.strains.clone_from(&self.deforming.strains);
     }
 
     /// Goes back, or on, to a state of the same setup: the next steps give the same bits as they did
@@ -102,6 +105,7 @@ impl Blocks {
                     || (pair.touch as usize) < snapshot.touches.len())
         };
         let fits = snapshot.states.len() == self.len()
+            && snapshot.strains.len() == self.deforming.strains.len()
             && (snapshot.marks.is_empty() || snapshot.marks.len() == self.len())
             && snapshot.pairs.iter().all(known)
             && snapshot
@@ -110,9 +114,11 @@ impl Blocks {
                 .all(|touch| touch.blocks.iter().all(|&block| block < blocks));
         if !fits {
             let message = format!(
-                "it holds {} blocks, these are {} of another scene",
+                "it holds {} blocks, {} of them deformable, these are {} and {} of another scene",
                 snapshot.states.len(),
-                self.len()
+                snapshot.strains.len(),
+                self.len(),
+                self.deforming.strains.len()
             );
             return Err(Error::scene("snapshot", message));
         }
@@ -125,7 +131,8 @@ impl Blocks {
         self.pairs.clone_from(&snapshot.pairs);
         self.touches = Touches::from_list(&snapshot.touches);
         self.books = snapshot.books;
-        self.parts.put(&self.bodies, &self.states);
+        self.deforming.strains.clone_from(&snapshot.strains);
+        self.place();
         Ok(())
     }
 }
@@ -139,7 +146,8 @@ fields!(Snapshot {
     marks,
     pairs,
     touches,
-    books
+    books,
+    strains
 });
 fields!(State {
     centre,
@@ -154,6 +162,13 @@ fields!(State {
     slow,
     asleep,
     slept,
+});
+fields!(Strain {
+    deformation,
+    rate,
+    moment,
+    load,
+    marked
 });
 fields!(Mark {
     centre,

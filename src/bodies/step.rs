@@ -3,7 +3,10 @@
 use super::{
     Blocks,
     body::{self, Flight},
-    bound, narrow, sums,
+    books::All,
+    bound,
+    deforming::Under,
+    narrow, sums,
     touch::{TENTHS, Touch},
     touches::Touches,
 };
@@ -80,7 +83,7 @@ impl Blocks {
             self.start()?;
         }
         if let Err(error) = self.fly(dt) {
-            self.parts.put(&self.bodies, &self.states);
+            self.place();
             return Err(error);
         }
         self.land(dt);
@@ -96,6 +99,7 @@ impl Blocks {
         self.flights.clear();
         self.flights
             .extend(all.map(|(body, state)| Flight::at_start(body, state)));
+        self.deforming.at_start();
         self.find_contacts(0.0, true)?;
         self.check_start(&self.next_touches)?;
         self.check_step(self.time_step)?;
@@ -104,14 +108,11 @@ impl Blocks {
         for (state, sum) in self.states.iter_mut().zip(&self.sums) {
             state.pull(sum);
         }
+        self.deforming
+            .pull(&self.bodies, &self.touches, &self.states);
         // A step of no length books the powers at the start.
-        self.books.step(
-            &self.bodies,
-            &self.states,
-            &mut self.touches,
-            self.damping,
-            0.0,
-        );
+        let under = self.under(0.0);
+        self.book(under);
         self.shorten();
         self.started = true;
         Ok(())
@@ -119,25 +120,28 @@ impl Blocks {
 
     /// Kick, drift and the contacts there.
     fn fly(&mut self, dt: f64) -> Result<()> {
-        let (gravity, damping, time) = (self.gravity, self.damping, self.time);
+        let under = self.under(dt);
         let all = self.bodies.par_iter().zip(&self.states);
         let ends = self.next_states.par_iter_mut().zip(&mut self.flights);
         let all = all.zip(ends).enumerate().with_min_len(FEW);
         let lost = all.filter_map(|(i, ((body, state), (next, flight)))| {
             *next = *state;
-            *flight = body::fly(body, next, gravity, damping, time, dt);
+            *flight = body::fly(body, next, under);
             (!next.is_finite()).then_some(i)
         });
-        if let Some(bad) = lost.min() {
-            return Err(Error::NotFinite {
-                block: self.label(bad),
-                time: time + dt,
-                remedy:
-                    "look at its load, its drive and its contacts; a shorter time_step may help"
-                        .into(),
-            });
+        let lost = lost.min();
+        let unsound = self.deforming.fly(
+            &self.bodies,
+            &self.states,
+            under,
+            &mut self.next_states,
+            &mut self.flights,
+        );
+        if let Some(bad) = lost.into_iter().chain(unsound).min() {
+            return Err(self.lost(bad, self.time + dt));
         }
-        self.parts.follow(&self.bodies, &self.next_states);
+        let strains = &self.deforming.next;
+        self.parts.follow(&self.bodies, &self.next_states, strains);
         self.find_contacts(dt, false)?;
         self.check_step(dt)
     }
@@ -145,7 +149,7 @@ impl Blocks {
     /// Takes the step over: forces, second kick, energies, sleep.
     fn land(&mut self, dt: f64) {
         self.take_over();
-        let (gravity, damping, sleep) = (self.gravity, self.damping, self.sleep);
+        let (gravity, sleep, under) = (self.gravity, self.sleep, self.under(dt));
         let all = self.bodies.par_iter().zip(&self.sums);
         let all = all.zip(&mut self.states).with_min_len(FEW);
         all.for_each(|((body, sum), state)| {
@@ -153,13 +157,15 @@ impl Blocks {
             if let Some(sleep) = &sleep {
                 state.wake(body, sleep, gravity);
             }
-            body::land(body, state, gravity, damping, dt);
+            body::land(body, state, under);
         });
-        self.books
-            .step(&self.bodies, &self.states, &mut self.touches, damping, dt);
+        self.deforming
+            .pull(&self.bodies, &self.touches, &self.states);
+        self.deforming.land(&self.bodies, under, &mut self.states);
+        self.book(under);
         if let Some(sleep) = &sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
-                if body.is_free() {
+                if body.may_sleep() {
                     state.drowse(body, sleep, dt);
                 }
             }
@@ -174,6 +180,50 @@ impl Blocks {
         std::mem::swap(&mut self.states, &mut self.next_states);
         std::mem::swap(&mut self.pairs, &mut self.next_pairs);
         std::mem::swap(&mut self.touches, &mut self.next_touches);
+        let deforming = &mut self.deforming;
+        std::mem::swap(&mut deforming.strains, &mut deforming.next);
+    }
+
+    /// A step of `dt` (s) from now.
+    fn under(&self, dt: f64) -> Under {
+        Under {
+            gravity: self.gravity,
+            damping: self.damping,
+            time: self.time,
+            dt,
+        }
+    }
+
+    /// Books a step that has been taken over.
+    fn book(&mut self, under: Under) {
+        let all = All {
+            bodies: &self.bodies,
+            states: &self.states,
+            deforming: &self.deforming,
+        };
+        self.books.step(all, &mut self.touches, under);
+    }
+
+    /// Puts all parts where their blocks are.
+    pub(super) fn place(&mut self) {
+        self.parts
+            .put(&self.bodies, &self.states, &self.deforming.strains);
+    }
+
+    /// Why a block has no pose at `time` (s).
+    fn lost(&self, block: usize, time: f64) -> Error {
+        let strain = self.deforming.of_next(&self.bodies[block]);
+        let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
+        let block = self.label(block);
+        if crushed {
+            return Error::Inverted { block, time };
+        }
+        let remedy = "look at its load, its drive and its contacts; a shorter time_step may help";
+        Error::NotFinite {
+            block,
+            time,
+            remedy: remedy.into(),
+        }
     }
 
     /// Wakes the sleepers that something new pulls at.
@@ -192,6 +242,7 @@ impl Blocks {
         let scene = narrow::Scene {
             bodies: &self.bodies,
             flights: &self.flights,
+            deforming: &self.deforming,
             parts: &self.parts,
             joints: &self.joints,
             touches: &self.touches,
@@ -213,6 +264,7 @@ impl Blocks {
         )?;
         sums::of_touches(
             &self.next_touches,
+            (&self.bodies, &self.deforming),
             &self.flights,
             &self.joints,
             &mut self.sums,
@@ -237,12 +289,12 @@ impl Blocks {
         })
     }
 
-    /// Refuses a given step that is too long for the contacts.
+    /// Refuses a given step that is too long for the contacts, or for a block that deforms.
     fn check_step(&self, dt: f64) -> Result<()> {
         if !self.given_step {
             return Ok(());
         }
-        let (frequency_squared, block) = bound::of_sums(&self.bodies, &self.sums);
+        let (frequency_squared, block) = bound::of_sums(&self.bodies, &self.deforming, &self.sums);
         let bound = law::longest_step(law::LARGEST_SHARE, frequency_squared);
         if dt <= bound {
             return Ok(());
@@ -260,7 +312,7 @@ impl Blocks {
         if self.given_step {
             return;
         }
-        let (frequency_squared, _) = bound::of_sums(&self.bodies, &self.sums);
+        let (frequency_squared, _) = bound::of_sums(&self.bodies, &self.deforming, &self.sums);
         let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
         self.time_step = self.time_step.min(usual);
     }

@@ -1,6 +1,6 @@
 //! What all contacts of a block do to it.
 
-use super::{body::Flight, narrow::Joints, touches::Touches};
+use super::{Body, body::Flight, deforming::DeformingBlocks, narrow::Joints, touches::Touches};
 use crate::law::Stiffness;
 use glam::DVec3;
 
@@ -18,6 +18,7 @@ pub(super) struct Sum {
 /// The sums of all blocks, in the order of the contacts.
 pub(super) fn of_touches(
     touches: &Touches,
+    (bodies, deforming): (&[Body], &DeformingBlocks),
     flights: &[Flight],
     joints: &Joints,
     sums: &mut Vec<Sum>,
@@ -33,7 +34,12 @@ pub(super) fn of_touches(
             let arm = touch.pressure_centre - flights[block].centre;
             sum.force += force;
             sum.torque += arm.cross(force) + moment;
-            sum.stiffness.add(joint, touch.area, arm, touch.width);
+            // Among rigid blocks alone nobody looks into the bodies, which are far away in memory.
+            let (arm, width) = match deforming.is_empty() {
+                true => (arm, touch.width),
+                false => deforming.lever(&bodies[block], arm, touch.width),
+            };
+            sum.stiffness.add(joint, touch.area, arm, width);
         }
     }
 }

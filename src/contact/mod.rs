@@ -58,5 +58,6 @@ pub use cache::Cache;
 pub use counts::Counts;
 pub use options::{Normal, Options};
 pub use placed::Placed;
+pub(crate) use placed::clip;
 pub use resolver::Resolver;
 pub use verdict::{Contact, Verdict};

@@ -1,7 +1,7 @@
 //! A polyhedron where it is now: computed once a step, read by all of its pairs.
 
 use crate::{
-    block::{HalfSpace, Polyhedron},
+    block::{Form, HalfSpace, Part, Polyhedron},
     bodies::Pose,
 };
 use glam::{DMat3, DVec3};
@@ -24,6 +24,27 @@ pub struct Placed {
 }
 
 impl Placed {
+    /// A part of a block at a pose.
+    pub fn of(part: &Part, pose: &Pose) -> Self {
+        let mut placed = Self::default();
+        match &part.form {
+            Form::Convex(shape) => placed.update(shape, part.offset, pose),
+            Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, pose),
+        }
+        placed
+    }
+
+    /// What lies inside of a plane polygon of these corners (m); nothing of it in a sphere.
+    pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
+        if self.faces.is_empty() {
+            return Vec::new();
+        }
+        for face in &self.faces {
+            clip(&mut corners, |x| face.height(x - self.centre));
+        }
+        corners
+    }
+
     /// Moves to `pose` the polyhedron whose centroid is `offset` (m) from that of its block, in the
     /// block's frame. Planes go with F⁻ᵀ, so that a deformed block stays a convex polyhedron.
     pub fn update(&mut self, shape: &Polyhedron, offset: DVec3, pose: &Pose) {
@@ -59,4 +80,20 @@ impl Placed {
         self.radius = radius;
         self.smallest_distance = radius;
     }
+}
+
+/// Keeps the part of a plane polygon at heights of at most zero (Sutherland & Hodgman 1974).
+pub(crate) fn clip(corners: &mut Vec<DVec3>, height: impl Fn(DVec3) -> f64) {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (k, &b) in corners.iter().enumerate() {
+        let a = corners[(k + corners.len() - 1) % corners.len()];
+        let [at_a, at_b] = [height(a), height(b)];
+        if (at_a > 0.0) != (at_b > 0.0) {
+            kept.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+        if at_b <= 0.0 {
+            kept.push(b);
+        }
+    }
+    *corners = kept;
 }

@@ -1,13 +1,15 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Ambient, Gap, Gathered, InnerFluid, Matter, Reading, gaps::gaps, loads::sum};
+use super::{
+    Ambient, Gap, Gathered, InnerFluid, Matter, Reading, faces::asked, gaps::gaps, loads::sum,
+};
 use crate::{
-    Result,
+    Error, Result,
     bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
     broadphase::AutoBroadphase,
-    immersed::{Frame, Immersed, Submerged, Work},
+    immersed::{FaceLoad, Frame, Immersed, Submerged, Work},
     lattice::Lattice,
-    scene::{ProbePlace, Scene, Search},
+    scene::{Scene, Search},
     simulation::{self, BlockSetup},
     units::Units,
 };
@@ -45,7 +47,10 @@ pub struct Coupled {
     finder: AutoBroadphase,
     pub(super) immersed: Immersed,
     pub(super) reading: Reading,
-    ambient: Ambient,
+    pub(super) face_reading: Reading,
+    /// Of the blocks in the fluid; empty before the first exchange.
+    pub(super) faces: Vec<Vec<FaceLoad>>,
+    pub(super) ambient: Ambient,
     /// Blocks in the fluid, the first ones; the others are walls and solids, which the lattice has already.
     in_fluid: usize,
     /// Those narrower than a cell at the start.
@@ -89,19 +94,16 @@ impl Coupled {
             setup.setup.time_step = Some(units.time_step);
         }
         let blocks = simulation::begin(scene, &setup, &mut finder).await?;
-        let asked = |name: &str| {
-            let of =
-                |place: &ProbePlace| matches!(place, ProbePlace::Block { block } if block == name);
-            scene.probes.iter().any(|probe| of(&probe.place))
-        };
         let in_fluid = setup.in_fluid;
         let gaps = gaps(&setup.setup, &blocks, in_fluid, units.cell, &mut finder).await?;
-        let submerged = setup.setup.blocks[..in_fluid]
-            .iter()
-            .map(|block| Submerged {
+        let submerged = setup.setup.blocks[..in_fluid].iter().map(|block| {
+            let [followed, faces] = asked(scene, &block.name);
+            Submerged {
                 shape: block.shape.clone(),
-                loaded: block.motion != Motion::Fixed || asked(&block.name),
-            });
+                loaded: block.motion != Motion::Fixed || followed,
+                faces,
+            }
+        });
         let frame = Frame {
             origin: DVec3::from(scene.domain.origin),
             units: *units,
@@ -109,6 +111,8 @@ impl Coupled {
         Ok(Self {
             immersed: Immersed::new(device, lattice, frame, submerged.collect())?,
             reading: Reading::default(),
+            face_reading: Reading::default(),
+            faces: Vec::new(),
             ambient: Ambient {
                 density: scene.fluid.density,
                 acceleration: scene.fluid.acceleration.clone(),
@@ -134,23 +138,39 @@ impl Coupled {
     /// Puts the blocks where they are and records their cells, unless that is done.
     ///
     /// # Errors
-    /// If the device does not hold the cells.
-    pub fn place(
+    /// If the device does not hold the cells: [`Error::Device`] where its memory ends, after which the simulation is
+    /// to be made anew.
+    pub async fn place(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<()> {
-        if !self.placed {
-            let poses = self.poses();
-            self.immersed
-                .place(device, queue, lattice, &poses[..self.in_fluid])?;
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.immersed.record_cells(&mut pass);
-            drop(pass);
-            self.placed = true;
+        if self.placed {
+            return Ok(());
         }
+        let poses = self.poses();
+        // What a buffer that is none is bound to is not valid either.
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let placed = self
+            .immersed
+            .place(device, queue, lattice, &poses[..self.in_fluid]);
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = validity.await.or(memory.await);
+        placed?;
+        if let Some(error) = refused {
+            return Err(Error::Device(format!(
+                "it does not hold the cells of {} blocks in the fluid ({error}); use fewer or smaller ones, or a \
+                 larger cell",
+                self.in_fluid
+            )));
+        }
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        self.immersed.record_cells(&mut pass);
+        drop(pass);
+        self.placed = true;
         Ok(())
     }
 
@@ -232,7 +252,7 @@ impl Coupled {
             self.gathered
                 .add(step, loads.map(flow).collect(), self.average);
         }
-        Ok(())
+        self.read_faces().await
     }
 
     /// Ends the time since the last exchange: the blocks feel the mean of its loads.

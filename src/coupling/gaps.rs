@@ -2,11 +2,11 @@
 
 use crate::{
     Result,
-    block::{Form, Part},
-    bodies::{Blocks, Pose, Setup},
+    block::HalfSpace,
+    bodies::{Blocks, Setup},
     broadphase::{Broadphase, Item},
+    contact::Placed,
 };
-use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// Part of a cell below which a gap is closed: the overlap of contacts and the rounding of scenes are of
@@ -32,7 +32,7 @@ impl Gap {
 
 /// The pairs of blocks, one of them among the first `in_fluid`, that are less than a cell of `cell` m
 /// apart, in their order.
-pub(super) async fn gaps(
+pub(crate) async fn gaps(
     setup: &Setup,
     blocks: &Blocks,
     in_fluid: usize,
@@ -44,7 +44,7 @@ pub(super) async fn gaps(
     for (block, pose) in blocks.poses().iter().enumerate() {
         for part in setup.blocks[block].shape.parts() {
             owners.push(block);
-            placed.push(Placed::new(part, pose));
+            placed.push(Placed::of(part, pose));
         }
     }
     let grown = |(item, &block): (Item, &usize)| Item {
@@ -57,72 +57,36 @@ pub(super) async fn gaps(
     let mut narrowest = BTreeMap::new();
     for pair in finder.pairs(&items).await? {
         let [a, b] = pair.map(|part| part as usize);
-        let width = placed[a].gap(&placed[b]);
+        let width = gap(&placed[a], &placed[b]);
         if width < cell {
             let blocks = [owners[a], owners[b]];
             let known = narrowest.entry(blocks).or_insert(width);
             *known = known.min(width);
         }
     }
-    let gap = |(blocks, width)| Gap { blocks, width };
-    Ok(narrowest.into_iter().map(gap).collect())
+    let found = |(blocks, width)| Gap { blocks, width };
+    Ok(narrowest.into_iter().map(found).collect())
 }
 
-/// A part where it is.
-struct Placed {
-    /// Outward normals and offsets, world, m; none: a sphere.
-    faces: Vec<(DVec3, f64)>,
-    /// Corners, world, m; of a sphere its centre.
-    corners: Vec<DVec3>,
-    /// Radius of a sphere, m; 0 of others.
-    radius: f64,
+/// How far a part lies beyond the face of `own` that it is farthest from.
+fn beyond(own: &Placed, other: &Placed) -> f64 {
+    let apart = other.centre - own.centre;
+    let face = |face: &HalfSpace| match other.faces.is_empty() {
+        true => face.height(apart) - other.radius,
+        false => {
+            let heights = other.vertices.iter().map(|x| face.height(apart + *x));
+            heights.fold(f64::INFINITY, f64::min)
+        }
+    };
+    own.faces.iter().map(face).fold(f64::NEG_INFINITY, f64::max)
 }
 
-impl Placed {
-    fn new(part: &Part, pose: &Pose) -> Self {
-        let centre = pose.point(part.offset);
-        match &part.form {
-            Form::Sphere { radius } => Self {
-                faces: Vec::new(),
-                corners: vec![centre],
-                radius: *radius,
-            },
-            Form::Convex(shape) => {
-                let turned = pose.deformation.inverse().transpose();
-                let face = |face: &crate::block::HalfSpace| {
-                    let normal = turned * face.normal;
-                    let length = normal.length();
-                    let normal = normal / length;
-                    (normal, face.distance / length + normal.dot(centre))
-                };
-                let corner = |v: &DVec3| centre + pose.deformation * *v;
-                Self {
-                    faces: shape.faces().iter().map(face).collect(),
-                    corners: shape.vertices().iter().map(corner).collect(),
-                    radius: 0.0,
-                }
-            }
-        }
+/// Distance of two parts, m.
+fn gap(a: &Placed, b: &Placed) -> f64 {
+    if a.faces.is_empty() && b.faces.is_empty() {
+        return a.centre.distance(b.centre) - a.radius - b.radius;
     }
-
-    /// How far the other lies beyond the face of this one that it is farthest from.
-    fn beyond(&self, other: &Self) -> f64 {
-        let face = |(normal, offset): &(DVec3, f64)| {
-            let heights = other.corners.iter().map(|x| normal.dot(*x) - offset);
-            heights.fold(f64::INFINITY, f64::min) - other.radius
-        };
-        self.faces
-            .iter()
-            .map(face)
-            .fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    fn gap(&self, other: &Self) -> f64 {
-        if self.faces.is_empty() && other.faces.is_empty() {
-            return (self.corners[0] - other.corners[0]).length() - self.radius - other.radius;
-        }
-        self.beyond(other).max(other.beyond(self))
-    }
+    beyond(a, b).max(beyond(b, a))
 }
 
 #[cfg(test)]
@@ -133,6 +97,7 @@ mod tests {
         bodies::{Block, Material},
         broadphase::HostBroadphase,
     };
+    use glam::DVec3;
 
     #[test]
     fn cubes_in_a_row_and_a_ball_on_them() {

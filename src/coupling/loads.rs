@@ -1,7 +1,10 @@
 //! From what the fluid did to the solid in its cells to the load on a block.
 
-use crate::{bodies::Load, formula::Formula};
-use glam::{DMat3, DVec3};
+use crate::{
+    bodies::{Load, outer},
+    formula::Formula,
+};
+use glam::DVec3;
 
 /// What acts on fluid and rock everywhere.
 ///
@@ -23,13 +26,14 @@ pub struct Ambient {
 impl Ambient {
     /// Force and moment of the body force on what the block entrains: ρ b ΣB.
     pub fn push(&self, load: &Load, centre: DVec3) -> Load {
-        let place = centre.to_array();
+        spread(self.weight(centre), load.entrained, load.entrained_moment)
+    }
+
+    /// The body force on the fluid at a place, ρ b, N/m³.
+    pub fn weight(&self, place: DVec3) -> DVec3 {
+        let place = place.to_array();
         let b = [0, 1, 2].map(|k| self.acceleration[k].eval_at(place, 0.0));
-        spread(
-            self.density * DVec3::from_array(b),
-            load.entrained,
-            load.entrained_moment,
-        )
+        self.density * DVec3::from_array(b)
     }
 
     /// Buoyancy: −ρ g Σε.
@@ -49,11 +53,6 @@ fn spread(force: DVec3, volume: f64, moment: DVec3) -> Load {
         moment: outer(force, moment),
         ..Load::default()
     }
-}
-
-/// a ⊗ b.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
 /// The sum of two loads on a block; the volumes are those of the first.

@@ -6,9 +6,11 @@
 
 mod advice;
 mod coupled;
+mod faces;
 mod gaps;
 mod gathered;
 mod inner_fluid;
+mod joints;
 mod loads;
 mod near;
 mod reading;
@@ -16,6 +18,7 @@ mod state;
 
 pub use coupled::{Coupled, Exchanges, Felt};
 pub use gaps::Gap;
+pub(crate) use gaps::gaps;
 pub use gathered::Gathered;
 pub use inner_fluid::{InnerFluid, Matter};
 pub use loads::Ambient;

@@ -172,6 +172,8 @@ impl Coupled {
             .restore(&state.snapshot)
             .map_err(|error| Error::scene("restart", error.to_string()))?;
         self.reading.forget();
+        self.face_reading.forget();
+        self.faces.clear();
         let in_fluid = &state.blocks[..self.in_fluid()];
         self.gathered = Gathered {
             last: (state.last > 0).then(|| {

@@ -1,7 +1,8 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Frame, MOST_FACES, Motion, Part, Plan, WRENCH,
+    Frame, MOST_FACES, Motion, Part, Plan,
+    face_sums::FaceSums,
     frame::{FARTHEST, finite},
     kernels::Kernels,
     outline::{outline, rows},
@@ -10,7 +11,7 @@ use super::{
 use crate::{
     Error, Result,
     block::{Form, Shape},
-    bodies::{Load, Pose},
+    bodies::Pose,
     kernel::Kernel,
     lattice::Lattice,
 };
@@ -23,6 +24,8 @@ pub struct Submerged {
     pub shape: Arc<Shape>,
     /// Whether somebody wants to know what the fluid does to it.
     pub loaded: bool,
+    /// Whether somebody wants to know what it does to each of its faces.
+    pub faces: bool,
 }
 
 /// What was computed anew since the start.
@@ -40,24 +43,27 @@ pub struct Work {
 ///
 /// A step is [`Immersed::place`] with the poses of the blocks, [`Immersed::record_cells`],
 /// [`Lattice::record_saturated`], [`Immersed::record_loads`], [`Lattice::record_rest`]; then
-/// [`Immersed::wrenches`] holds what [`Immersed::loads`] makes loads of. Poses, motions and loads are SI.
+/// [`Immersed::wrenches`] holds what [`Immersed::loads`] makes loads of, and with [`Immersed::record_faces`] beside
+/// the loads [`Immersed::face_sums`] what [`Immersed::face_loads`] does. Poses, motions and loads are SI.
 #[derive(Debug)]
 pub struct Immersed {
-    frame: Frame,
+    pub(super) frame: Frame,
     tiling: Tiling,
     /// In the order of the device: those with loads first.
-    blocks: Vec<Submerged>,
+    pub(super) blocks: Vec<Submerged>,
     /// Place of each block in that order.
-    number: Vec<usize>,
-    loaded: usize,
+    pub(super) number: Vec<usize>,
+    pub(super) loaded: usize,
     /// First part of each block, and first face of each part.
     first_part: Vec<u32>,
     first_face: Vec<u32>,
     faces: usize,
-    poses: Vec<Pose>,
+    pub(super) poses: Vec<Pose>,
     outlines: Vec<Vec<Outline>>,
     plan: Plan,
-    kernels: Kernels,
+    pub(super) kernels: Kernels,
+    /// None where nobody asks for faces.
+    pub(super) face_sums: Option<FaceSums>,
     work: Work,
 }
 
@@ -100,7 +106,14 @@ impl Immersed {
             }
             first_part.push(first_face.len() as u32 - 1);
         }
+        let asked = |block: &usize| blocks[*block].faces;
+        let asked: Vec<usize> = (0..blocks.len()).filter(asked).collect();
+        let face_sums = match asked.is_empty() {
+            true => None,
+            false => Some(FaceSums::new(device, lattice, asked)?),
+        };
         Ok(Self {
+            face_sums,
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
@@ -192,6 +205,11 @@ impl Immersed {
             self.poses.clear();
             self.make_room(device, queue, lattice)?;
             self.upload_plan(queue);
+            if let Some(faces) = &mut self.face_sums {
+                let held = (&*lattice, &self.kernels);
+                let plan = (&self.plan, &self.first_part[..]);
+                faces.lay(device, queue, held, plan, &self.outlines)?;
+            }
             self.work.searches += 1;
         }
         self.poses = poses;
@@ -323,40 +341,6 @@ impl Immersed {
         self.kernels.record(pass, 0..3);
     }
 
-    /// Records the sums of what the fluid did to the blocks, after [`Lattice::record_saturated`].
-    pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernels.record(pass, 3..5);
-    }
-
-    /// The sums, [`WRENCH`] f32 for each block with loads: see [`Immersed::loads`]. Another buffer after
-    /// [`Immersed::place`], if it had to grow.
-    pub fn wrenches(&self) -> &wgpu::Buffer {
-        self.kernels.buffer("wrenches")
-    }
-
-    /// How many numbers of [`Immersed::wrenches`] hold sums.
-    pub fn wrench_count(&self) -> usize {
-        WRENCH * self.loaded
-    }
-
-    /// The loads on all blocks from the numbers of [`Immersed::wrenches`]: what the fluid did to the solid
-    /// in its cells, without what a body force in these cells and the weight of the water add. Blocks
-    /// without loads have none.
-    ///
-    /// # Errors
-    /// If there are too few numbers.
-    pub fn loads(&self, wrenches: &[f32]) -> Result<Vec<Load>> {
-        if wrenches.len() < self.wrench_count() {
-            let message = format!("{} numbers, not {}", wrenches.len(), self.wrench_count());
-            return Err(Error::scene("wrenches", message));
-        }
-        let load = |&place: &usize| match wrenches.get(WRENCH * place..WRENCH * (place + 1)) {
-            Some(wrench) if place < self.loaded => self.frame.load(wrench),
-            _ => Load::default(),
-        };
-        Ok(self.number.iter().map(load).collect())
-    }
-
     /// Bricks that blocks reach.
     pub fn bricks(&self) -> &[u32] {
         &self.plan.bricks
@@ -379,7 +363,8 @@ impl Immersed {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> u64 {
-        self.kernels.bytes()
+        let faces = self.face_sums.as_ref().map_or(0, FaceSums::bytes);
+        self.kernels.bytes() + faces
     }
 
     /// Cells of the domain, and which of its axes are periodic.

@@ -10,13 +10,13 @@ use crate::{
 
 /// A buffer that is made anew when it must hold more.
 #[derive(Debug)]
-struct Growing {
-    buffer: wgpu::Buffer,
-    label: &'static str,
+pub(super) struct Growing {
+    pub buffer: wgpu::Buffer,
+    pub label: &'static str,
 }
 
 impl Growing {
-    fn new(device: &wgpu::Device, label: &'static str) -> Self {
+    pub fn new(device: &wgpu::Device, label: &'static str) -> Self {
         Self {
             buffer: made(device, label, 256),
             label,
@@ -24,7 +24,7 @@ impl Growing {
     }
 
     /// Makes room, and half as much again where there is none; says whether the buffer is another one.
-    fn hold(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool> {
+    pub fn hold(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool> {
         if bytes <= self.buffer.size() {
             return Ok(false);
         }
@@ -47,7 +47,7 @@ impl Growing {
     }
 }
 
-fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size: bytes,

@@ -9,8 +9,13 @@
 //! 2. `saturate_cells` adds the parts that share a cell,
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
-//!    `reduce_faces` and `sum_faces` to that on single faces, where someone asks.
+//! 5. where someone asks for single faces, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
+//!    cells beside them. What cells inside the solid feel belongs to no face: full ones reflect what was in them
+//!    when they were covered, and only over the whole block that cancels.
 
+mod face_load;
+mod face_sums;
+mod felt;
 mod frame;
 #[expect(clippy::module_inception, reason = "the type that the module is about")]
 mod immersed;
@@ -22,11 +27,12 @@ mod shell;
 mod tables;
 mod tiles;
 
+pub use face_load::{FaceLoad, PlaneFace, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{
-    MOST_BINDINGS, MOST_FACES, TileSum, constants, reduce_blocks, reduce_faces, reduce_tiles,
-    saturate_cells, sum_faces, voxelise, voxelise_edges,
+    MOST_BINDINGS, MOST_BINDINGS_WITH_FACES, MOST_FACES, TileSum, constants, reduce_blocks,
+    reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise, voxelise_edges,
 };
 pub use shell::NearCell;
 pub use tables::{DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH};

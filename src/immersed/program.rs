@@ -9,6 +9,9 @@ pub const MOST_FACES: u32 = 8192;
 /// Storage buffers of the kernel that has the most of them, `saturate_cells`.
 pub const MOST_BINDINGS: u32 = 7;
 
+/// The same where faces are asked for: `reduce_faces`.
+pub const MOST_BINDINGS_WITH_FACES: u32 = 8;
+
 /// Who adds up a tile. Both give the same numbers up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileSum {
@@ -61,12 +64,12 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: a workgroup a job. A cell's force belongs to the face of its part that is highest over it,
-/// also where the cell is whole, as beside a face along the grid; deep cells belong to none. The wetted
-/// area is that of the face in cells that are fluid to the lattice: walls take from it, other blocks
-/// do not. Binds `jobs` ([`super::FaceJob`], those of a face one after the other), `tiles`, `parts`,
-/// `faces`, `motions`, `shares`, `saturation`, and `face_partials`, [`super::FACE_LOAD`] numbers a job.
-/// Spheres have no faces.
+/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells beside it, from where cells no longer
+/// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
+/// has a share in it. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
+/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `shares`, `saturation`, and
+/// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
+/// faces.
 pub fn reduce_faces(grid: &Grid) -> Program {
     base("reduce_faces", grid)
 }

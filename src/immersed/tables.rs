@@ -18,9 +18,10 @@ pub const PLANES: usize = 9;
 /// Numbers that the device adds up for each block.
 pub const WRENCH: usize = 20;
 
-/// Numbers that the device adds up for each face that is asked for: force (3), moment about the block's
-/// centroid (3), wetted area (cells²), number of cells.
-pub const FACE_LOAD: usize = 8;
+/// Numbers that the device adds up for each face that is asked for, over the layer of cells beside it: traction
+/// (3), its moment about the block's centroid (3), height of the cells' centres over the face, number of cells
+/// with fluid, number of cells.
+pub const FACE_LOAD: usize = 9;
 
 /// The part of one convex part of a block in one lane of one saturated brick.
 #[repr(C)]

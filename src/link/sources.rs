@@ -27,10 +27,14 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";
     "solid":
-        "axes", "ball_quick", "ball_share", "brick", "cell_load", "columns", "face_planes", "faces", "hull_quick",
+        "axes", "ball_quick", "ball_share", "beside_face", "brick", "cell_load", "columns", "faces", "hull_quick",
         "hull_share", "one_plane", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
+    "sph":
+        "accelerate", "admit", "around_cells", "arrive", "around_lists", "bodies", "body_load", "clock", "clock_shared", "drift", "least", "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "mueller_move", "near", "neighbours", "particle_grid", "penalty", "runs_open",
+        "runs_periodic", "shell_force", "shell_place", "shell_pressure", "sort_count", "sort_list", "sort_order",
+        "state_linear", "state_tait", "tick", "wendland";
 };
 
 /// The text of the file `name`.

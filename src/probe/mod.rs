@@ -86,7 +86,13 @@ impl Gauge {
                 let (face, chosen) = Face::new(&cells, *min, *max, *normal);
                 (Face::COLUMNS.to_vec(), Place::Face(face), chosen)
             }
-            ProbePlace::Block { block } => {
+            ProbePlace::Gauge { .. } | ProbePlace::RunUp { .. } => {
+                return Err(Error::scene(
+                    format!("probes.{}", probe.name),
+                    "it measures a free surface, and a lattice has none; give another kind",
+                ));
+            }
+            ProbePlace::Block { block, .. } => {
                 return Err(Error::scene(
                     format!("probes.{}", probe.name),
                     format!("it follows the block `{block}` and has no place in the fluid"),

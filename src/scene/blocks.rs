@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::block_shape::{BlockShape, Keys, Kind, PlaneFace};
+use super::deformable::{FixedPoint, PointLoad};
 use super::one_or_many::OneOrMany;
 use super::tagged::through;
 use crate::formula::Formula;
@@ -40,6 +41,25 @@ pub struct Block {
     /// Name of its material. Default the first one.
     #[schemars(default)]
     pub material: Option<String>,
+    /// Whether it deforms: as a whole, with one strain and one stress (discontinuous deformation analysis).
+    /// Only free blocks of one convex polyhedron, of a material with `youngs_modulus`; they never sleep, and
+    /// their elasticity limits the step. Default false: it is rigid.
+    #[schemars(default)]
+    pub deformable: bool,
+    /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
+    /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
+    #[schemars(default)]
+    pub initial_stress: [f64; 6],
+    /// Points of a deformable block that stay where they are. Default none.
+    #[schemars(default)]
+    pub fixed_points: Vec<FixedPoint>,
+    /// Forces on points of a free block, deformable or rigid; it never sleeps. Default none.
+    #[schemars(default)]
+    pub point_loads: Vec<PointLoad>,
+    /// Acceleration of a free block beside gravity, m/s²: three numbers or formulas of t; it never sleeps.
+    /// Default none.
+    #[schemars(default)]
+    pub acceleration: Option<[Formula; 3]>,
     /// Rows of copies, each of all that those before it made: one for a stack, two for a wall, with
     /// turns for an arch. One table or a list of them. Default only the block itself.
     #[schemars(default, with = "OneOrMany<Repeat>")]
@@ -133,6 +153,11 @@ struct Flat {
     velocity: Option<[Formula; 3]>,
     spin: Option<[Formula; 3]>,
     material: Option<String>,
+    deformable: Option<bool>,
+    initial_stress: Option<[f64; 6]>,
+    fixed_points: Option<Vec<FixedPoint>>,
+    point_loads: Option<Vec<PointLoad>>,
+    acceleration: Option<[Formula; 3]>,
     repeat: Option<OneOrMany<Repeat>>,
 }
 
@@ -162,6 +187,11 @@ impl Flat {
             velocity: self.velocity.unwrap_or_default(),
             spin: self.spin.unwrap_or_default(),
             material: self.material,
+            deformable: self.deformable.unwrap_or_default(),
+            initial_stress: self.initial_stress.unwrap_or_default(),
+            fixed_points: self.fixed_points.unwrap_or_default(),
+            point_loads: self.point_loads.unwrap_or_default(),
+            acceleration: self.acceleration,
             repeat: self.repeat.map_or_else(Vec::new, |rows| rows.0),
         })
     }
@@ -183,6 +213,11 @@ impl FlatPart {
             ("velocity", flat.velocity.is_some()),
             ("spin", flat.spin.is_some()),
             ("material", flat.material.is_some()),
+            ("deformable", flat.deformable.is_some()),
+            ("initial_stress", flat.initial_stress.is_some()),
+            ("fixed_points", flat.fixed_points.is_some()),
+            ("point_loads", flat.point_loads.is_some()),
+            ("acceleration", flat.acceleration.is_some()),
             ("repeat", flat.repeat.is_some()),
         ];
         if let Some((key, _)) = whole.iter().find(|(_, given)| *given) {

@@ -74,6 +74,8 @@ pub enum Boundary {
         #[schemars(default)]
         reflecting: bool,
     },
+    /// Particles that get here are lost, and counted. A lattice has no such face.
+    Open,
 }
 
 impl Boundary {
@@ -85,12 +87,16 @@ impl Boundary {
             Self::FreeSlip => "free_slip",
             Self::Velocity { .. } => "velocity",
             Self::Pressure { .. } => "pressure",
+            Self::Open => "open",
         }
     }
 
     /// Whether fluid can pass, other than periodically.
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::Velocity { .. } | Self::Pressure { .. })
+        matches!(
+            self,
+            Self::Velocity { .. } | Self::Pressure { .. } | Self::Open
+        )
     }
 }
 
@@ -102,6 +108,7 @@ enum Kind {
     FreeSlip,
     Velocity,
     Pressure,
+    Open,
 }
 
 #[derive(Deserialize)]
@@ -152,6 +159,10 @@ impl Flat {
                     pressure: self.pressure.unwrap_or(0.0),
                     reflecting: self.reflecting.unwrap_or(false),
                 }
+            }
+            Kind::Open => {
+                only("open", &[])?;
+                Boundary::Open
             }
         })
     }

@@ -7,7 +7,7 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Coupling {
-    /// Time steps of the fluid from one exchange to the next, at least 1: meanwhile the blocks stand still for
+    /// Time steps of the fluid, of particles acoustic ones, from one exchange to the next, at least 1: meanwhile the blocks stand still for
     /// the fluid, and then they move under the mean of the loads since the last one. Default 1.
     pub interval: u32,
     /// Whether blocks feel the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::law::Elastic;
+
 /// A rock, and how its joints push, slide and break.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +30,12 @@ pub struct Material {
     /// which a block rebounds with 0.74 of its speed.
     #[serde(default = "Material::usual_damping")]
     pub damping: f64,
+    /// Young's modulus E of the rock itself, Pa, which its deformable blocks need; the stiffer and the smaller
+    /// they are, the shorter the step. Default none.
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio ν of the rock itself, no unit, between -1 and 0.5. Default 0.25.
+    #[serde(default = "Material::usual_ratio")]
+    pub poissons_ratio: f64,
 }
 
 impl Material {
@@ -36,6 +44,18 @@ impl Material {
 
     fn usual_damping() -> f64 {
         0.1
+    }
+
+    fn usual_ratio() -> f64 {
+        0.25
+    }
+
+    /// Elasticity of the rock itself, if it is given.
+    pub fn elastic(&self) -> Option<Elastic> {
+        self.youngs_modulus.map(|youngs_modulus| Elastic {
+            youngs_modulus,
+            poissons_ratio: self.poissons_ratio,
+        })
     }
 
     /// Shear stiffness, given or not, Pa/m.

@@ -9,6 +9,7 @@ mod blocks;
 mod boundaries;
 mod check;
 mod coupling;
+mod deformable;
 mod domain;
 mod face;
 mod fluid;
@@ -18,6 +19,7 @@ mod numerics;
 mod one_or_many;
 mod output;
 mod parse;
+mod particles;
 mod probes;
 mod rock;
 mod rock_masses;
@@ -26,6 +28,7 @@ mod sample;
 mod solids;
 mod tagged;
 mod views;
+mod water;
 
 use std::path::{Path, PathBuf};
 
@@ -37,6 +40,7 @@ pub use block_shape::{BlockShape, PlaneFace};
 pub use blocks::{Block, Motion, Part, Repeat, Rotation};
 pub use boundaries::{Boundaries, Boundary};
 pub use coupling::Coupling;
+pub use deformable::{FixedPoint, PointLoad};
 pub use domain::Domain;
 pub use face::{Axis, Direction, Face};
 pub use fluid::Fluid;
@@ -44,6 +48,7 @@ pub use initial::{Initial, InitialPressure};
 pub use materials::{Material, MaterialPair};
 pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, Storage};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
+pub use particles::{EquationOfState, Particles, Scheme};
 pub use probes::{Probe, ProbePlace};
 pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
@@ -51,6 +56,7 @@ pub use run::Run;
 pub use sample::{BodyForce, InitialFields};
 pub use solids::{Shape, Solid};
 pub use views::{View, ViewSlice};
+pub use water::Water;
 
 /// A fluid, blocks of rock, or both, in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -69,6 +75,13 @@ pub struct Scene {
     /// How the fluid is computed. Default: see each key.
     #[serde(default)]
     pub numerics: Numerics,
+    /// How a fluid of particles is computed, one with a free surface. Default none: the fluid is on a
+    /// lattice and fills the domain.
+    #[serde(default)]
+    pub particles: Option<Particles>,
+    /// Bodies of water at the time 0, of particles. Default none.
+    #[serde(default)]
+    pub water: Vec<Water>,
     /// The faces of the domain. Default: all periodic.
     #[serde(default)]
     pub boundaries: Boundaries,
@@ -126,6 +139,11 @@ impl Scene {
     /// Whether something flows.
     pub fn has_fluid(&self) -> bool {
         self.fluid != Fluid::default()
+    }
+
+    /// Whether it is particles that flow.
+    pub fn has_particles(&self) -> bool {
+        self.particles.is_some()
     }
 
     /// Whether there are blocks, fixed ones and those of rock masses included.

@@ -9,10 +9,11 @@ use super::Axis;
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between VTI files of the fluid and VTU files of the blocks, s. Default: only the last
+    /// Time between VTI files of the fluid, or VTP files of its particles, and VTU files of the blocks, s. Default: only the last
     /// state.
     pub every: Option<f64>,
-    /// Fields in the VTI files. Default velocity and pressure.
+    /// Fields in the files of the fluid; particles have velocity, pressure and density. Default velocity and
+    /// pressure.
     pub fields: Vec<Field>,
     /// Pictures. Default none.
     pub slices: Vec<Slice>,
@@ -156,10 +157,14 @@ pub enum Quantity {
     MomentumZ,
     /// Largest speed of the fluid, m/s.
     MaxSpeed,
+    /// Potential energy of particles in their gravity, against that at the time 0, J.
+    PotentialEnergy,
     /// Kinetic energy of the blocks, with that of their spin, J.
     BlockKineticEnergy,
     /// Potential energy of the blocks in gravity, against that at the time 0, J.
     BlockPotentialEnergy,
+    /// Strain energy of the deformable blocks, J.
+    StrainEnergy,
     /// Elastic energy in the contacts of the blocks, J.
     ContactEnergy,
     /// What friction has turned into heat, J.
@@ -177,6 +182,8 @@ pub enum Quantity {
     AwakeBlocks,
     /// Largest speed of a block's centroid, m/s.
     BlockMaxSpeed,
+    /// Largest von Mises stress of a deformable block, Pa.
+    MaxVonMises,
 }
 
 impl Quantity {
@@ -190,8 +197,10 @@ impl Quantity {
             Self::MomentumY => "momentum_y",
             Self::MomentumZ => "momentum_z",
             Self::MaxSpeed => "max_speed",
+            Self::PotentialEnergy => "potential_energy",
             Self::BlockKineticEnergy => "block_kinetic_energy",
             Self::BlockPotentialEnergy => "block_potential_energy",
+            Self::StrainEnergy => "strain_energy",
             Self::ContactEnergy => "contact_energy",
             Self::FrictionWork => "friction_work",
             Self::DampingWork => "damping_work",
@@ -200,6 +209,7 @@ impl Quantity {
             Self::Contacts => "contacts",
             Self::AwakeBlocks => "awake_blocks",
             Self::BlockMaxSpeed => "block_max_speed",
+            Self::MaxVonMises => "max_von_mises",
         }
     }
 
@@ -208,7 +218,14 @@ impl Quantity {
         use Quantity::*;
         !matches!(
             self,
-            KineticEnergy | Enstrophy | Mass | MomentumX | MomentumY | MomentumZ | MaxSpeed
+            KineticEnergy
+                | Enstrophy
+                | Mass
+                | MomentumX
+                | MomentumY
+                | MomentumZ
+                | MaxSpeed
+                | PotentialEnergy
         )
     }
 }

@@ -15,8 +15,9 @@ pub struct Probe {
     /// Where it measures.
     #[schemars(flatten)]
     pub place: ProbePlace,
-    /// What it measures. Default velocity and pressure. A `face` always gives area, pressure and
-    /// force, a `block` its position, velocity, rotation, spin and forces, and no other fields.
+    /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
+    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
+    /// its stress if it deforms, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
@@ -28,7 +29,7 @@ pub struct Probe {
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(tag = "kind", rename_all = "snake_case")]
 pub enum ProbePlace {
-    /// One point, interpolated.
+    /// One point, interpolated; among particles their mean, weighted by the kernel.
     Point {
         /// The point, m.
         at: [f64; 3],
@@ -73,6 +74,36 @@ pub enum ProbePlace {
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,
+        /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
+        /// row a face, with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure`
+        /// and `shear` stress (Pa), whether it is in a `joint` (another block, solid or wall within three cells
+        /// over it), `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
+        /// the block (N m), and the vector of the shear stress; and `faces_*.vtp`. Adds to the table of the
+        /// block `uplift_of_faces`, the force on faces that look down, against gravity (N), and
+        /// `joint_pressure`, the mean over its joints (Pa). Pressure is that of the fluid: above the
+        /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
+        /// beside. Needs a fluid. Default false.
+        #[schemars(default)]
+        faces: bool,
+        /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
+        /// `safety_toppling`, by limit equilibrium of weight, fluid and its contacts, and to tell them in the
+        /// summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. Default false.
+        #[schemars(default)]
+        safety: bool,
+    },
+    /// The free surface of particles above a point: its height, m.
+    Gauge {
+        /// The point, x and y, m.
+        at: [f64; 2],
+    },
+    /// The farthest of the particles in a box along a direction, drops aside: its place, m.
+    RunUp {
+        /// Lower corner of the box, m.
+        min: [f64; 3],
+        /// Upper corner of the box, m.
+        max: [f64; 3],
+        /// The direction.
+        direction: Direction,
     },
 }
 
@@ -85,6 +116,8 @@ enum Kind {
     Box,
     Face,
     Block,
+    Gauge,
+    RunUp,
 }
 
 #[derive(Deserialize)]
@@ -94,7 +127,7 @@ struct Flat {
     name: String,
     fields: Option<Vec<Field>>,
     every: Option<f64>,
-    at: Option<[f64; 3]>,
+    at: Option<At>,
     from: Option<[f64; 3]>,
     to: Option<[f64; 3]>,
     count: Option<u32>,
@@ -103,7 +136,31 @@ struct Flat {
     min: Option<[f64; 3]>,
     max: Option<[f64; 3]>,
     normal: Option<Direction>,
+    direction: Option<Direction>,
     block: Option<String>,
+    faces: Option<bool>,
+    safety: Option<bool>,
+}
+
+/// A point, or the foot of a column.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct At(Vec<f64>);
+
+impl At {
+    fn point(self) -> Result<[f64; 3], String> {
+        let count = self.0.len();
+        self.0
+            .try_into()
+            .map_err(|_| format!("`at` has {count} numbers; a point has x, y and z"))
+    }
+
+    fn column(self) -> Result<[f64; 2], String> {
+        let count = self.0.len();
+        self.0
+            .try_into()
+            .map_err(|_| format!("`at` has {count} numbers; a gauge stands at x and y"))
+    }
 }
 
 impl Flat {
@@ -118,14 +175,23 @@ impl Flat {
             ("min", self.min.is_some()),
             ("max", self.max.is_some()),
             ("normal", self.normal.is_some()),
+            ("direction", self.direction.is_some()),
             ("block", self.block.is_some()),
+            ("faces", self.faces.is_some()),
+            ("safety", self.safety.is_some()),
         ];
         let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
+        let fixed = |kind: &str, gives: &str| match self.fields {
+            Some(_) => Err(format!(
+                "a `{kind}` probe always gives {gives} and no fields; remove `fields`"
+            )),
+            None => Ok(()),
+        };
         let place = match self.kind {
             Kind::Point => {
                 only("point", &["at"])?;
                 ProbePlace::Point {
-                    at: need(self.at, "at", "point")?,
+                    at: need(self.at, "at", "point")?.point()?,
                 }
             }
             Kind::Line => {
@@ -167,16 +233,31 @@ impl Flat {
                 }
             }
             Kind::Block => {
-                only("block", &["block"])?;
-                if self.fields.is_some() {
-                    return Err(
-                        "a `block` probe always gives position, velocity, rotation, spin, \
-                                force and torque and no fields; remove `fields`"
-                            .into(),
-                    );
-                }
+                only("block", &["block", "faces", "safety"])?;
+                fixed(
+                    "block",
+                    "position, velocity, rotation, spin, force and torque",
+                )?;
                 ProbePlace::Block {
                     block: need(self.block, "block", "block")?,
+                    faces: self.faces.unwrap_or_default(),
+                    safety: self.safety.unwrap_or_default(),
+                }
+            }
+            Kind::Gauge => {
+                only("gauge", &["at"])?;
+                fixed("gauge", "the level")?;
+                ProbePlace::Gauge {
+                    at: need(self.at, "at", "gauge")?.column()?,
+                }
+            }
+            Kind::RunUp => {
+                only("run_up", &["min", "max", "direction"])?;
+                fixed("run_up", "the place of the farthest particle")?;
+                ProbePlace::RunUp {
+                    min: need(self.min, "min", "run_up")?,
+                    max: need(self.max, "max", "run_up")?,
+                    direction: need(self.direction, "direction", "run_up")?,
                 }
             }
         };

@@ -11,8 +11,8 @@ pub struct Rock {
     pub gravity: [f64; 3],
     /// Mass damping α, 1/s: every free block loses speed at this rate. Default 0.
     pub mass_damping: f64,
-    /// Time step, s. Default: half of the largest that the stiffest contact allows. A larger one is
-    /// refused.
+    /// Time step, s. Default: half of the largest that the stiffest contact and the elasticity of deformable
+    /// blocks allow. A larger one is refused.
     pub time_step: Option<f64>,
     /// Distance by which blocks are grown when pairs that may touch are searched, m: a larger one
     /// makes searches rarer and lists longer. Default: chosen from the sizes of the blocks.

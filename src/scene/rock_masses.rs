@@ -54,6 +54,14 @@ pub struct RockMass {
     /// Name of the material. Default the first one.
     #[schemars(default)]
     pub material: Option<String>,
+    /// Whether its free blocks deform, each as a whole; the material then needs `youngs_modulus`. Default
+    /// false: they are rigid.
+    #[schemars(default)]
+    pub deformable: bool,
+    /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
+    /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
+    #[schemars(default)]
+    pub initial_stress: [f64; 6],
 }
 
 /// A convex volume.
@@ -192,6 +200,10 @@ struct Flat {
     #[serde(default)]
     removed: Vec<Shape>,
     material: Option<String>,
+    #[serde(default)]
+    deformable: bool,
+    #[serde(default)]
+    initial_stress: [f64; 6],
 }
 
 impl Flat {
@@ -248,6 +260,8 @@ impl Flat {
             fixed: self.fixed,
             removed: self.removed,
             material: self.material,
+            deformable: self.deformable,
+            initial_stress: self.initial_stress,
         })
     }
 }

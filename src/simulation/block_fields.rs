@@ -6,7 +6,7 @@ use crate::{
     coupling::Felt,
     output::{Array, Cloud, Polyhedra},
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Faces of a sphere around its axis; half as many along it.
@@ -15,6 +15,9 @@ const AROUND: u32 = 24;
 /// The parts of the first blocks, those `shown`, where they are now, with what their blocks do: number,
 /// velocity (m/s) and speed (m/s), spin (rad/s), net force of their contacts (N), whether they are fixed or
 /// asleep, and the number of their material.
+///
+/// Where blocks deform, also their Cauchy stress along the axes of the world (Pa; xx, yy, zz, xy, yz, xz,
+/// tension positive), von Mises stress (Pa) and strain energy (J); NaN for rigid ones.
 ///
 /// In a fluid, where the first blocks have a [`Felt`] each, also what its flow does to them and their
 /// buoyancy (N); NaN for blocks that nobody asks about, the fixed ones without a probe, and for solids.
@@ -62,6 +65,25 @@ pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, felt: &[Felt]) -> Polyh
         scalar("asleep", &|owner| flag(asleep[owner])),
         scalar("material", &|owner| shown[owner].material as f64),
     ];
+    if blocks.any_deforms() {
+        let stress = |owner: &usize| {
+            let stress = blocks.stress(*owner).map(voigt);
+            stress.unwrap_or([f64::NAN; 6]).map(|s| s as f32)
+        };
+        made.arrays.extend([
+            Array {
+                name: "stress".into(),
+                components: 6,
+                values: owners.iter().flat_map(stress).collect(),
+            },
+            scalar("von_mises", &|owner| {
+                blocks.von_mises(owner).unwrap_or(f64::NAN)
+            }),
+            scalar("strain_energy", &|owner| {
+                blocks.strain_energy(owner).unwrap_or(f64::NAN)
+            }),
+        ]);
+    }
     if !felt.is_empty() {
         let known = |owner: usize| {
             let known =
@@ -77,6 +99,13 @@ pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, felt: &[Felt]) -> Polyh
         ]);
     }
     made
+}
+
+/// The entries xx, yy, zz, xy, yz, xz of a symmetric matrix, in the order of VTK.
+pub fn voigt(m: DMat3) -> [f64; 6] {
+    [
+        m.x_axis.x, m.y_axis.y, m.z_axis.z, m.y_axis.x, m.z_axis.y, m.z_axis.x,
+    ]
 }
 
 /// The contacts of blocks: the points where forces act, with the force on the second block (N) and its

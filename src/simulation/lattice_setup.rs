@@ -1,7 +1,7 @@
 //! From a scene in SI to a fluid in lattice units.
 
 use crate::{
-    Result,
+    Error, Result,
     lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, Storage},
     scene::{self, BodyForce, Boundary, Scene},
     units::Units,
@@ -89,6 +89,12 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
                 } else {
                     Face::Outflow { density }
                 }
+            }
+            Boundary::Open => {
+                return Err(Error::scene(
+                    format!("boundaries.{}", face.name()),
+                    "only particles leave through an open face; use kind = \"pressure\"",
+                ));
             }
         };
     }

@@ -5,16 +5,21 @@ mod block_fields;
 mod block_setup;
 mod diverged;
 mod dry;
+mod face_surface;
 mod fields;
+mod free_surface;
 mod lattice_setup;
 mod needs;
 mod wall_units;
 
-pub use block_fields::{block_polyhedra, contact_cloud};
+pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
+pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;
 pub(crate) use dry::begin;
+pub use face_surface::face_surface;
 pub use fields::Totals;
+pub use free_surface::FreeSurface;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
@@ -134,7 +139,10 @@ impl Simulation {
         let (device, queue) = (self.device.clone(), self.queue.clone());
         let mut encoder = device.create_command_encoder(&Default::default());
         if let Some(coupled) = &mut self.coupled {
-            coupled.place(&device, &queue, &mut self.lattice, &mut encoder)?;
+            let lattice = &mut self.lattice;
+            coupled
+                .place(&device, &queue, lattice, &mut encoder)
+                .await?;
         }
         loop {
             let next = self.step() + 1;
@@ -172,6 +180,7 @@ impl Simulation {
         self.lattice
             .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
         coupled.record_loads(device, &mut encoder, self.lattice.step() + 1);
+        coupled.record_faces(device, &mut encoder, self.lattice.step() + 1);
         queue.submit([encoder.finish()]);
         let mut encoder = device.create_command_encoder(&Default::default());
         self.lattice

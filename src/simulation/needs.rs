@@ -4,7 +4,7 @@ use super::lattice_setup;
 use crate::{
     Result, immersed,
     lattice::{Grid, Memory, Setup, memory},
-    scene::Scene,
+    scene::{Probe, ProbePlace, Scene},
     units::Units,
 };
 
@@ -43,7 +43,12 @@ impl Needs {
             .most_bindings
             .max(limits.max_storage_buffers_per_shader_stage);
         if scene.has_blocks() {
-            bindings = bindings.max(immersed::MOST_BINDINGS);
+            let faces =
+                |probe: &Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
+            bindings = bindings.max(match scene.probes.iter().any(faces) {
+                true => immersed::MOST_BINDINGS_WITH_FACES,
+                false => immersed::MOST_BINDINGS,
+            });
             // What they take is known once they are placed, and changes as they move.
             limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
             limits.max_buffer_size = has.max_buffer_size;

@@ -28,6 +28,7 @@ fn ball(radius: f64) -> Submerged {
     Submerged {
         shape: Arc::new(Shape::sphere(radius).unwrap()),
         loaded: true,
+        faces: false,
     }
 }
 

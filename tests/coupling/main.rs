@@ -4,6 +4,7 @@ mod balance;
 mod buoyancy;
 mod crowd;
 mod density;
+mod faces;
 mod faults;
 mod places;
 mod repeat;

@@ -70,20 +70,6 @@ impl Solid {
         }
         six / 6.0
     }
-
-    /// Area of what lies in `plane`.
-    pub fn area_in(&self, plane: &HalfSpace) -> f64 {
-        let mut twice = 0.0;
-        for ring in &self.0 {
-            if ring.iter().any(|p| plane.height(*p).abs() > 1e-12) {
-                continue;
-            }
-            for pair in ring[1..].windows(2) {
-                twice += (pair[0] - ring[0]).cross(pair[1] - ring[0]).length();
-            }
-        }
-        twice / 2.0
-    }
 }
 
 /// Share of the unit cell about `centre` inside all `faces`.
@@ -121,7 +107,6 @@ fn cutting_is_exact() {
     // A corner, all but a corner, a wedge, a slab, nothing.
     let corner = plane(DVec3::ONE, -1.0);
     assert!((share(&[corner]) - 1.0 / 48.0).abs() < 1e-15);
-    assert!((corner_area(&corner, at) - 0.125 * 3f64.sqrt()).abs() < 1e-14);
     assert!((share(&[plane(DVec3::ONE, 1.0)]) - 47.0 / 48.0).abs() < 1e-15);
     let wedge = [plane(DVec3::X + DVec3::Y, 0.0), plane(DVec3::Y, 0.0)];
     assert!((share(&wedge) - 0.375).abs() < 1e-15);
@@ -134,8 +119,4 @@ fn cutting_is_exact() {
     // A ball inside the cell.
     let ball = 4.0 / 3.0 * std::f64::consts::PI * 0.4f64.powi(3);
     assert!((ball_share(0.4, DVec3::ZERO) - ball).abs() < 1e-4 * ball);
-}
-
-fn corner_area(plane: &HalfSpace, at: DVec3) -> f64 {
-    Solid::cell(at).cut(plane).area_in(plane)
 }

@@ -9,7 +9,7 @@ const STIFFNESS: f64 = 1e8;
 const G: f64 = 9.81;
 
 /// A flat block on an incline, pressed in as it will be.
-fn on_incline(phi: f64) -> Setup {
+pub fn on_incline(phi: f64) -> Setup {
     let turn = slope(ALPHA.to_radians());
     let height = 0.4;
     let pressed = 2500.0 * height * G * ALPHA.to_radians().cos() / STIFFNESS;

@@ -1,7 +1,10 @@
 //! Dry blocks against exact solutions.
 
+mod affine;
 mod continuity;
 mod corner;
+mod deformable;
+mod deformable_faults;
 mod faults;
 mod free_body;
 mod incline;
@@ -11,6 +14,7 @@ mod rebound;
 mod repeat;
 mod rest;
 mod rig;
+mod safety;
 mod sleep;
 mod toppling;
 mod wedge;

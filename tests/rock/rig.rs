@@ -49,6 +49,7 @@ pub fn setup(blocks: Vec<Block>, joint: Joint) -> Setup {
         materials: vec![Material {
             density: 2500.0,
             joint,
+            elastic: None,
         }],
         ..Setup::default()
     }

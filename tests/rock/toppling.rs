@@ -2,20 +2,26 @@
 
 use crate::rig::{blocks, cuboid, joint, run, settled, setup, slope};
 use glam::DVec3;
-use riprap::bodies::Block;
+use riprap::bodies::{Block, Setup};
 
-/// Tilt of a 1 m × 1 m × 2 m column against its incline of `alpha` degrees, rad, 1 s after it was let go.
-///
-/// It is let go slowly: dropped on its base it would rock past its edge. And it is stiff: a degree before
-/// the threshold a strip of 65 mm carries it, which must not give way by a degree itself.
-fn tilt(alpha: f64) -> f64 {
+/// A 1 m × 1 m × 2 m column on an incline of `alpha` degrees. It is stiff: a degree before the threshold a strip of
+/// 65 mm carries it, which must not give way by a degree itself.
+pub fn column(alpha: f64) -> Setup {
     let turn = slope(alpha.to_radians());
     let plate = Block::new("plate", cuboid(5.0, 5.0, 1.0), turn * DVec3::Z * -0.5);
     let column = Block::new("column", cuboid(1.0, 1.0, 2.0), turn * DVec3::Z);
-    let setup = setup(
+    setup(
         vec![plate.fixed().turned(turn), column.turned(turn)],
         joint(4e10, 50.0),
-    );
+    )
+}
+
+/// Tilt of a 1 m × 1 m × 2 m column against its incline of `alpha` degrees, rad, 1 s after it was let go.
+///
+/// It is let go slowly: dropped on its base it would rock past its edge.
+fn tilt(alpha: f64) -> f64 {
+    let turn = slope(alpha.to_radians());
+    let setup = column(alpha);
     let leaning = settled(&setup, 20.0, 0.3);
     let mut blocks = blocks(setup);
     blocks.restore(&leaning).expect("the same blocks");

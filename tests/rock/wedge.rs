@@ -13,7 +13,7 @@ const STIFFNESS: f64 = 1e9;
 const G: f64 = 9.81;
 
 /// Two planes: dip, dip direction, friction angle, degrees.
-type Planes = [[f64; 3]; 2];
+pub type Planes = [[f64; 3]; 2];
 
 /// Upward normal of a plane; x east, y north.
 fn normal([dip, direction, _]: [f64; 3]) -> DVec3 {
@@ -43,7 +43,7 @@ fn statics(planes: &Planes) -> (DVec3, [f64; 2], f64) {
 }
 
 /// A prism along the line of intersection on two slabs, pressed in as it will be.
-fn on_planes(planes: &Planes, tan_phi: [f64; 2]) -> Setup {
+pub fn on_planes(planes: &Planes, tan_phi: [f64; 2]) -> Setup {
     let normals = planes.map(normal);
     let (line, forces, _) = statics(planes);
     let up = (normals[0] + normals[1]).normalize();

@@ -167,6 +167,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
     let submerged = |block: &Cuboid| Submerged {
         shape: Arc::new(Polyhedron::cuboid(block.size).unwrap().into()),
         loaded: true,
+        faces: false,
     };
     let blocks = boxes.iter().map(submerged).collect();
     let mut immersed = Immersed::new(&device, &subject.lattice, frame, blocks).unwrap();

@@ -260,6 +260,10 @@ fn a_scene_is_of_something() {
         &["probes[0]", "kind = \"block\""],
     );
     refused(
+        cube("[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"block_1\"\nfaces = true\n"),
+        &["probes[0].faces", "no fluid"],
+    );
+    refused(
         crate::channel("[[output.histories]]\nquantities = [\"contacts\"]\n"),
         &["output.histories[0].quantities", "contacts is of blocks"],
     );
@@ -462,4 +466,57 @@ fn pieces_that_are_left_out_are_told() {
     };
     assert_eq!((lost.mass.as_str(), lost.pieces), ("mass", 1));
     assert!((lost.share - 0.25).abs() < 1e-12, "{}", lost.share);
+}
+
+/// A block and a solid in a channel, with a probe of the first kind `block` and one of the name `other`.
+fn probed(block: &str, other: &str) -> riprap::Result<Scene> {
+    crate::channel(&format!(
+        r#"
+        [[materials]]
+        name = "granite"
+        density = 2700
+        normal_stiffness = 1e9
+        friction = 30
+        [[solids]]
+        name = "step"
+        kind = "box"
+        min = [0, 0, 0]
+        max = [0.002, 0.01, 0.004]
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [0.002, 0.002, 0.002]
+        position = [0.01, 0.005, 0.002]
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "{block}"
+        faces = true
+        safety = true
+        [[probes]]
+        name = "{other}"
+        kind = "block"
+        block = "stone"
+        "#
+    ))
+}
+
+#[test]
+fn a_probe_of_a_block_may_ask_for_its_faces_and_its_safety() {
+    let scene = probed("stone", "other").unwrap();
+    let asked = |place: &ProbePlace| match place {
+        ProbePlace::Block { faces, safety, .. } => [*faces, *safety],
+        _ => panic!("no probe of a block"),
+    };
+    assert_eq!(asked(&scene.probes[0].place), [true; 2]);
+    assert_eq!(asked(&scene.probes[1].place), [false; 2]);
+    block_setup(&scene).unwrap();
+    refused(
+        probed("stone", "load_faces"),
+        &["probes[1].name", "`load_faces`"],
+    );
+    refused(
+        block_setup(&probed("step", "other").unwrap()),
+        &["probes[0].faces", "`step` is a solid"],
+    );
 }

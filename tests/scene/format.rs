@@ -161,6 +161,8 @@ fn the_schema_describes_every_key_with_its_unit() {
         "rock_masses",
         "tensile_strength",
         "persistence",
+        "Distance Δx of particles at the start, m.",
+        "run_up",
     ] {
         assert!(schema.contains(part), "{part}");
     }

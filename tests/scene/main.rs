@@ -2,9 +2,11 @@
 
 mod advice;
 mod blocks;
+mod deformable;
 mod format;
 mod formulas;
 mod parsing;
+mod particles;
 mod refusals;
 mod sampling;
 mod shipped;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use riprap::bodies::Motion;
+use riprap::particles::particle_setup;
 use riprap::scene::Scene;
 use riprap::simulation::block_setup;
 use riprap::units::Units;
@@ -21,6 +22,12 @@ fn shipped_scenes_are_sound_and_run_in_minutes() {
         }
         count += 1;
         let scene = Scene::from_file(&path).unwrap();
+        if scene.has_particles() {
+            let setup = block_setup(&scene).unwrap();
+            let (_, start) = particle_setup(&scene, &setup).unwrap();
+            assert!(start.positions.len() > 1000, "{}", path.display());
+            continue;
+        }
         if scene.has_blocks() {
             // How long they take, their comments say: it depends on contacts that come and go.
             let setup = block_setup(&scene).unwrap().setup;

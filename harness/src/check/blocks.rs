@@ -82,7 +82,7 @@ impl BlockFacts {
                 .count(),
             faces: parts().map(|part| faces(&part.form)).sum(),
             left_out: left_out(left).collect(),
-            mass: free.iter().map(mass).sum(),
+            mass: free.iter().map(mass).fold(0.0, |sum, mass| sum + mass),
             lightest: lightest.map(|block| (blocks.name(*block).into(), mass(block))),
             pairs: blocks.candidates(),
             contacts: blocks.contacts().count(),

@@ -6,11 +6,13 @@ mod dry;
 mod report;
 mod text;
 mod trial;
+mod water;
 
 pub use blocks::BlockFacts;
 pub use coupling::{Immersion, Narrow};
 pub use dry::RockReport;
 pub use report::Report;
+pub use water::WaterReport;
 
 use crate::{adapters::Adapter, gpu, print, search::located};
 use anyhow::Result;
@@ -39,6 +41,16 @@ pub struct Args {
 /// What the scene lacks, or what the adapter cannot hold.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
+    if scene.has_particles() {
+        let (report, ended) = water::report(&scene, &args.scene, args.adapter.as_deref())?;
+        if args.json {
+            print::print_json(&report)?;
+        } else {
+            print::print(&report.text())?;
+        }
+        // What the trial met is told after all that was known before it.
+        return Ok(ended?);
+    }
     if !scene.has_fluid() {
         let report = dry::report(&scene, &args.scene, args.adapter.as_deref())?;
         return if args.json {

@@ -28,6 +28,8 @@ pub enum Palette {
     Sequential,
     /// Pale over orange to dark red: for bodies under light, whose lowest value must not be black.
     FromPale,
+    /// Blue over green to pale yellow: for water under light, which at rest must look like it.
+    FromBlue,
     /// Blue over light grey to red, the middle being zero.
     Diverging,
 }
@@ -52,7 +54,8 @@ impl Palette {
         let fraction = fraction.clamp(0.0, 1.0);
         match self {
             Self::Sequential => ViridisRGB::get_color(fraction),
-            Self::FromPale => from_pale(fraction),
+            Self::FromPale => between(&FROM_PALE, fraction),
+            Self::FromBlue => between(&FROM_BLUE, fraction),
             Self::Diverging => diverging(fraction),
         }
     }
@@ -61,30 +64,43 @@ impl Palette {
     pub fn line(self) -> RGBColor {
         match self {
             Self::Sequential => RGBColor(255, 255, 255),
-            Self::FromPale => RGBColor(0, 0, 0),
+            Self::FromPale | Self::FromBlue => RGBColor(0, 0, 0),
             Self::Diverging => RGBColor(40, 40, 40),
         }
     }
 }
 
-/// Brewer, 2003, ColorBrewer's OrRd in nine classes, straight between them; darker with the value.
-fn from_pale(fraction: f64) -> RGBColor {
-    const CLASSES: [[u8; 3]; 9] = [
-        [255, 247, 236],
-        [254, 232, 200],
-        [253, 212, 158],
-        [253, 187, 132],
-        [252, 141, 89],
-        [239, 101, 72],
-        [215, 48, 31],
-        [179, 0, 0],
-        [127, 0, 0],
-    ];
-    let place = fraction * (CLASSES.len() - 1) as f64;
-    let below = (place as usize).min(CLASSES.len() - 2);
+/// Brewer, 2003, ColorBrewer's OrRd in nine classes; darker with the value.
+const FROM_PALE: [[u8; 3]; 9] = [
+    [255, 247, 236],
+    [254, 232, 200],
+    [253, 212, 158],
+    [253, 187, 132],
+    [252, 141, 89],
+    [239, 101, 72],
+    [215, 48, 31],
+    [179, 0, 0],
+    [127, 0, 0],
+];
+
+/// Its YlGnBu in nine classes from the other end, without the two darkest, which have no shades left.
+const FROM_BLUE: [[u8; 3]; 7] = [
+    [34, 94, 168],
+    [29, 145, 192],
+    [65, 182, 196],
+    [127, 205, 187],
+    [199, 233, 180],
+    [237, 248, 177],
+    [255, 255, 217],
+];
+
+/// Straight between the `classes`, which are evenly spaced.
+fn between(classes: &[[u8; 3]], fraction: f64) -> RGBColor {
+    let place = fraction * (classes.len() - 1) as f64;
+    let below = (place as usize).min(classes.len() - 2);
     let part = place - below as f64;
     let [r, g, b] = std::array::from_fn(|c| {
-        let [low, high] = [below, below + 1].map(|class| f64::from(CLASSES[class][c]));
+        let [low, high] = [below, below + 1].map(|class| f64::from(classes[class][c]));
         (low + part * (high - low)).round() as u8
     });
     RGBColor(r, g, b)

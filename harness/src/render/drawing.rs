@@ -1,6 +1,7 @@
 //! What a picture shows.
 
 use super::camera::{Camera, Look};
+use super::drops::Drops;
 use super::fluid_plane::FluidPlane;
 use super::mesh::{Mesh, Vertex};
 use crate::picture::colour_bar::ColourBar;
@@ -20,6 +21,8 @@ pub struct Drawing<'a> {
     pub planes: Vec<FluidPlane>,
     /// Lines along a flow.
     pub traces: Option<Traces>,
+    /// Balls that are many and small.
+    pub drops: Option<Drops>,
     /// Other surfaces.
     pub surfaces: Vec<Surface>,
     /// Other lines.
@@ -222,6 +225,11 @@ impl Drawing<'_> {
             traces
                 .check()
                 .map_err(|message| Error::scene("traces", message))?;
+        }
+        if let Some(drops) = &self.drops {
+            drops
+                .check()
+                .map_err(|message| Error::scene("drops", message))?;
         }
         for (index, line) in self.lines.iter().enumerate() {
             let place = || format!("lines[{index}]");

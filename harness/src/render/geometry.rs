@@ -4,6 +4,7 @@
 //! blocks of a rock mass all differ — are placed on the host and drawn together.
 
 use super::drawing::{Drawing, Instance};
+use super::drops::Dot;
 use super::mesh::Vertex;
 use super::scales::Scales;
 use super::strokes::End;
@@ -72,6 +73,8 @@ pub struct Geometry {
     pub plain: List<Corner>,
     /// Edges and lines.
     pub strokes: List<End>,
+    /// Small balls.
+    pub dots: Vec<Dot>,
     /// Placements; the first leaves everything where it is.
     pub placements: Vec<Placement>,
     /// Least and largest coordinates of what throws shadows, m; `None` if nothing does.
@@ -95,6 +98,11 @@ impl Geometry {
             solid: List::default(),
             plain: List::default(),
             strokes: List::default(),
+            dots: drawing
+                .drops
+                .iter()
+                .flat_map(|drops| drops.dots(target, scales))
+                .collect(),
             placements: vec![Placement::new(DVec3::ZERO, DMat3::IDENTITY, [u8::MAX; 3])],
             bounds: None,
         };

@@ -3,6 +3,7 @@
 use riprap::wgpu;
 use std::mem::size_of;
 
+use super::drops::Dot;
 use super::geometry::{Corner, Placement};
 use super::strokes::End;
 
@@ -21,12 +22,13 @@ macro_rules! with_view {
 }
 
 /// Name and text of each shader.
-pub const SHADERS: [(&str, &str); 6] = [
+pub const SHADERS: [(&str, &str); 7] = [
     ("background", with_view!("background.wgsl")),
     ("ground", with_view!("ground.wgsl")),
     ("body", with_view!("body.wgsl")),
     ("plane", with_view!("plane.wgsl")),
     ("stroke", with_view!("stroke.wgsl")),
+    ("drop", with_view!("drop.wgsl")),
     ("shadow", include_str!("shadow.wgsl")),
 ];
 
@@ -41,6 +43,7 @@ pub struct Pipelines {
     pub body: wgpu::RenderPipeline,
     pub plane: wgpu::RenderPipeline,
     pub stroke: wgpu::RenderPipeline,
+    pub drop: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
 }
 
@@ -52,6 +55,8 @@ const END: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32x2, 8 => Float32];
 const END_PLACEMENT: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Unorm8x4];
+
+const DOT: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4];
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device) -> Self {
@@ -69,6 +74,7 @@ impl Pipelines {
             layout::<End>(wgpu::VertexStepMode::Vertex, &END),
             layout::<Placement>(wgpu::VertexStepMode::Instance, &END_PLACEMENT),
         ];
+        let dots = [layout::<Dot>(wgpu::VertexStepMode::Instance, &DOT)];
         let make = |name, buffers: &[_], kind| {
             let bound = match kind {
                 Kind::Shadow => &[Some(&light_layout)][..],
@@ -84,6 +90,7 @@ impl Pipelines {
             body: make("body", &corners, Kind::Shaded),
             plane: make("plane", &[], Kind::Plane),
             stroke: make("stroke", &ends, Kind::Stroke),
+            drop: make("drop", &dots, Kind::Drop),
             shadow: make("shadow", &corners, Kind::Shadow),
             view_layout,
             light_layout,
@@ -103,6 +110,8 @@ enum Kind {
     /// Covers samples by its opacity.
     Plane,
     Stroke,
+    /// With a depth of its own at each pixel, covering samples by its opacity.
+    Drop,
     Shadow,
 }
 
@@ -133,7 +142,7 @@ fn pipeline(
         write_mask: match kind {
             Kind::Depth => wgpu::ColorWrites::empty(),
             // Opacity counts the samples alone.
-            Kind::Plane => wgpu::ColorWrites::COLOR,
+            Kind::Plane | Kind::Drop => wgpu::ColorWrites::COLOR,
             _ => wgpu::ColorWrites::ALL,
         },
     };
@@ -141,7 +150,9 @@ fn pipeline(
         Kind::Background => (wgpu::CompareFunction::Always, false),
         // Drawn last, over what is farther away.
         Kind::Ground => (wgpu::CompareFunction::Greater, false),
-        Kind::Depth | Kind::Plane | Kind::Stroke => (wgpu::CompareFunction::Greater, true),
+        Kind::Depth | Kind::Plane | Kind::Stroke | Kind::Drop => {
+            (wgpu::CompareFunction::Greater, true)
+        }
         Kind::Shaded => (wgpu::CompareFunction::Equal, false),
         Kind::Shadow => (wgpu::CompareFunction::Less, true),
     };
@@ -156,7 +167,7 @@ fn pipeline(
         },
         primitive: wgpu::PrimitiveState {
             topology: match kind {
-                Kind::Ground | Kind::Plane => wgpu::PrimitiveTopology::TriangleStrip,
+                Kind::Ground | Kind::Plane | Kind::Drop => wgpu::PrimitiveTopology::TriangleStrip,
                 _ => wgpu::PrimitiveTopology::TriangleList,
             },
             ..Default::default()
@@ -170,7 +181,7 @@ fn pipeline(
         }),
         multisample: wgpu::MultisampleState {
             count: if kind == Kind::Shadow { 1 } else { SAMPLES },
-            alpha_to_coverage_enabled: kind == Kind::Plane,
+            alpha_to_coverage_enabled: matches!(kind, Kind::Plane | Kind::Drop),
             ..Default::default()
         },
         fragment: (kind != Kind::Shadow).then_some(wgpu::FragmentState {

@@ -169,6 +169,8 @@ fn balls<'a>(drawing: &'a Drawing<'_>) -> impl Iterator<Item = (DVec3, f64)> + '
     let traces = drawing.traces.iter().flat_map(|traces| &traces.lines);
     let points = traces.flat_map(|trace| trace.points.iter().copied());
     let ends = drawing.lines.iter().flat_map(|line| line.ends);
+    let drops = drawing.drops.iter().flat_map(|drops| &drops.drops);
+    let points = points.chain(drops.map(|drop| drop.centre));
     bodies.chain(corners.chain(points).chain(ends).map(|point| (point, 0.0)))
 }
 

@@ -17,6 +17,8 @@ pub struct Scales {
     pub planes: Vec<ColourBar>,
     /// Of traces of a flow, if there are any.
     traces: Option<ColourBar>,
+    /// Of small balls, if there are any.
+    drops: Option<ColourBar>,
 }
 
 impl Scales {
@@ -30,6 +32,7 @@ impl Scales {
         let planes = drawing.planes.iter().enumerate();
         let planes = planes.map(|(index, plane)| named(&format!("planes[{index}]"), plane.bar()));
         let traces = drawing.traces.as_ref().map(|traces| traces.bar());
+        let drops = drawing.drops.as_ref().map(|drops| drops.bar());
         Ok(Self {
             bodies: ColourBar {
                 axis: Axis::new(label, unit, range, Scale::Linear),
@@ -38,6 +41,7 @@ impl Scales {
             told: drawing.colours.is_some(),
             planes: planes.collect::<Result<_>>()?,
             traces: traces.map(|bar| named("traces", bar)).transpose()?,
+            drops: drops.map(|bar| named("drops", bar)).transpose()?,
         })
     }
 
@@ -45,7 +49,8 @@ impl Scales {
     pub fn bars(&self) -> Vec<&ColourBar> {
         let bodies = self.told.then_some(&self.bodies);
         let mut bars: Vec<&ColourBar> = Vec::new();
-        for bar in bodies.into_iter().chain(&self.planes).chain(&self.traces) {
+        let flow = self.planes.iter().chain(&self.traces).chain(&self.drops);
+        for bar in bodies.into_iter().chain(flow) {
             if !bars.contains(&bar) {
                 bars.push(bar);
             }
@@ -56,6 +61,13 @@ impl Scales {
     /// Colour of a body.
     pub fn body(&self, value: f64) -> [u8; 3] {
         channels(self.bodies.colour(value))
+    }
+
+    /// Colour of a small ball.
+    pub fn drop(&self, value: f64) -> [u8; 3] {
+        self.drops
+            .as_ref()
+            .map_or([0; 3], |bar| channels(bar.colour(value)))
     }
 
     /// Colour of a trace at a speed (m/s).

@@ -25,6 +25,10 @@ impl Renderer {
         let solid = self.upload(&geometry.solid)?;
         let plain = self.upload(&geometry.plain)?;
         let strokes = self.upload(&geometry.strokes)?;
+        let dots = match geometry.dots.is_empty() {
+            true => None,
+            false => Some(self.buffer(&geometry.dots, wgpu::BufferUsages::VERTEX)?),
+        };
         let mut encoder = device.create_command_encoder(&Default::default());
         if let Some(solid) = &solid {
             self.shadows(&mut encoder, lights, |pass| {
@@ -62,6 +66,11 @@ impl Renderer {
             for list in solid.iter().chain(&plain) {
                 list.draw(&mut pass);
             }
+        }
+        if let Some(dots) = &dots {
+            pass.set_pipeline(&self.pipelines.drop);
+            pass.set_vertex_buffer(0, dots.slice(..));
+            pass.draw(0..4, 0..geometry.dots.len() as u32);
         }
         pass.set_pipeline(&self.pipelines.plane);
         for plane in planes {

@@ -77,8 +77,10 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::MomentumY => ("momentum along y", "kg m/s"),
         Quantity::MomentumZ => ("momentum along z", "kg m/s"),
         Quantity::MaxSpeed => ("largest speed", "m/s"),
+        Quantity::PotentialEnergy => ("potential energy", "J"),
         Quantity::BlockKineticEnergy => ("kinetic energy of blocks", "J"),
         Quantity::BlockPotentialEnergy => ("potential energy of blocks", "J"),
+        Quantity::StrainEnergy => ("strain energy of blocks", "J"),
         Quantity::ContactEnergy => ("elastic energy of contacts", "J"),
         Quantity::FrictionWork => ("work of friction", "J"),
         Quantity::DampingWork => ("work of damping", "J"),
@@ -87,6 +89,7 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::Contacts => ("contacts", ""),
         Quantity::AwakeBlocks => ("awake blocks", ""),
         Quantity::BlockMaxSpeed => ("largest speed of a block", "m/s"),
+        Quantity::MaxVonMises => ("largest von Mises stress", "Pa"),
     }
 }
 

@@ -144,6 +144,10 @@ impl<E: Engine> Journey<E> {
 pub fn leaves_range(error: &Error) -> bool {
     matches!(
         error,
-        Error::Diverged { .. } | Error::DeepOverlap { .. } | Error::NotFinite { .. }
+        Error::Diverged { .. }
+            | Error::ParticleLost { .. }
+            | Error::DeepOverlap { .. }
+            | Error::NotFinite { .. }
+            | Error::Inverted { .. }
     )
 }

@@ -19,17 +19,20 @@ mod slice_field;
 mod slices;
 mod summary;
 mod views;
+mod water;
 
 pub(crate) use batch::Batch;
 pub(crate) use dry::Dry;
 pub(crate) use engine::Engine;
 pub(crate) use flow::Flow;
 pub(crate) use rock::Rock;
+pub(crate) use water::Pond;
 
 pub use flow::Coupling;
-pub use rock::Rocks;
+pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
+pub use water::Pool;
 
 use anyhow::Result;
 use journey::Journey;
@@ -71,6 +74,9 @@ pub struct Args {
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
     let (file, adapter) = (&args.scene, args.adapter.as_deref());
+    if scene.has_particles() {
+        return travel(Pond::open(&scene, file, adapter)?, args, stop);
+    }
     match scene.has_fluid() {
         true => travel(Flow::open(&scene, file, adapter)?, args, stop),
         false => travel(Dry::open(&scene, file, adapter)?, args, stop),

@@ -1,6 +1,6 @@
 //! What a run writes, one thing a type.
 
-use super::schedule::Schedule;
+use super::{rock::Safety, schedule::Schedule};
 use anyhow::Result;
 use std::path::PathBuf;
 
@@ -31,6 +31,8 @@ pub struct Notes {
     pub max_speed: f64,
     /// Largest speed of a block's centroid that was seen, m/s.
     pub block_speed: f64,
+    /// How safely blocks stand whose probes ask.
+    pub safety: Vec<Safety>,
 }
 
 impl Notes {

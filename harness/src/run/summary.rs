@@ -1,6 +1,12 @@
 //! What a run was, for people and for programs: `summary.json`.
 
-use super::{flow::Coupling, progress::clock, recorder::Notes, rock::Rocks};
+use super::{
+    flow::Coupling,
+    progress::clock,
+    recorder::Notes,
+    rock::{Rocks, Safety},
+    water::Pool,
+};
 use riprap::output::replace;
 use serde::Serialize;
 use std::{
@@ -73,9 +79,15 @@ pub struct Summary {
     /// How blocks and fluid met, where there are both.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
+    /// What particles of water did, where there are some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pool: Option<Pool>,
     /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
+    /// How safely blocks stand whose probes ask.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub safety: Vec<Safety>,
 }
 
 /// Keys that only a fluid has.
@@ -97,6 +109,7 @@ impl Summary {
     /// Takes over what recorders noted.
     pub fn take(&mut self, notes: &Notes) {
         self.files.clone_from(&notes.files);
+        self.safety.clone_from(&notes.safety);
         self.warnings.extend(notes.warnings.iter().cloned());
         if let Some((step, path)) = &notes.checkpoint {
             self.checkpoint = Some(path.clone());
@@ -181,11 +194,17 @@ impl fmt::Display for Summary {
                 writeln!(f, "  largest y⁺ half a cell from {what}: {y_plus:.2}")?;
             }
         }
+        if let Some(pool) = &self.pool {
+            writeln!(f, "{pool}")?;
+        }
         if let Some(coupling) = &self.coupling {
             writeln!(f, "{coupling}")?;
         }
         if let Some(rocks) = &self.rocks {
             writeln!(f, "{rocks}")?;
+        }
+        for safety in &self.safety {
+            writeln!(f, "  {safety}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

@@ -13,7 +13,7 @@ pub use key::Key;
 pub use report::Report;
 pub use trial::{Criterion, Motion, Trial};
 
-use crate::run::{Dry, Flow};
+use crate::run::{Dry, Flow, Pond};
 use anyhow::{Context, Result, bail};
 use riprap::{Error, scene::Scene};
 use std::{
@@ -162,6 +162,10 @@ impl Search<'_> {
         let scene = self.scene(self.args.from)?;
         let (file, adapter) = (&self.args.scene, self.args.adapter.as_deref());
         let path = self.settled();
+        if scene.has_particles() {
+            return trial::settle(Pond::open(&scene, file, adapter)?, time, &path)
+                .with_context(|| format!("while the blocks settled at {}", self.args.from));
+        }
         match scene.has_fluid() {
             true => trial::settle(Flow::open(&scene, file, adapter)?, time, &path),
             false => trial::settle(Dry::open(&scene, file, adapter)?, time, &path),
@@ -186,6 +190,10 @@ impl Search<'_> {
             settled: args.settle.map(|_| self.settled()),
             stop: self.stop,
         };
+        if scene.has_particles() {
+            return trial::run(Pond::open(&scene, file, adapter)?, &asked)
+                .with_context(|| format!("in the trial with the value {value}"));
+        }
         match scene.has_fluid() {
             true => trial::run(Flow::open(&scene, file, adapter)?, &asked),
             false => trial::run(Dry::open(&scene, file, adapter)?, &asked),

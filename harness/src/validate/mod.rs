@@ -12,6 +12,7 @@ pub mod stand;
 
 mod cavity;
 mod conservation;
+mod dda;
 mod decay;
 mod golden;
 mod null_models;
@@ -36,6 +37,7 @@ mod stability;
 mod turbulent_channel;
 mod wake;
 mod wale;
+mod water;
 
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
@@ -146,6 +148,20 @@ pub const CASES: &[Case] = &[
     short("rock/arch", rock_rest::arch),
     short("rock/contact-sign", rock_contact::sign),
     short("rock/broadphase", rock_broadphase::run),
+    short("dda/critical-step", dda::critical_step::run),
+    short("dda/spin", dda::spin::run),
+    short("dda/vibration", dda::vibration::run),
+    short("dda/bar", dda::bar::run),
+    short("dda/stack", dda::contact::stack),
+    short("dda/collision", dda::contact::collision),
+    short("dda/rigid-limit", dda::rigid_limit::run),
+    short("water/still", water::still::run),
+    short("water/submerged", water::buoyancy::submerged),
+    short("water/floating", water::buoyancy::floating),
+    short("water/standing-wave", water::wave::run),
+    short("water/dam-break", water::dam::run),
+    short("water/wave-maker", water::maker::run),
+    long("water/schemes", water::schemes::run),
 ];
 
 /// The cases whose names match.

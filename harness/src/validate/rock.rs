@@ -101,6 +101,7 @@ pub fn setup(blocks: Vec<Block>, joint: Joint) -> Setup {
         materials: vec![Material {
             density: DENSITY,
             joint,
+            elastic: None,
         }],
         ..Setup::default()
     }

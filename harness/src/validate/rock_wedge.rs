@@ -96,6 +96,7 @@ impl Wedge {
             Material {
                 density: DENSITY,
                 joint: joints[0],
+                elastic: None,
             };
             3
         ];

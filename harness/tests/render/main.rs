@@ -2,6 +2,7 @@
 //! can be read, and what cannot be drawn is said.
 
 mod bodies;
+mod drops;
 mod fluid;
 mod frame;
 mod lines;

@@ -22,13 +22,14 @@ impl Scene {
             finite(format!("{key}.position"), &block.position)?;
             turn(&format!("{key}.rotation"), &block.rotation)?;
             motion(&key, block)?;
+            self.check_deformable(&key, block)?;
             repeats(&key, block)?;
         }
         Ok(())
     }
 }
 
-fn shape(key: &str, shape: &BlockShape) -> Result<()> {
+pub(super) fn shape(key: &str, shape: &BlockShape) -> Result<()> {
     match shape {
         BlockShape::Box { size } => {
             for (axis, edge) in size.iter().enumerate() {
@@ -86,7 +87,7 @@ pub(super) fn half_spaces(key: &str, faces: &[PlaneFace]) -> Result<()> {
     Ok(())
 }
 
-fn turn(key: &str, rotation: &Rotation) -> Result<()> {
+pub(super) fn turn(key: &str, rotation: &Rotation) -> Result<()> {
     direction(format!("{key}.axis"), &rotation.axis)?;
     finite(format!("{key}.angle"), &[rotation.angle])
 }

@@ -16,6 +16,9 @@ impl Scene {
         if !self.has_fluid() {
             return self.check_dry_domain();
         }
+        if let Some(particles) = &self.particles {
+            return self.check_particle_domain(particles);
+        }
         if !domain.is_given() {
             return refuse(
                 "domain",

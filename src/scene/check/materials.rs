@@ -12,6 +12,16 @@ impl Scene {
             let key = |key: &str| format!("materials[{index}].{key}");
             positive(key("density"), material.density, "kg/m³")?;
             positive(key("normal_stiffness"), material.normal_stiffness, "Pa/m")?;
+            if let Some(modulus) = material.youngs_modulus {
+                positive(key("youngs_modulus"), modulus, "Pa")?;
+            }
+            let ratio = material.poissons_ratio;
+            if !(ratio > -1.0 && ratio < 0.5) {
+                let message = format!(
+                    "is {ratio}; Poisson's ratio lies between -1 and 0.5, both excluded, such as 0.25"
+                );
+                return refuse(key("poissons_ratio"), message);
+            }
             let shear = material.shear_stiffness;
             law(
                 &format!("materials[{index}]"),

@@ -3,11 +3,13 @@
 mod blocks;
 mod boundaries;
 mod coupling;
+mod deformable;
 mod domain;
 mod dry;
 mod materials;
 mod numerics;
 mod output;
+mod particles;
 mod probes;
 mod rock;
 mod rock_masses;
@@ -17,7 +19,7 @@ mod views;
 
 use super::{InitialPressure, Scene};
 use crate::error::Result;
-use rules::{finite_constants, no_time, positive, refuse};
+use rules::{finite_constants, no_time, not_negative, positive, refuse};
 
 impl Scene {
     /// Whether the scene agrees with itself.
@@ -25,6 +27,12 @@ impl Scene {
     /// # Errors
     /// Names the first key that does not, why, and what would be right.
     pub fn check(&self) -> Result<()> {
+        if let (Some(_), false) = (&self.particles, self.has_fluid()) {
+            return refuse(
+                "particles",
+                "need to know of what they are; add [fluid] with its density and acceleration",
+            );
+        }
         if !self.has_fluid() && !self.has_blocks() {
             return refuse(
                 "fluid",
@@ -32,7 +40,13 @@ impl Scene {
                  [[rock_masses]]",
             );
         }
+        if !self.has_particles() {
+            self.check_no_particles()?;
+        }
         self.check_domain()?;
+        if let Some(particles) = &self.particles {
+            self.check_particles(particles)?;
+        }
         if self.has_fluid() {
             self.check_fluid()?;
             self.check_numerics()?;
@@ -51,12 +65,27 @@ impl Scene {
         self.check_rock_masses()?;
         self.check_views()?;
         // Last, since the balance of flows needs the solids.
-        self.check_boundaries()
+        if self.has_particles() {
+            self.check_particle_boundaries()?;
+            return self.check_boundaries();
+        }
+        self.check_boundaries()?;
+        self.check_balance()
     }
 
     fn check_fluid(&self) -> Result<()> {
         positive("fluid.density", self.fluid.density, "kg/m³")?;
-        positive("fluid.viscosity", self.fluid.viscosity, "m²/s")?;
+        let viscosity = self.fluid.viscosity;
+        match (self.has_particles(), viscosity) {
+            (true, _) => not_negative("fluid.viscosity", viscosity, "m²/s")?,
+            (false, 0.0) => {
+                return refuse(
+                    "fluid.viscosity",
+                    "is 0 m²/s, or `viscosity` is missing; a lattice needs a number greater than 0",
+                );
+            }
+            (false, _) => positive("fluid.viscosity", viscosity, "m²/s")?,
+        }
         no_time("fluid.acceleration", &self.fluid.acceleration)?;
         finite_constants("fluid.acceleration", &self.fluid.acceleration)
     }

@@ -11,6 +11,19 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             self.check_probe(&format!("probes[{index}]"), probe)?;
         }
+        let asks = |probe: &&Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
+        for asking in self.probes.iter().filter(asks) {
+            let faces = format!("{}_faces", asking.name);
+            if let Some(index) = self.probes.iter().position(|probe| probe.name == faces) {
+                return refuse(
+                    format!("probes[{index}].name"),
+                    format!(
+                        "`{faces}` is the table of the faces of `{}`; give it another name",
+                        asking.name
+                    ),
+                );
+            }
+        }
         Ok(())
     }
 
@@ -40,13 +53,25 @@ impl Scene {
                 point[axis.index()] = *position;
                 within("position", point)
             }
+            ProbePlace::Block { faces: true, .. } if !self.has_fluid() => refuse(
+                format!("{key}.faces"),
+                "there is no fluid in this scene that could load the faces of a block; remove `faces`, or \
+                 add [fluid]",
+            ),
+            ProbePlace::Block { faces: true, .. } if self.has_particles() => refuse(
+                format!("{key}.faces"),
+                "particles load blocks as a whole, and not face by face; remove `faces`, or use a lattice fluid",
+            ),
             // Whether there is a block of that name, only the blocks themselves can tell.
             ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
             ProbePlace::Block { .. } => refuse(
                 format!("{key}.block"),
                 "there are no blocks in this scene; remove the probe, or add [[blocks]]",
             ),
-            ProbePlace::Box { min, max } | ProbePlace::Face { min, max, .. } => {
+            ProbePlace::Gauge { at: [x, y] } => within("at", [*x, *y, self.domain.middle()[2]]),
+            ProbePlace::Box { min, max }
+            | ProbePlace::Face { min, max, .. }
+            | ProbePlace::RunUp { min, max, .. } => {
                 ordered(key, *min, *max)?;
                 within("min", *min)?;
                 within("max", *max)

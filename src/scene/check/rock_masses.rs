@@ -15,6 +15,15 @@ impl Scene {
         for (index, mass) in self.rock_masses.iter().enumerate() {
             let key = format!("rock_masses[{index}]");
             self.material(&format!("{key}.material"), mass.material.as_deref())?;
+            if mass.deformable {
+                self.check_elastic(&key, mass.material.as_deref())?;
+                finite(format!("{key}.initial_stress"), &mass.initial_stress)?;
+            } else if mass.initial_stress != [0.0; 6] {
+                return refuse(
+                    format!("{key}.initial_stress"),
+                    "belongs to deformable blocks; add deformable = true, or remove it",
+                );
+            }
             match &mass.volume {
                 Volume::Box { min, max } => ordered(&key, *min, *max)?,
                 Volume::Vertices { vertices } => points(&format!("{key}.vertices"), vertices)?,

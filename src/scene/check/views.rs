@@ -102,7 +102,7 @@ impl Scene {
 
     /// There is something to be seen.
     fn check_shown(&self, key: &str, view: &View) -> Result<()> {
-        if !self.has_blocks() && !view.shows_fluid() {
+        if !self.has_blocks() && !self.has_particles() && !view.shows_fluid() {
             return refuse(
                 key,
                 "shows blocks, and there are none; remove it, give it `slices` or `traces` of the \

@@ -1,10 +1,10 @@
 //! Rock masses, cut.
 
-use super::{LeftOut, meshes, shapes::half_spaces, solids::holds};
+use super::{LeftOut, deformable::symmetric, meshes, shapes::half_spaces, solids::holds};
 use crate::{
     Result,
     block::{Compass, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter},
-    bodies::{Block, Motion},
+    bodies::{Block, Deformable, Motion},
     scene::{self, Distribution, Scene, Volume},
 };
 use glam::DVec3;
@@ -57,8 +57,13 @@ pub(super) fn blocks(
             left_out.share += volume / fragments.volume;
             continue;
         };
+        let deforms = mass.deformable && motion == Motion::Free;
         blocks.push(Block {
             material,
+            deformable: deforms.then(|| Deformable {
+                initial_stress: symmetric(&mass.initial_stress),
+                ..Deformable::default()
+            }),
             motion,
             ..Block::new(
                 format!("{name}_{}", number + 1),

@@ -7,9 +7,18 @@ use crate::{
     scene::{self, Scene},
 };
 
-/// The materials in their order.
+/// What holds particles and meets no block, of any rock.
+pub(super) fn held(scene: &Scene, key: &str, name: Option<&str>) -> Result<usize> {
+    match scene.materials.is_empty() && !scene.has_blocks() {
+        true => Ok(0),
+        false => scene.material(key, name),
+    }
+}
+
+/// The materials in their order; without blocks there is one, whether it is given or not.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     let material = |material: &scene::Material| Material {
+        elastic: material.elastic(),
         density: material.density,
         joint: Joint {
             normal_stiffness: material.normal_stiffness,
@@ -20,7 +29,11 @@ pub(super) fn materials(scene: &Scene) -> Vec<Material> {
             damping: material.damping,
         },
     };
-    scene.materials.iter().map(material).collect()
+    let mut materials: Vec<Material> = scene.materials.iter().map(material).collect();
+    if materials.is_empty() && !scene.has_blocks() {
+        materials.push(Material::default());
+    }
+    materials
 }
 
 /// The pairs whose joint the scene gives: what it does not say stays as it follows from the two.

@@ -1,5 +1,6 @@
 //! From a scene to the blocks in it.
 
+mod deformable;
 mod masses;
 mod materials;
 mod meshes;
@@ -8,9 +9,11 @@ mod shapes;
 mod solids;
 mod walls;
 
+pub(crate) use shapes::{rotation, shape};
+
 use crate::{
     Error, Result,
-    bodies::{Setup, Sleep},
+    bodies::{Block, Setup, Sleep},
     scene::{ProbePlace, Scene},
 };
 use glam::DVec3;
@@ -82,6 +85,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         setup.blocks.extend(walls::blocks(scene)?);
     }
     check_names(scene, &setup)?;
+    check_faces(scene, &setup.blocks[in_fluid..])?;
     check_domain(scene, &setup)?;
     Ok(BlockSetup {
         setup,
@@ -105,7 +109,7 @@ fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
         }
     }
     for (index, probe) in scene.probes.iter().enumerate() {
-        if let ProbePlace::Block { block } = &probe.place
+        if let ProbePlace::Block { block, .. } = &probe.place
             && !names.contains(block.as_str())
         {
             let alike = |name: &&str| strsim::jaro_winkler(name, block);
@@ -141,6 +145,26 @@ fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
                     "its centroid {} lies outside the domain, which reaches from {low} to {high} m; \
                      move it, or enlarge the domain",
                     block.centre
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Probes ask for loads on the faces of blocks in the fluid, not of its solids.
+fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block {
+            block, faces: true, ..
+        } = &probe.place
+            && solids.iter().any(|solid| solid.name == *block)
+        {
+            return Err(Error::scene(
+                format!("probes[{index}].faces"),
+                format!(
+                    "`{block}` is a solid, whose cells the fluid does not enter; use a probe of the kind `face`, or \
+                     make it a block with motion = \"fixed\""
                 ),
             ));
         }

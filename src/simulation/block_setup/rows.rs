@@ -1,5 +1,6 @@
 //! A table of `blocks`: its block and the copies of it.
 
+use super::deformable;
 use super::shapes::{rotation, shape};
 use crate::{
     Result,
@@ -34,6 +35,7 @@ pub(super) fn blocks(scene: &Scene, index: usize, block: &scene::Block) -> Resul
     for row in &block.repeat {
         places = row_of(&places, row);
     }
+    let about_centroid = deformable::points(&key, block, &shape, centroid)?;
     let alone = places.len() == 1;
     let made = places.into_iter().enumerate().map(|(number, place)| Block {
         name: if alone {
@@ -55,6 +57,9 @@ pub(super) fn blocks(scene: &Scene, index: usize, block: &scene::Block) -> Resul
                 spin: block.spin.clone(),
             },
         },
+        deformable: about_centroid.deformable.clone(),
+        point_loads: about_centroid.point_loads.clone(),
+        acceleration: block.acceleration.clone(),
     });
     Ok(made.collect())
 }

@@ -8,7 +8,7 @@ use crate::{
 use glam::{DQuat, DVec3};
 
 /// The shape of the table `key`, and its centroid (m) in the block's own frame.
-pub(super) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Shape, DVec3)> {
+pub(crate) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Shape, DVec3)> {
     let about_centre = |made: Result<Polyhedron>| made.map(|made| (made.into(), DVec3::ZERO));
     match shape {
         BlockShape::Box { size } => about_centre(Polyhedron::cuboid(DVec3::from(*size))),
@@ -75,7 +75,7 @@ fn turned(form: &Form, turn: DQuat) -> Result<(Form, DVec3)> {
 }
 
 /// A turn of a scene.
-pub(super) fn rotation(rotation: &Rotation) -> DQuat {
+pub(crate) fn rotation(rotation: &Rotation) -> DQuat {
     if rotation.angle == 0.0 {
         return DQuat::IDENTITY;
     }

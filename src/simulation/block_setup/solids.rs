@@ -1,6 +1,6 @@
 //! Solids as fixed blocks.
 
-use super::meshes;
+use super::{materials::held, meshes};
 use crate::{
     Result,
     block::{HalfSpace, Polyhedron, Shape},
@@ -17,7 +17,7 @@ pub(super) fn block(scene: &Scene, index: usize, solid: &Solid) -> Result<Block>
         Some(name) => name.clone(),
         None => format!("solid_{}", index + 1),
     };
-    let material = scene.material(&format!("{key}.material"), solid.material.as_deref())?;
+    let material = held(scene, &format!("{key}.material"), solid.material.as_deref())?;
     Ok(Block {
         material,
         ..Block::new(name, shape, centre).fixed()

@@ -1,6 +1,6 @@
 //! The faces of a domain that hold blocks.
 
-use super::solids::beyond;
+use super::{materials::held, solids::beyond};
 use crate::{
     Result,
     block::{HalfSpace, Polyhedron, Shape},
@@ -12,7 +12,7 @@ use glam::DVec3;
 /// A fixed block behind each wall and each free-slip face: what keeps the fluid in keeps blocks in. They
 /// leave through the others.
 pub(super) fn blocks(scene: &Scene) -> Result<Vec<Block>> {
-    let material = scene.material("materials", None)?;
+    let material = held(scene, "materials", None)?;
     let (low, high) = (
         DVec3::from(scene.domain.origin),
         DVec3::from(scene.domain.end()),

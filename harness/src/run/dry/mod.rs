@@ -5,7 +5,7 @@ mod announce;
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    rock::{self, BlockFiles, Rock, Rocks},
     summary::Summary,
     views::{Shown, Views},
 };
@@ -67,6 +67,7 @@ impl Engine for Dry {
             setup: simulation.setup(),
             blocks: simulation.blocks(),
             felt: &[],
+            coupled: None,
             shown: simulation.blocks().len(),
             start: &self.start,
         })
@@ -96,12 +97,12 @@ impl Engine for Dry {
     fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders<Self>> {
         let mut recorders: Recorders<Self> = Vec::new();
         for probe in &self.scene().probes {
-            let ProbePlace::Block { block } = &probe.place else {
+            let ProbePlace::Block { block, safety, .. } = &probe.place else {
                 let message = "measures a fluid, and there is none";
                 return Err(Error::scene(format!("probes.{}", probe.name), message).into());
             };
-            let probe = BlockProbe::new(self, folder, last, (probe, block))?;
-            recorders.push(Box::new(probe));
+            let asked = [false, *safety];
+            recorders.extend(rock::probes(self, folder, last, (probe, block), asked)?);
         }
         recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
         for view in &self.scene().views {

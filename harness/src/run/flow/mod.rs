@@ -12,7 +12,7 @@ mod watch;
 use super::{
     engine::{Engine, Recorders},
     recorder::Notes,
-    rock::{self, BlockFiles, BlockProbe, Rock, Rocks},
+    rock::{self, BlockFiles, Rock, Rocks},
     slices::Pictures,
     summary::Summary,
     views::Views,
@@ -134,6 +134,7 @@ impl Engine for Flow {
             setup: &coupled.setup().setup,
             blocks: coupled.blocks(),
             felt: &coupled.felt()[..in_fluid],
+            coupled: Some(coupled),
             shown: self.shown(),
             start: &self.start,
         })
@@ -172,12 +173,17 @@ impl Engine for Flow {
         let scene = self.scene().clone();
         let mut recorders: Recorders<Self> = vec![Box::new(Watch::new(self, last))];
         for probe in &scene.probes {
-            recorders.push(match &probe.place {
-                ProbePlace::Block { block } => {
-                    Box::new(BlockProbe::new(self, folder, last, (probe, block))?)
-                }
-                _ => Box::new(ProbeTable::new(self, folder, last, probe)?),
-            });
+            if let ProbePlace::Block {
+                block,
+                faces,
+                safety,
+            } = &probe.place
+            {
+                let asked = [*faces, *safety];
+                recorders.extend(rock::probes(self, folder, last, (probe, block), asked)?);
+            } else {
+                recorders.push(Box::new(ProbeTable::new(self, folder, last, probe)?));
+            }
         }
         recorders.push(Box::new(Fields::new(self, folder, last)?));
         for slice in &scene.output.slices {

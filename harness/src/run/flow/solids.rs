@@ -20,6 +20,8 @@ pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
             normal_stiffness: 1.0,
             shear_stiffness: None,
             friction: 0.0,
+            youngs_modulus: None,
+            poissons_ratio: 0.25,
             cohesion: 0.0,
             tensile_strength: 0.0,
             damping: 0.0,

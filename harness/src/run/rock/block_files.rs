@@ -1,4 +1,5 @@
-//! Blocks for ParaView: `blocks_000123.vtu` and the collection `blocks.pvd`; the same for contacts.
+//! Blocks for ParaView: `blocks_000123.vtu` and the collection `blocks.pvd`; the same for contacts, and for faces whose
+//! loads somebody asks for.
 
 use super::super::{
     engine::Engine,
@@ -7,8 +8,9 @@ use super::super::{
 };
 use anyhow::Result;
 use riprap::{
-    output::{Pvd, write_vtp, write_vtu},
-    simulation::{block_polyhedra, contact_cloud},
+    output::{Pvd, write_surface, write_vtp, write_vtu},
+    scene::ProbePlace,
+    simulation::{block_polyhedra, contact_cloud, face_surface},
 };
 use std::path::{Path, PathBuf};
 
@@ -17,6 +19,7 @@ pub struct BlockFiles {
     folder: PathBuf,
     blocks: Pvd,
     contacts: Option<Pvd>,
+    faces: Option<Pvd>,
 }
 
 impl BlockFiles {
@@ -31,11 +34,16 @@ impl BlockFiles {
             }
         };
         let contacts = output.contacts.then(|| collection("contacts.pvd"));
+        let mut probes = engine.scene().probes.iter();
+        let asks = |place: &ProbePlace| matches!(place, ProbePlace::Block { faces: true, .. });
+        let faces = probes.any(|probe| asks(&probe.place));
+        let faces = faces.then(|| collection("faces.pvd"));
         Ok(Self {
             schedule: Schedule::of(output.every, engine.time_step(), last),
             folder: folder.to_owned(),
             blocks: collection("blocks.pvd")?,
             contacts: contacts.transpose()?,
+            faces: faces.transpose()?,
         })
     }
 }
@@ -61,6 +69,13 @@ impl<E: Engine> Recorder<E> for BlockFiles {
             write_vtp(&path, &contact_cloud(rock.blocks))?;
             contacts.add(time, &path)?;
             notes.file(self.folder.join("contacts.pvd"));
+            notes.file(path);
+        }
+        if let (Some(faces), Some(coupled)) = (&mut self.faces, rock.coupled) {
+            let path = self.folder.join(format!("faces_{step:06}.vtp"));
+            write_surface(&path, &face_surface(coupled))?;
+            faces.add(time, &path)?;
+            notes.file(self.folder.join("faces.pvd"));
             notes.file(path);
         }
         Ok(())

@@ -6,10 +6,12 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::Rock;
+use super::{Rock, Safety};
 use anyhow::Result;
 use glam::DVec3;
-use riprap::{Error, output::Csv, scene::Probe};
+use riprap::{
+    Error, coupling::Coupled, output::Csv, safety::Standing, scene::Probe, simulation::voigt,
+};
 use std::path::{Path, PathBuf};
 
 /// What is measured of every block, each along x, y and z.
@@ -18,10 +20,32 @@ const MEASURED: [&str; 6] = [
 ];
 /// What is measured of a block in a fluid as well.
 const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+/// What is measured of a block with fixed points as well: the force with which they hold it.
+const SUPPORT: &str = "support";
+/// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
+/// Mises stress, Pa, and the strain energy, J.
+const STRESSED: [&str; 8] = [
+    "stress_xx",
+    "stress_yy",
+    "stress_zz",
+    "stress_xy",
+    "stress_yz",
+    "stress_xz",
+    "von_mises",
+    "strain_energy",
+];
+
+/// What its faces show: the force of the fluid on those that look down, against gravity, and the mean pressure on those
+/// in joints.
+const OF_FACES: [&str; 2] = ["uplift_of_faces", "joint_pressure"];
+/// How safely it stands.
+const SAFETY: [&str; 3] = ["safety_sliding", "safety_uplift", "safety_toppling"];
 
 pub struct BlockProbe {
     schedule: Schedule,
     block: usize,
+    faces: bool,
+    safety: bool,
     path: PathBuf,
     table: Csv,
 }
@@ -33,35 +57,59 @@ impl BlockProbe {
         folder: &Path,
         last: u64,
         (probe, name): (&Probe, &str),
+        [faces, safety]: [bool; 2],
     ) -> Result<Self> {
-        let rock = engine.rock();
-        let found = rock.as_ref().and_then(|rock| {
-            let mut blocks = rock.setup.blocks.iter();
-            Some((rock, blocks.position(|block| block.name == name)?))
-        });
-        let (rock, block) = found.ok_or_else(|| {
-            Error::scene(
-                format!("probes.{}", probe.name),
-                format!("there is no block `{name}`"),
-            )
-        })?;
+        let (rock, block) = find(engine, probe, name)?;
         let mut measured = MEASURED.to_vec();
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
         }
+        if rock.blocks.support(block).is_some() {
+            measured.push(SUPPORT);
+        }
+        let stressed = rock.blocks.stress(block).is_some();
         let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
-        let columns: Vec<String> = measured.iter().flat_map(along).collect();
+        let mut columns: Vec<String> = measured.iter().flat_map(along).collect();
+        if stressed {
+            columns.extend(STRESSED.map(Into::into));
+        }
+        if faces {
+            columns.extend(OF_FACES.map(String::from));
+        }
+        if safety {
+            columns.extend(SAFETY.map(String::from));
+        }
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
             schedule: Schedule::of(probe.every, engine.time_step(), last),
             table: table(engine, &path, &columns)?,
             block,
+            faces,
+            safety,
             path,
         })
     }
 }
 
-/// The vectors of `MEASURED`, and of `IN_FLUID` where there is one.
+/// The blocks of an engine, and the number of that which a probe follows.
+pub fn find<'a>(
+    engine: &'a impl Engine,
+    probe: &Probe,
+    name: &str,
+) -> riprap::Result<(Rock<'a>, usize)> {
+    let found = engine.rock().and_then(|rock| {
+        let mut blocks = rock.setup.blocks.iter();
+        Some((rock, blocks.position(|block| block.name == name)?))
+    });
+    found.ok_or_else(|| {
+        Error::scene(
+            format!("probes.{}", probe.name),
+            format!("there is no block `{name}`"),
+        )
+    })
+}
+
+/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, and of `SUPPORT` where something holds it.
 fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
@@ -74,7 +122,42 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     if let Some(felt) = rock.felt.get(block) {
         all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
     }
+    all.extend(blocks.support(block));
     all
+}
+
+/// The numbers of `STRESSED`; none of a rigid block.
+fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
+    let Some(stress) = rock.blocks.stress(block) else {
+        return Vec::new();
+    };
+    let mut all = voigt(stress).to_vec();
+    all.extend(rock.blocks.von_mises(block));
+    all.extend(rock.blocks.strain_energy(block));
+    all
+}
+
+/// Those of `OF_FACES`.
+fn measure_faces(coupled: &Coupled, block: usize, gravity: DVec3) -> [f64; 2] {
+    let up = -gravity.normalize_or_zero();
+    let loads = coupled.faces(block);
+    let down = loads.iter().filter(|load| load.face.normal.dot(up) < 0.0);
+    let joints = loads.iter().zip(coupled.joints(block));
+    let wet = joints.filter(|(load, joint)| *joint && load.wetted > 0.0);
+    let (force, area) = wet.fold((0.0, 0.0), |(force, area), (load, _)| {
+        (force + load.pressure() * load.wetted, area + load.wetted)
+    });
+    [down.map(|load| load.force.dot(up)).sum(), force / area]
+}
+
+/// How a block stands.
+fn standing(rock: &Rock<'_>, block: usize) -> Standing {
+    let felt = rock.felt.get(block).copied().unwrap_or_default();
+    let whole = [
+        felt.flow.force + felt.buoyancy.force,
+        felt.flow.torque() + felt.buoyancy.torque(),
+    ];
+    Standing::of(rock.setup, rock.blocks, block, whole)
 }
 
 impl<E: Engine> Recorder<E> for BlockProbe {
@@ -85,7 +168,17 @@ impl<E: Engine> Recorder<E> for BlockProbe {
     fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
         if let Some(rock) = engine.rock() {
             let vectors = measure(&rock, self.block).into_iter();
-            let values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            let mut values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
+            values.extend(stressed(&rock, self.block));
+            if let (true, Some(coupled)) = (self.faces, rock.coupled) {
+                values.extend(measure_faces(coupled, self.block, rock.blocks.gravity()));
+            }
+            if self.safety {
+                let now = standing(&rock, self.block);
+                values.extend([now.sliding.factor, now.uplift, now.toppling]);
+                let name = rock.blocks.name(self.block);
+                Safety::note(&mut notes.safety, name, rock.time, &now);
+            }
             self.table.append(rock.step, rock.time, &values)?;
             notes.file(self.path.clone());
         }

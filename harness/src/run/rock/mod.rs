@@ -2,18 +2,26 @@
 
 mod block_files;
 mod block_probe;
+mod face_table;
 mod rocks;
+mod safety;
 mod values;
 
 pub use block_files::BlockFiles;
-pub use block_probe::BlockProbe;
+use block_probe::BlockProbe;
+use face_table::FaceTable;
 pub use rocks::Rocks;
+pub use safety::{Factors, Safety};
 pub use values::values;
 
+use super::engine::{Engine, Recorders};
+use anyhow::Result;
 use riprap::{
     bodies::{Blocks, Ledger, Motion, Setup},
-    coupling::Felt,
+    coupling::{Coupled, Felt},
+    scene::Probe,
 };
+use std::path::Path;
 
 /// The blocks of an engine as they are now.
 #[derive(Clone, Copy)]
@@ -28,10 +36,35 @@ pub struct Rock<'a> {
     pub blocks: &'a Blocks,
     /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
     pub felt: &'a [Felt],
+    /// They and the fluid together, where there is one.
+    pub coupled: Option<&'a Coupled>,
     /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.
     pub shown: usize,
     /// Energies at the start, those that a restart has not seen included.
     pub start: &'a Ledger,
+}
+
+/// What writes the tables of a probe of the block called `name`.
+pub fn probes<E: Engine>(
+    engine: &E,
+    folder: &Path,
+    last: u64,
+    (probe, name): (&Probe, &str),
+    [faces, safety]: [bool; 2],
+) -> Result<Recorders<E>> {
+    let named = (probe, name);
+    let block = BlockProbe::new(engine, folder, last, named, [faces, safety])?;
+    let mut recorders: Recorders<E> = vec![Box::new(block)];
+    if faces {
+        let (_, block) = block_probe::find(engine, probe, name)?;
+        recorders.push(Box::new(FaceTable::new(
+            engine,
+            folder,
+            last,
+            (probe, block),
+        )?));
+    }
+    Ok(recorders)
 }
 
 impl Rock<'_> {
@@ -71,8 +104,13 @@ impl Rock<'_> {
     pub fn counted(&self) -> String {
         let parts = self.setup.blocks[..self.shown].iter();
         let parts: usize = parts.map(|block| block.shape.parts().len()).sum();
+        let soft = (0..self.shown).filter(|&block| self.blocks.stress(block).is_some());
+        let soft = match soft.count() {
+            0 => String::new(),
+            count => format!("; {count} deformable"),
+        };
         format!(
-            "{}: {} free, {} driven, {} fixed; {parts} parts",
+            "{}: {} free, {} driven, {} fixed{soft}; {parts} parts",
             self.shown,
             self.count(|motion| *motion == Motion::Free),
             self.count(|motion| matches!(motion, Motion::Driven { .. })),

@@ -36,6 +36,8 @@ pub struct Energies {
     pub kinetic: f64,
     /// Potential in gravity, from the origin of the coordinates.
     pub potential: f64,
+    /// Of strain, in the deformable blocks.
+    pub strain: f64,
     /// Elastic, in the contacts.
     pub elastic: f64,
     /// Taken by friction.
@@ -70,6 +72,7 @@ impl Rocks {
             ledger: Energies {
                 kinetic: ledger.kinetic,
                 potential: ledger.potential,
+                strain: ledger.strain,
                 elastic: ledger.elastic,
                 friction: ledger.friction,
                 dashpot: ledger.dashpot,

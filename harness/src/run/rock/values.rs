@@ -27,6 +27,7 @@ fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
     match quantity {
         Quantity::BlockKineticEnergy => ledger.kinetic,
         Quantity::BlockPotentialEnergy => ledger.potential - rock.start.potential,
+        Quantity::StrainEnergy => ledger.strain,
         Quantity::ContactEnergy => ledger.elastic,
         Quantity::FrictionWork => ledger.friction,
         Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.lost,
@@ -35,18 +36,24 @@ fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
         Quantity::Contacts => rock.blocks.contacts().count() as f64,
         Quantity::AwakeBlocks => rock.awake() as f64,
         Quantity::BlockMaxSpeed => rock.max_speed(),
+        Quantity::MaxVonMises => {
+            let stresses = (0..rock.shown).filter_map(|block| rock.blocks.von_mises(block));
+            stresses.fold(0.0, f64::max)
+        }
         _ => f64::NAN,
     }
 }
 
 impl Rock<'_> {
     /// What the balance of energies has lost or gained since the start, as a part of what has been
-    /// turned over: of the kinetic energy now, the fall of the potential one, and all that was taken.
+    /// turned over: of the kinetic energy now, the fall of the potential one, the strain, and all that
+    /// was taken.
     pub fn energy_error(&self, now: &Ledger) -> f64 {
         let change = now.balance() - self.start.balance();
         let turned = now.kinetic
             + self.start.kinetic
             + (now.potential - self.start.potential).abs()
+            + (now.strain - self.start.strain).abs()
             + now.elastic.abs()
             + now.friction
             + now.dashpot

@@ -24,6 +24,8 @@ pub struct Fluid {
     /// Ends of the colours of speeds that have none of their own, m/s.
     speeds: Option<[f64; 2]>,
     solids: bool,
+    /// Speed of the last colour, m/s, if the view gives one.
+    speed: Option<f64>,
 }
 
 impl Fluid {
@@ -43,7 +45,13 @@ impl Fluid {
             count: view.traces,
             speeds: given.or(view.speed.map(|speed| [0.0, speed])),
             solids: !scene.solids.is_empty(),
+            speed: view.speed,
         }
+    }
+
+    /// Speed of the last colour, m/s, if the view gives one.
+    pub fn speed(&self) -> Option<f64> {
+        self.speed
     }
 
     /// The present planes through the fluid among blocks at `poses`.

@@ -4,7 +4,7 @@ use super::fluid::Fluid;
 use super::shown::{Shown, each_shape};
 use crate::{
     picture::{Palette, extremes},
-    render::{Colours, FluidPlane, Instance, Traces},
+    render::{Colours, Drops, FluidPlane, Instance, Traces},
 };
 use anyhow::Result;
 use riprap::bodies::{Motion, Pose};
@@ -21,6 +21,8 @@ pub struct Frame {
     pub planes: Vec<FluidPlane>,
     /// Lines along its flow.
     pub traces: Option<Traces>,
+    /// Particles of water.
+    pub drops: Option<Drops>,
 }
 
 impl Frame {
@@ -29,13 +31,15 @@ impl Frame {
         let poses = engine.poses();
         let planes = fluid.planes(engine, &poses)?;
         let traces = fluid.traces(engine, &poses)?;
+        let drops = engine.drops(fluid.speed())?;
         // Two scales of colours for speeds in one picture would be mixed up.
-        let coloured = planes.is_empty() && traces.is_none();
+        let coloured = planes.is_empty() && traces.is_none() && drops.is_none();
         Ok(Self {
             time: engine.time(),
             bodies: bodies(engine, &poses, coloured),
             planes,
             traces,
+            drops,
         })
     }
 

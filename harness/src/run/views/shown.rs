@@ -1,7 +1,7 @@
 //! What pictures ask of an engine.
 
 use super::super::engine::Engine;
-use crate::picture::Placed;
+use crate::{picture::Placed, render::Drops};
 use riprap::{
     block::Shape,
     bodies::{Block, Pose},
@@ -23,6 +23,11 @@ pub trait Shown: Engine {
 
     /// The given fields on the given cells of the fluid, SI. A scene without fluid asks for none.
     fn read(&mut self, fields: &[Field], cells: &[u32]) -> riprap::Result<Vec<Array>>;
+
+    /// The particles of water, if that is what flows; `speed` (m/s) has the last colour, if it is given.
+    fn drops(&mut self, _speed: Option<f64>) -> riprap::Result<Option<Drops>> {
+        Ok(None)
+    }
 }
 
 /// The convex parts of the blocks of `engine`, where `poses` say.

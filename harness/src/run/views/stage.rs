@@ -51,9 +51,9 @@ impl Stage {
         let small = Renderer::new(&device, &queue, view.size.map(|edge| edge / 2))?;
         let scene = engine.scene();
         let meshes = meshes(engine);
-        let edges = match frame.traces {
-            Some(_) => edges(&scene.domain),
-            None => Vec::new(),
+        let edges = match frame.traces.is_some() || frame.drops.is_some() {
+            true => edges(&scene.domain),
+            false => Vec::new(),
         };
         let speed = || view.speed.unwrap_or_else(|| usual_speed(engine));
         let mut stage = Self {
@@ -62,7 +62,7 @@ impl Stage {
             title: scene.title.clone(),
             camera: camera(scene, view),
             ground: view.ground.map(|height| Ground { height }),
-            speed: (!view.shows_fluid()).then(speed),
+            speed: (!view.shows_fluid() && frame.drops.is_none()).then(speed),
             meshes,
             edges,
         };
@@ -93,6 +93,7 @@ impl Stage {
             instances: frame.bodies,
             planes: frame.planes,
             traces: frame.traces,
+            drops: frame.drops,
             lines: self.edges.clone(),
             view: self.camera,
             ground: self.ground,
@@ -134,10 +135,14 @@ fn camera(scene: &Scene, view: &scene::View) -> View {
 /// What of the first frame the camera shall see, which must not depend on the step that a run begins with.
 fn framed(frame: &Frame) -> Frame {
     let mut seen = frame.clone();
-    let fluid = seen.traces.is_some() || !seen.planes.is_empty();
+    let fluid = seen.traces.is_some() || seen.drops.is_some() || !seen.planes.is_empty();
     // A ground that reaches far would push the camera away from what moves on it.
     if fluid || seen.bodies.iter().any(|body| !body.fixed) {
         seen.bodies.retain(|body| !body.fixed);
+    }
+    // The edges of the domain hold all water.
+    if let Some(drops) = &mut seen.drops {
+        drops.drops.clear();
     }
     if let Some(traces) = &mut seen.traces {
         traces.lines.clear();

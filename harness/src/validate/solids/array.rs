@@ -74,16 +74,30 @@ impl Array {
             stokes * self.published() / volume,
             nu * (TAU / edge).powi(2),
         ];
-        let steps = RETURNS / rates[0].min(rates[1]);
-        scene.coupling.interval = (steps / 8.0) as u32;
+        let time = (1.0 / rates[0].min(rates[1])).ceil();
+        // The force is the mean over one such time.
+        scene.coupling.interval = time as u32;
         let mut tank = Tank::fill(stand, &scene)?;
-        tank.advance(8 * u64::from(scene.coupling.interval))?;
+        let mut flux = f64::NAN;
+        for times in 1.. {
+            // What cells inside a sphere reflect swings with a period of two steps. Without the half force: in
+            // partially saturated cells it is no part of the flux.
+            tank.advance(time as u64 - 1)?;
+            let before = tank.totals()?.momentum[0];
+            tank.advance(1)?;
+            let now = 0.5 * (before + tank.totals()?.momentum[0]) / volume - 0.5 * push;
+            let change = (now - flux).abs();
+            flux = now;
+            if change <= STEADY * now.abs() {
+                break;
+            }
+            anyhow::ensure!(
+                times < MOST_TIMES,
+                "the flow through the array is not steady after {} steps",
+                tank.simulation.step()
+            );
+        }
         let force = tank.felt(0).flow.force.x;
-        // What cells inside a sphere reflect swings with a period of two steps. Without the half force: in partially
-        // saturated cells it is no part of the flux.
-        let before = tank.totals()?.momentum[0];
-        tank.advance(1)?;
-        let flux = 0.5 * (before + tank.totals()?.momentum[0]) / volume - 0.5 * push;
         Ok(Drag {
             ratio: force / (stokes * flux) / self.published(),
             balance: force / (push * volume) - 1.0,
@@ -92,8 +106,12 @@ impl Array {
     }
 }
 
-/// Times in which the mean velocity comes nearer by a factor e.
-const RETURNS: f64 = 8.0;
+/// Change of the mean velocity, as a part of it, over the longer of its diffusive time (edge/2π)²/ν and the time in which
+/// the drag stops it, below which the flow is steady: what is left then is of this size, a tenth of the limit on the
+/// balance of forces.
+const STEADY: f64 = 1e-4;
+/// Such times after which a flow that is to become steady should be: 8 are usual.
+const MOST_TIMES: u32 = 64;
 
 struct Drag {
     /// K over that of the table.

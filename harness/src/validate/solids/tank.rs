@@ -60,6 +60,11 @@ pub fn block(shape: BlockShape, position: [f64; 3], motion: Motion) -> Block {
         velocity: numbers([0.0; 3]),
         spin: numbers([0.0; 3]),
         material: None,
+        deformable: false,
+        initial_stress: [0.0; 6],
+        fixed_points: Vec::new(),
+        point_loads: Vec::new(),
+        acceleration: None,
         repeat: Vec::new(),
     }
 }

@@ -1,0 +1,201 @@
+//! What a scene of particles will run.
+
+use super::BlockFacts;
+use crate::{
+    adapters::Adapter,
+    gpu,
+    print::{bytes, duration},
+    run::{Engine, Pond},
+};
+use anyhow::Result;
+use riprap::{
+    particles::{Home, Particle},
+    scene::{Particles, Scene},
+};
+use serde::Serialize;
+use std::{
+    fmt::Write,
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// Length of the trial.
+const TRIAL: Duration = Duration::from_millis(400);
+
+/// All that `riprap check` says of particles.
+#[derive(Debug, Serialize)]
+pub struct WaterReport {
+    /// Title of the scene.
+    pub title: String,
+    /// What it runs on.
+    pub adapter: Adapter,
+    /// Particles of water.
+    pub particles: u32,
+    /// Particles of shells.
+    pub shell: u32,
+    /// Bytes of all particles on the device.
+    pub memory: u64,
+    /// Distance of particles, m.
+    pub spacing: f64,
+    /// Mass of one, kg.
+    pub particle_mass: f64,
+    /// Mass of the water, kg.
+    pub mass: f64,
+    /// Largest speed that is expected, m/s.
+    pub largest_speed: f64,
+    /// Speed of sound, m/s.
+    pub sound_speed: f64,
+    /// Mach number at the largest speed.
+    pub mach: f64,
+    /// Longest acoustic step, s.
+    pub acoustic_step: f64,
+    /// Step of the run, s.
+    pub time_step: f64,
+    /// Steps of the run.
+    pub steps: u64,
+    /// Simulated time of the run, s.
+    pub duration: f64,
+    /// The blocks, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blocks: Option<BlockFacts>,
+    /// What may disappoint.
+    pub warnings: Vec<String>,
+    /// One step, s.
+    pub step_seconds: f64,
+    /// The run without its output, s.
+    pub run_seconds: f64,
+    /// Updates of particles of water a second.
+    pub particles_a_second: f64,
+    /// Steps of the trial.
+    pub trial_steps: u64,
+}
+
+/// Makes the water of `scene`, which was read from `file`, and tries a few steps; says how the trial ended if it did
+/// so early.
+///
+/// # Errors
+/// What the scene lacks, or what the adapter cannot hold.
+pub fn report(
+    scene: &Scene,
+    file: &Path,
+    adapter: Option<&str>,
+) -> Result<(WaterReport, riprap::Result<()>)> {
+    let mut pond = Pond::open(scene, file, adapter)?;
+    let steps = scene.run.count(pond.time_step());
+    let (done, spent, ended) = try_out(&mut pond, steps);
+    let simulation = &pond.simulation;
+    let particles = simulation.particles();
+    let (setup, numbers) = (particles.setup(), particles.numbers());
+    let all = u64::from(numbers.water) + u64::from(numbers.shell);
+    let step = spent.as_secs_f64() / done.max(1) as f64;
+    // The step before the trial took as many.
+    let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
+    let updates = tried * f64::from(numbers.water);
+    let named = gpu::pick(adapter)?;
+    Ok((
+        WaterReport {
+            title: scene.title.clone(),
+            adapter: Adapter::of(&named, adapter.is_none()),
+            particles: numbers.water,
+            shell: numbers.shell,
+            // Particles as they come and by cells, and where those of shells belong.
+            memory: 2 * all * size_of::<Particle>() as u64
+                + u64::from(numbers.shell) * size_of::<Home>() as u64,
+            spacing: setup.spacing,
+            particle_mass: setup.particle_mass(),
+            mass: setup.particle_mass() * f64::from(numbers.water),
+            largest_speed: setup.sound_speed / Particles::SOUND,
+            sound_speed: setup.sound_speed,
+            mach: 1.0 / Particles::SOUND,
+            acoustic_step: setup.acoustic_step(),
+            time_step: pond.time_step(),
+            steps,
+            duration: scene.run.length(pond.time_step()),
+            blocks: pond.rock().map(|rock| {
+                let shown = &rock.setup.blocks[..rock.shown];
+                let left_out = &simulation.setup().left_out;
+                BlockFacts::of(shown, rock.blocks, left_out, pond.time_step())
+            }),
+            warnings: pond.warnings.clone(),
+            step_seconds: step,
+            run_seconds: step * steps as f64,
+            particles_a_second: updates / spent.as_secs_f64().max(1e-9),
+            trial_steps: done,
+        },
+        ended,
+    ))
+}
+
+/// Steps for about half a second, at least one: how many, how long they took, and how they ended.
+fn try_out(pond: &mut Pond, most: u64) -> (u64, Duration, riprap::Result<()>) {
+    // Drivers compile at the first dispatch.
+    let warm = pond.advance(1).and_then(|()| pond.water().map(drop));
+    if let Err(error) = warm {
+        return (0, Duration::ZERO, Err(error));
+    }
+    let (mut done, start) = (0, Instant::now());
+    while done < most.max(1) && (done == 0 || start.elapsed() < TRIAL) {
+        if let Err(error) = pond.advance(1) {
+            return (done, start.elapsed(), Err(error));
+        }
+        done += 1;
+    }
+    // What is recorded is done once it can be read.
+    let ended = pond.water().map(drop);
+    (done, start.elapsed(), ended)
+}
+
+impl WaterReport {
+    /// The report in lines of a name and what there is of it.
+    pub fn text(&self) -> String {
+        let mut text = format!("{}\n", self.title);
+        let mut line = |name: &str, what: String| {
+            // A String takes all that is written to it.
+            let _ = writeln!(text, "{name:12} {what}");
+        };
+        let adapter = &self.adapter;
+        line(
+            "adapter",
+            format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver),
+        );
+        line(
+            "water",
+            format!(
+                "{} particles of {:.4e} m, {:.4e} kg each, {:.4e} kg in all; {} in shells",
+                self.particles, self.spacing, self.particle_mass, self.mass, self.shell
+            ),
+        );
+        line("memory", format!("{} of particles", bytes(self.memory)));
+        line(
+            "sound",
+            format!(
+                "{:.3} m/s, Mach {:.2} at the largest speed expected, {:.3} m/s",
+                self.sound_speed, self.mach, self.largest_speed
+            ),
+        );
+        if let Some(blocks) = &self.blocks {
+            blocks.lines(&mut line);
+        }
+        line(
+            "time",
+            format!(
+                "{} steps of {:.4e} s = {:.4} s; acoustic steps of at most {:.4e} s",
+                self.steps, self.time_step, self.duration, self.acoustic_step
+            ),
+        );
+        for warning in &self.warnings {
+            line("warning", warning.clone());
+        }
+        line(
+            "run",
+            format!(
+                "about {} without output: {:.3e} s a step, {:.2} million particle updates a second ({} steps tried)",
+                duration(self.run_seconds),
+                self.step_seconds,
+                self.particles_a_second / 1e6,
+                self.trial_steps
+            ),
+        );
+        text
+    }
+}

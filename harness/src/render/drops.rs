@@ -1,0 +1,75 @@
+//! Balls that are many and small: particles of water.
+
+use super::drawing::{Colours, check_finite};
+use super::scales::Scales;
+use crate::picture::Palette;
+use crate::picture::colour_bar::ColourBar;
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+/// Balls of one size, each with a colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drops {
+    /// The balls.
+    pub drops: Vec<Drop>,
+    /// Radius of each, m; in the picture they are never smaller than pixels.
+    pub radius: f64,
+    /// What their colours are.
+    pub colours: Colours,
+}
+
+/// A small ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drop {
+    /// Its centre, m.
+    pub centre: DVec3,
+    /// What its colour means, in the unit of [`Drops::colours`].
+    pub value: f64,
+}
+
+/// A ball, as in drop.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Dot {
+    /// Centre and radius.
+    ball: [f32; 4],
+    colour: [u8; 4],
+}
+
+impl Drops {
+    pub(super) fn bar(&self) -> anyhow::Result<ColourBar> {
+        let Colours { label, unit, range } = &self.colours;
+        let values = self.drops.iter().map(|drop| drop.value);
+        let mut bar = ColourBar::fitting(label, unit, *range, values, true)?;
+        if bar.palette == Palette::Sequential {
+            bar.palette = Palette::FromBlue;
+        }
+        Ok(bar)
+    }
+
+    pub(super) fn check(&self) -> std::result::Result<(), String> {
+        check_finite(self.drops.iter().map(|drop| &drop.centre))?;
+        if !(self.radius.is_finite() && self.radius > 0.0) {
+            return Err(format!(
+                "a radius of {} m; give a positive one",
+                self.radius
+            ));
+        }
+        match self.drops.iter().find(|drop| !drop.value.is_finite()) {
+            Some(drop) => Err(format!("its value is {}; give a finite one", drop.value)),
+            None => Ok(()),
+        }
+    }
+
+    /// The balls relative to `target` (m).
+    pub(super) fn dots(&self, target: DVec3, scales: &Scales) -> impl Iterator<Item = Dot> {
+        self.drops.iter().map(move |drop| {
+            let centre = (drop.centre - target).as_vec3();
+            let [r, g, b] = scales.drop(drop.value);
+            Dot {
+                ball: [centre.x, centre.y, centre.z, self.radius as f32],
+                colour: [r, g, b, u8::MAX],
+            }
+        })
+    }
+}

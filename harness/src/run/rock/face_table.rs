@@ -1,0 +1,89 @@
+//! The loads on the faces of a block: `NAME_faces.csv`.
+
+use super::super::{
+    engine::Engine,
+    history::table,
+    recorder::{Notes, Recorder},
+    schedule::Schedule,
+};
+use anyhow::Result;
+use riprap::{immersed::FaceLoad, output::Csv, scene::Probe};
+use std::path::{Path, PathBuf};
+
+/// Numbers of a face that are no vectors.
+const SCALARS: [&str; 7] = [
+    "part",
+    "face",
+    "area",
+    "wetted_area",
+    "pressure",
+    "shear",
+    "joint",
+];
+/// Its vectors.
+const VECTORS: [&str; 5] = ["position", "normal", "force", "moment", "shear"];
+
+pub struct FaceTable {
+    schedule: Schedule,
+    block: usize,
+    path: PathBuf,
+    table: Csv,
+}
+
+impl FaceTable {
+    /// Begins the table of the faces of a block, or goes on with it after a restart.
+    pub fn new(
+        engine: &impl Engine,
+        folder: &Path,
+        last: u64,
+        (probe, block): (&Probe, usize),
+    ) -> Result<Self> {
+        let along = |what: &str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
+        let scalars = SCALARS.map(String::from).into_iter();
+        let columns: Vec<String> = scalars.chain(VECTORS.into_iter().flat_map(along)).collect();
+        let path = folder.join(format!("{}_faces.csv", probe.name));
+        Ok(Self {
+            schedule: Schedule::of(probe.every, engine.time_step(), last),
+            table: table(engine, &path, &columns)?,
+            block,
+            path,
+        })
+    }
+}
+
+/// A row of the table.
+fn row(load: &FaceLoad, joint: bool) -> Vec<f64> {
+    let face = &load.face;
+    let shear = load.shear();
+    let mut row = vec![
+        face.part as f64,
+        face.face as f64,
+        face.area,
+        load.wetted,
+        load.pressure(),
+        shear.length(),
+        f64::from(u8::from(joint)),
+    ];
+    let vectors = [face.centre, face.normal, load.force, load.moment, shear];
+    row.extend(vectors.iter().flat_map(|vector| vector.to_array()));
+    row
+}
+
+impl<E: Engine> Recorder<E> for FaceTable {
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
+        let Some((rock, coupled)) = engine.rock().and_then(|rock| Some((rock, rock.coupled?)))
+        else {
+            return Ok(());
+        };
+        let loads = coupled.faces(self.block).iter();
+        for (load, joint) in loads.zip(coupled.joints(self.block)) {
+            self.table.append(rock.step, rock.time, &row(load, joint))?;
+        }
+        notes.file(self.path.clone());
+        Ok(())
+    }
+}

@@ -1,0 +1,121 @@
+//! Boxes in still water: Archimedes.
+
+use super::{
+    super::{Outcome, Stand, Trial},
+    pool::{self, GRAVITY, Pool},
+};
+use riprap::scene::Scheme;
+
+const SPACING: f64 = 0.05;
+const DEPTH: f64 = 1.0;
+const LENGTH: f64 = 2.4;
+/// Times over which the last of the motion is averaged out, s.
+const LOOKS: u32 = 40;
+
+/// The push (ρVg) on a box that is held under water, turned by `angle` (degrees), and across.
+pub fn held(stand: &Stand, angle: f64, scheme: Scheme) -> anyhow::Result<(Trial, [f64; 2])> {
+    let edge = 8.0 * SPACING;
+    let more = format!(
+        r#"
+        [[blocks]]
+        name = "box"
+        kind = "box"
+        size = [{edge}, 1, {edge}]
+        position = [{}, 0.5, 0.5]
+        rotation = {{ axis = [0, 1, 0], angle = {angle} }}
+        motion = "fixed"
+        [[probes]]
+        name = "box"
+        kind = "block"
+        block = "box"
+        "#,
+        0.5 * LENGTH
+    );
+    let mut scene = pool::scene([LENGTH, 1.5 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
+    pool::choose(&mut scene, scheme);
+    let mut pool = Pool::fill(stand, &scene)?;
+    pool.advance(3.0)?;
+    let mut force = glam::DVec3::ZERO;
+    for look in 1..=LOOKS {
+        pool.advance(3.0 + 0.05 * f64::from(look))?;
+        force += pool.felt(0).flow.force / f64::from(LOOKS);
+    }
+    let weight = 1000.0 * GRAVITY * edge * edge;
+    Ok((
+        pool.trial("box under water"),
+        [force.z / weight, force.x / weight],
+    ))
+}
+
+/// Archimedes' law for a box under water, along the lattice and across it.
+pub fn submerged(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    for angle in [0.0, 30.0] {
+        let (trial, [up, across]) = held(stand, angle, Scheme::Delta)?;
+        let what = format!("turned by {angle}°");
+        records.push(trial.relative(format!("push / ρVg, {what}"), up, 1.0, 0.01));
+        records.push(trial.at_most(format!("push across / ρVg, {what}"), across.abs(), 0.01));
+    }
+    Ok(records)
+}
+
+/// The draft of a box that floats, let go a twentieth of its height too high.
+pub fn floating(stand: &Stand) -> Outcome {
+    let (width, height, density) = (16.0 * SPACING, 12.0 * SPACING, 500.0);
+    let exact = density / 1000.0 * height;
+    let start = exact - SPACING;
+    let more = format!(
+        r#"
+        [[materials]]
+        name = "wood"
+        density = {density}
+        normal_stiffness = 1e7
+        friction = 30
+        [[blocks]]
+        name = "box"
+        kind = "box"
+        size = [{width}, 1, {height}]
+        position = [1.2, 0.5, {}]
+        material = "wood"
+        "#,
+        DEPTH - start + 0.5 * height
+    );
+    let scene = pool::scene([LENGTH, 2.0 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
+    let mut pool = Pool::fill(stand, &scene)?;
+    let end = if stand.full { 20.0 } else { 8.0 };
+    pool.advance(end)?;
+    let mut draft = 0.0;
+    for look in 1..=LOOKS {
+        pool.advance(end + 0.05 * f64::from(look))?;
+        let bottom = pool.pose(0).centre.z - 0.5 * height;
+        draft += (level(&pool.water()?.positions, width) - bottom) / f64::from(LOOKS);
+    }
+    let tilt = pool.pose(0).deformation.x_axis.z.abs();
+    let trial = pool.trial("floating box");
+    Ok(vec![
+        trial.relative("draft / exact", draft / exact, 1.0, 0.01),
+        trial.at_most("tilt, rad", tilt, 0.01),
+    ])
+}
+
+/// The level of the water between the box and the walls: half a spacing above its highest particles, whose
+/// mean over columns a spacing wide is taken.
+fn level(positions: &[glam::DVec3], width: f64) -> f64 {
+    // Beside solids the surface is bent by the layers in them.
+    let margin = 4.0 * SPACING;
+    let side = 0.5 * (LENGTH - width);
+    let columns = ((side - 2.0 * margin) / SPACING).round() as usize;
+    let mut tops = vec![f64::NEG_INFINITY; 2 * columns];
+    for x in positions {
+        for (half, start) in [margin, LENGTH - side + margin].into_iter().enumerate() {
+            let column = ((x.x - start) / SPACING).floor();
+            if (0.0..columns as f64).contains(&column) {
+                let top = &mut tops[half * columns + column as usize];
+                *top = top.max(x.z);
+            }
+        }
+    }
+    // A column that is empty for a moment says nothing.
+    let tops: Vec<f64> = tops.into_iter().filter(|top| top.is_finite()).collect();
+    tops.iter().sum::<f64>() / tops.len() as f64 + 0.5 * SPACING
+}

@@ -1,0 +1,10 @@
+//! Free water by particles.
+
+pub mod pool;
+
+pub mod buoyancy;
+pub mod dam;
+pub mod maker;
+pub mod schemes;
+pub mod still;
+pub mod wave;

@@ -1,0 +1,133 @@
+//! Scenes of free water in a plane, in SI.
+
+use super::super::{Stand, Trial};
+use riprap::{
+    bodies::Pose,
+    coupling::Felt,
+    particles::Water,
+    scene::{Scene, Scheme},
+    simulation::FreeSurface,
+};
+use std::{path::Path, time::Instant};
+
+/// Gravity, m/s².
+pub const GRAVITY: f64 = 9.81;
+
+/// A tank of `size` (m; in a plane, open above) with water; `more` are further tables.
+///
+/// # Errors
+/// If the text is no scene.
+pub fn scene(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyhow::Result<Scene> {
+    let [length, height] = size;
+    let [reach, depth] = water;
+    let text = format!(
+        r#"
+        domain = {{ size = [{length}, 1, {height}] }}
+        fluid = {{ acceleration = [0, 0, -{GRAVITY}] }}
+        rock = {{ gravity = [0, 0, -{GRAVITY}] }}
+        run = {{ steps = 1 }}
+        [particles]
+        spacing = {spacing}
+        plane = true
+        [boundaries]
+        x_min = {{ kind = "wall" }}
+        x_max = {{ kind = "wall" }}
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "open" }}
+        [[water]]
+        kind = "box"
+        size = [{reach}, 1, {depth}]
+        position = [{}, 0.5, {}]
+        [[materials]]
+        name = "rock"
+        density = 1000
+        normal_stiffness = 1e7
+        friction = 30
+        {more}
+        "#,
+        0.5 * reach,
+        0.5 * depth
+    );
+    let scene = Scene::from_toml(&text, Path::new("."), "pool")?;
+    scene.check()?;
+    Ok(scene)
+}
+
+/// Chooses the equations of the water.
+pub fn choose(scene: &mut Scene, scheme: Scheme) {
+    if let Some(particles) = &mut scene.particles {
+        particles.scheme = scheme;
+    }
+}
+
+/// A scene that runs, with the time that it took.
+#[derive(Debug)]
+pub struct Pool<'a> {
+    stand: &'a Stand,
+    /// What runs.
+    pub surface: FreeSurface,
+    seconds: f64,
+}
+
+impl<'a> Pool<'a> {
+    /// Puts the scene on the device.
+    ///
+    /// # Errors
+    /// What the scene or the device lack.
+    pub fn fill(stand: &'a Stand, scene: &Scene) -> anyhow::Result<Self> {
+        let made = FreeSurface::new(&stand.device, &stand.queue, scene);
+        Ok(Self {
+            stand,
+            surface: stand.drive("the kernels", made)??,
+            seconds: 0.0,
+        })
+    }
+
+    /// Runs to the first step that ends at the time `until` (s) or later.
+    ///
+    /// # Errors
+    /// If the water leaves the range of the method, or the device is lost or silent.
+    pub fn advance(&mut self, until: f64) -> anyhow::Result<()> {
+        let begin = Instant::now();
+        while self.surface.time() < until * (1.0 - 1e-9) {
+            let done = self.surface.advance(1);
+            self.stand.drive("free water", done)??;
+        }
+        self.seconds += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// The water as it is.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn water(&mut self) -> anyhow::Result<Water> {
+        let water = self.surface.water();
+        Ok(self.stand.drive("reading particles", water)??)
+    }
+
+    /// What a block felt in the last exchange.
+    pub fn felt(&self, block: usize) -> Felt {
+        self.surface.felt()[block]
+    }
+
+    /// Where a block is.
+    pub fn pose(&self, block: usize) -> Pose {
+        self.surface.blocks().poses()[block]
+    }
+
+    /// What has been run so far; `what` says what is in the pool.
+    pub fn trial(&self, what: &str) -> Trial {
+        let particles = self.surface.particles();
+        let setup = particles.setup();
+        Trial {
+            setup: format!(
+                "{what}, Δx {:.4} m, h {} Δx, c₀ {:.1} m/s",
+                setup.spacing, setup.smoothing, setup.sound_speed
+            ),
+            cells: particles.numbers().water.into(),
+            steps: particles.steps(),
+            seconds: self.seconds,
+        }
+    }
+}

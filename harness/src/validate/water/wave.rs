@@ -1,0 +1,130 @@
+//! A standing wave of small amplitude: ω² = g k tanh kH.
+
+use super::{
+    super::{Outcome, Stand},
+    pool::{self, GRAVITY},
+};
+use glam::DVec3;
+use riprap::{
+    bodies::Pose,
+    particles::{Neighbours, Particles, particle_setup},
+    simulation::block_setup,
+};
+use std::{f64::consts::PI, time::Instant};
+
+const DEPTH: f64 = 1.0;
+/// Lengths of the tank, which is half a wave long, m.
+const LENGTHS: [f64; 2] = [2.0, 1.0];
+/// Amplitude of the surface, of the depth.
+const STEEPNESS: f64 = 0.02;
+/// Looks a period.
+const LOOKS: f64 = 40.0;
+const PERIODS: f64 = 4.0;
+
+/// The flow under the wave at the moment when the surface is flat, of the amplitude 1 m, m/s.
+fn flow(x: DVec3, k: f64, omega: f64) -> DVec3 {
+    let scale = omega / (k * DEPTH).sinh();
+    let [across, along] = [(k * x.z).sinh(), (k * x.z).cosh()];
+    DVec3::new(
+        scale * along * (k * x.x).sin(),
+        0.0,
+        -scale * across * (k * x.x).cos(),
+    )
+}
+
+/// Period and damping of the first mode of a tank.
+pub fn run(stand: &Stand) -> Outcome {
+    let layers: &[u32] = if stand.full { &[25, 50] } else { &[25] };
+    let mut records = Vec::new();
+    for (layers, length) in layers
+        .iter()
+        .flat_map(|n| LENGTHS.map(|length| (*n, length)))
+    {
+        let k = PI / length;
+        let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
+        let period = 2.0 * PI / omega;
+        let spacing = DEPTH / f64::from(layers);
+        let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
+        if let Some(particles) = &mut scene.particles {
+            // Waves of a fiftieth of the depth are far slower than a fall through it.
+            particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
+        }
+        let blocks = block_setup(&scene)?;
+        let (mut setup, start) = particle_setup(&scene, &blocks)?;
+        if stand.software {
+            setup.neighbours = Neighbours::Lists;
+        }
+        let amplitude = STEEPNESS * DEPTH;
+        let velocities: Vec<DVec3> = start
+            .positions
+            .iter()
+            .map(|x| amplitude * flow(*x, k, omega))
+            .collect();
+        let (device, queue) = (&stand.device, &stand.queue);
+        let positions = &start.positions;
+        let mut water = Particles::new(
+            device,
+            queue,
+            setup,
+            positions,
+            &velocities,
+            &start.pressures,
+        )?;
+        let poses: Vec<Pose> = blocks
+            .setup
+            .blocks
+            .iter()
+            .map(|b| Pose::rigid(b.centre, b.rotation, DVec3::ZERO, DVec3::ZERO))
+            .collect();
+        let begin = Instant::now();
+        // How much of the wave's flow is in the velocities, over time.
+        let mut shares = vec![1.0];
+        for _ in 0..(PERIODS * LOOKS) as usize {
+            let done = water.advance(device, queue, &poses, period / LOOKS);
+            stand.drive("a wave", done)??;
+            let now = stand.drive("reading particles", water.water(device, queue))??;
+            let (mut with, mut of) = (0.0, 0.0);
+            for n in 0..now.len() {
+                let mode = flow(now.positions[n], k, omega);
+                with += now.velocities[n].as_dvec3().dot(mode);
+                of += mode.length_squared();
+            }
+            shares.push(with / of / amplitude);
+        }
+        let trial = super::super::Trial {
+            setup: format!("standing wave, kH = {:.2}, H/Δx = {layers}", k * DEPTH),
+            cells: water.numbers().water.into(),
+            steps: water.steps(),
+            seconds: begin.elapsed().as_secs_f64(),
+        };
+        let crossings = crossings(&shares);
+        let (first, last) = (crossings[0], crossings[crossings.len() - 1]);
+        let found = 2.0 * (last - first) / (crossings.len() - 1) as f64 / LOOKS;
+        // Peaks half a period apart, from the first whole one.
+        let peak = |from: f64, to: f64| {
+            let some = &shares[from as usize..=(to as usize).min(shares.len() - 1)];
+            some.iter()
+                .fold(0.0, |most: f64, share| most.max(share.abs()))
+        };
+        let early = peak(first, crossings[1]);
+        let late = peak(crossings[crossings.len() - 2], last);
+        let periods = 0.5 * (crossings.len() - 2) as f64;
+        let loss = 1.0 - (late / early).powf(1.0 / periods);
+        records.push(trial.relative(format!("period / exact, H/Δx = {layers}"), found, 1.0, 0.01));
+        records.push(trial.at_most(
+            format!("amplitude lost a period, H/Δx = {layers}"),
+            loss,
+            0.05,
+        ));
+    }
+    Ok(records)
+}
+
+/// Where a row of numbers passes zero, between them.
+fn crossings(values: &[f64]) -> Vec<f64> {
+    let pairs = values.windows(2).enumerate();
+    pairs
+        .filter(|(_, pair)| pair[0] * pair[1] < 0.0)
+        .map(|(n, pair)| n as f64 + pair[0] / (pair[0] - pair[1]))
+        .collect()
+}

@@ -1,0 +1,194 @@
+//! Runs of free water: what they write, and whether it is what the water does.
+
+mod rig;
+
+use rig::{args, folder, go};
+use riprap::output::Table;
+use riprap_harness::{render::Picture, run::Args};
+use std::fs;
+
+/// A tank of 12 × 8 particles of still water; nothing varies along y.
+const STILL: &str = r#"
+    title = "still"
+    [domain]
+    size = [1.2, 1, 1.2]
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [particles]
+    spacing = 0.1
+    plane = true
+    [boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [[water]]
+    kind = "box"
+    size = [1.2, 1, 0.8]
+    position = [0.6, 0.5, 0.4]
+    [run]
+    steps = 12
+"#;
+
+const MEASURED: &str = r#"
+    [output]
+    every = 0.01
+    fields = ["velocity", "pressure", "density"]
+    [[output.histories]]
+    quantities = ["mass", "kinetic_energy", "potential_energy", "max_speed"]
+    every = 0.005
+    [[probes]]
+    name = "level"
+    kind = "gauge"
+    at = [0.5, 0.5]
+    [[probes]]
+    name = "bed"
+    kind = "point"
+    at = [0.5, 0.5, 0]
+    fields = ["pressure", "velocity"]
+    [[probes]]
+    name = "edge"
+    kind = "run_up"
+    min = [0, 0, 0]
+    max = [1.2, 1, 1.2]
+    direction = "+x"
+    [[probes]]
+    name = "dry"
+    kind = "gauge"
+    at = [0.5, 0.5]
+    [[views]]
+    name = "tank"
+    size = [320, 240]
+    direction = [0, 1, 0]
+    animation = false
+    strip = 2
+"#;
+
+fn last(folder: &std::path::Path, table: &str, column: &str) -> f64 {
+    let table = Table::read(folder.join(table)).unwrap();
+    *table.column(column).unwrap().last().unwrap()
+}
+
+#[test]
+fn still_water_is_measured_where_it_is() {
+    let folder = folder("water_still");
+    let args = args(&folder, &format!("{STILL}{MEASURED}"), "out");
+    let summary = go(&args);
+    let out = folder.join("out");
+    assert!(summary.complete && summary.rocks.is_none());
+    let pool = summary.pool.unwrap();
+    // 12 × 8 of water; four layers at both sides and below, up to four above the domain.
+    assert_eq!((pool.particles, pool.escaped), (96, 0));
+    assert_eq!(pool.shell, 2 * 4 * 20 + 4 * 12);
+    assert!(pool.max_mach < 0.01, "{}", pool.max_mach);
+    assert!((last(&out, "level.csv", "level") - 0.8).abs() < 0.01);
+    let bottom = 1000.0 * 9.81 * 0.8;
+    let pressure = last(&out, "bed.csv", "pressure");
+    assert!((pressure / bottom - 1.0).abs() < 0.03, "{pressure}");
+    assert!((last(&out, "edge.csv", "x") - 1.15).abs() < 0.01);
+    assert!((last(&out, "history.csv", "mass") - 960.0).abs() < 1e-9);
+    // At rest, to what the start of a lattice beside walls leaves.
+    assert!(last(&out, "history.csv", "kinetic_energy") < 1e-4 * 960.0 * 9.81 * 0.4);
+    let cloud = fs::read(out.join("water_000000.vtp")).unwrap();
+    let text = String::from_utf8_lossy(&cloud);
+    for part in [
+        "NumberOfPoints=\"96\"",
+        "velocity",
+        "pressure",
+        "density",
+        "id",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
+    let picture = Picture::load(&out.join("tank_000000.png")).unwrap();
+    let blue = picture
+        .rgba
+        .chunks(4)
+        .filter(|p| p[2] > p[0].saturating_add(40));
+    assert!(blue.count() > 1000);
+    assert!(out.join("tank_strip.png").is_file() && out.join("water.pvd").is_file());
+}
+
+#[test]
+fn a_restart_goes_on_to_the_same_bits() {
+    let folder = folder("water_restart");
+    let whole = args(&folder, &format!("{STILL}{MEASURED}"), "whole");
+    go(&whole);
+    let part = Args {
+        out: Some(folder.join("part")),
+        steps: Some(5),
+        ..whole.clone()
+    };
+    let checkpoint = go(&part).checkpoint.unwrap();
+    go(&Args {
+        steps: None,
+        restart: Some(checkpoint),
+        ..part
+    });
+    for file in ["water_000012.vtp", "bed.csv"] {
+        let [a, b] = ["whole", "part"].map(|run| fs::read(folder.join(run).join(file)).unwrap());
+        // The table of the part has the row of its own end, too.
+        let tail = |bytes: &[u8]| bytes[bytes.len() - 60..].to_vec();
+        assert_eq!(tail(&a), tail(&b), "{file}");
+    }
+}
+
+#[test]
+fn what_leaves_through_an_open_face_is_counted() {
+    let folder = folder("water_open");
+    // A sheet that flies out at the side.
+    let text = STILL
+        .replace("x_max = { kind = \"wall\" }", "x_max = { kind = \"open\" }")
+        .replace(
+            "size = [1.2, 1, 0.8]",
+            "size = [0.4, 1, 0.8]\nvelocity = [10, 0, 0]",
+        )
+        .replace("position = [0.6, 0.5, 0.4]", "position = [0.8, 0.5, 0.4]")
+        .replace("steps = 12", "duration = 0.08");
+    let summary = go(&args(&folder, &text, "out"));
+    let pool = summary.pool.unwrap();
+    assert_eq!(pool.particles, 32);
+    // It comes 0.8 m far, and all of it was within 0.6 m of the face.
+    assert!(pool.escaped >= 30, "{}", pool.escaped);
+    assert!(summary.to_string().contains("left through open faces"));
+}
+
+#[test]
+fn a_block_falls_into_water_and_its_books_close() {
+    let folder = folder("water_block");
+    let text = format!(
+        "{STILL}
+    [output]
+    every = 0.02
+    [[output.histories]]
+    quantities = [\"block_kinetic_energy\", \"energy_error\", \"kinetic_energy\"]
+    [[materials]]
+    name = \"rock\"
+    density = 2500
+    normal_stiffness = 1e7
+    friction = 30
+    [[blocks]]
+    name = \"stone\"
+    kind = \"box\"
+    size = [0.4, 1, 0.4]
+    position = [0.6, 0.5, 1.0]
+    velocity = [0, 0, -1]
+    [[probes]]
+    name = \"path\"
+    kind = \"block\"
+    block = \"stone\"
+    every = 0.01
+"
+    )
+    .replace("steps = 12", "duration = 0.15")
+    .replace("size = [1.2, 1, 1.2]", "size = [1.2, 1, 2]");
+    let summary = go(&args(&folder, &text, "out"));
+    let out = folder.join("out");
+    let rocks = summary.rocks.unwrap();
+    assert_eq!(rocks.blocks, 1);
+    assert!(rocks.energy_error.abs() < 1e-3, "{}", rocks.energy_error);
+    let height = last(&out, "path.csv", "position_z");
+    // In the air it would be at 1 − 0.15 − ½ g t² = 0.74 m.
+    assert!(height > 0.745 && height < 0.95, "{height}");
+    assert!(out.join("blocks.pvd").is_file());
+}

@@ -1,0 +1,75 @@
+// Monaghan 2005, Rep. Prog. Phys. 68:1703, momentum with artificial viscosity: the velocities at the end of the step,
+// and how long the next one may be.
+// needs invocation, particle_grid, $runs, $state, wendland, clock, $around
+
+@group(0) @binding(0) var<storage, read> particles: array<Particle>;
+@group(0) @binding(2) var<storage, read> shell: array<Particle>;
+// Velocity, and the longest step.
+@group(0) @binding(4) var<storage, read_write> fresh: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> clock: Clock;
+
+override GRAVITY_X: f32 = 0.0;
+override GRAVITY_Y: f32 = 0.0;
+override GRAVITY_Z: f32 = 0.0;
+// alpha.
+override ARTIFICIAL_VISCOSITY: f32 = 0.0;
+override COURANT: f32 = 0.2;
+
+// No particle that has left limits the step.
+const ENDLESS = 1e30;
+
+// The particle and the sums over those around it.
+var<private> here: Particle;
+var<private> pressure: f32;
+var<private> rate: vec3<f32>;
+var<private> shear: f32;
+
+fn meet_water(j: u32) {
+    let other = particles[j];
+    let r = between(here.at, other.at);
+    let square = dot(r, r);
+    let density = 1.0 + here.excess;
+    let other_density = 1.0 + other.excess;
+    let push = (pressure + pressure_of(other.excess)) / (density * other_density);
+    let mu = SMOOTHING * dot(here.velocity - other.velocity, r) / (square + 0.01 * SMOOTHING * SMOOTHING);
+    let viscous = -2.0 * ARTIFICIAL_VISCOSITY * min(mu, 0.0) / (density + other_density);
+    if (square < SUPPORT_SQUARED) {
+        shear = max(shear, abs(mu));
+        rate += (push + viscous) * slope(sqrt(square)) * r;
+    }
+}
+
+fn meet_shell(j: u32) {
+    let other = shell[j];
+    let r = between(here.at, other.at);
+    let square = dot(r, r);
+    let push = (pressure + other.excess) / ((1.0 + here.excess) * (1.0 + excess_of(other.excess)));
+    if (square < SUPPORT_SQUARED) {
+        rate += push * slope(sqrt(square)) * r;
+    }
+}
+
+@compute @workgroup_size(64)
+fn accelerate(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = particle_of(invocation(group, groups, local));
+    if (n >= arrayLength(&particles) || clock.step == 0.0) {
+        return;
+    }
+    here = particles[n];
+    if (here.at.x < 0) {
+        fresh[n] = vec4(0.0, 0.0, 0.0, ENDLESS);
+        return;
+    }
+    pressure = pressure_of(here.excess);
+    rate = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
+    shear = 0.0;
+    around(n, here.at);
+    let velocity = here.velocity + clock.step * rate;
+    let by_force = sqrt(SMOOTHING / max(length(rate), 1e-30));
+    let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + shear);
+    fresh[n] = vec4(velocity, COURANT * min(by_force, by_sound));
+}

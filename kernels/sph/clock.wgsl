@@ -1,0 +1,22 @@
+// The time of the particles within an exchange with the host.
+
+struct Clock {
+    // Length of the coming step; 0: the exchange is over and nothing moves.
+    step: f32,
+    // Longest step that the last one allowed.
+    limit: f32,
+    // From the start of the exchange.
+    elapsed: f32,
+    // To its end.
+    left: f32,
+    // Steps since the start of the exchange.
+    steps: u32,
+    // 1 and the highest id of a particle that is nowhere, or 0.
+    fault: u32,
+    // Particles that have left since the start.
+    escaped: u32,
+    // The longest list of neighbours that had no room; 0 if all had.
+    crowd: u32,
+    // The step that waits for room.
+    held: f32,
+}

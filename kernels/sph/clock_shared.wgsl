@@ -1,0 +1,13 @@
+// The clock where many write to it: the same fields as Clock.
+
+struct ClockShared {
+    step: f32,
+    limit: f32,
+    elapsed: f32,
+    left: f32,
+    steps: u32,
+    fault: atomic<u32>,
+    escaped: atomic<u32>,
+    crowd: atomic<u32>,
+    held: f32,
+}

@@ -1,0 +1,26 @@
+// The longest step that all particles of each run of 64 allow; by itself, from many runs to few.
+// needs invocation
+
+@group(0) @binding(0) var<storage, read> limits: array<vec4<f32>>;
+// One a run, as its last number.
+@group(0) @binding(1) var<storage, read_write> run_limits: array<vec4<f32>>;
+
+const RUN = 64u;
+
+@compute @workgroup_size(64)
+fn least(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n >= arrayLength(&run_limits)) {
+        return;
+    }
+    let end = min((n + 1u) * RUN, arrayLength(&limits));
+    var limit = limits[n * RUN].w;
+    for (var k = n * RUN + 1u; k < end; k++) {
+        limit = min(limit, limits[k].w);
+    }
+    run_limits[n] = vec4(0.0, 0.0, 0.0, limit);
+}

@@ -1,0 +1,37 @@
+// Müller, Charypar & Gross 2003, eq. 3, and Geraili Mikola & Sitar 2014, eq. 12: density as a sum over neighbours.
+// needs invocation, particle_grid, $runs, mueller_kernels, clock, $around
+
+@group(0) @binding(0) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(5) var<storage, read> clock: Clock;
+
+var<private> at: vec3<i32>;
+var<private> density: f32;
+
+fn meet_water(j: u32) {
+    let r = between(at, particles[j].at);
+    let square = dot(r, r);
+    if (square < SUPPORT_SQUARED) {
+        density += poly6(square);
+    }
+}
+
+// This scheme has no shells.
+fn meet_shell(j: u32) {}
+
+@compute @workgroup_size(64)
+fn mueller_density(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = particle_of(invocation(group, groups, local));
+    if (n >= arrayLength(&particles) || clock.step == 0.0) {
+        return;
+    }
+    at = particles[n].at;
+    density = 0.0;
+    if (at.x >= 0) {
+        around(n, at);
+        particles[n].excess = density - 1.0;
+    }
+}

@@ -1,0 +1,156 @@
+//! Free water and the blocks in it on disk.
+
+use crate::{
+    Error, Result,
+    bodies::{Load, Snapshot},
+    output::replace,
+    particles::{Particle, State},
+};
+use glam::{DMat3, DVec3};
+use std::path::Path;
+
+/// The state of free water and its blocks between two steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaterCheckpoint {
+    /// Steps done.
+    pub step: u64,
+    /// Length of a step, s.
+    pub time_step: f64,
+    /// The particles, in the order and the units of the device.
+    pub particles: Vec<Particle>,
+    /// What the water remembers besides.
+    pub state: State,
+    /// Mean load on each block in the last exchange; none before the first one.
+    pub loads: Vec<Load>,
+    /// The blocks.
+    pub blocks: Snapshot,
+}
+
+/// First bytes of a file; the digit is the version of the format.
+const MAGIC: &[u8; 16] = b"riprap water  1\n";
+/// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
+/// last exchange, velocities, loads.
+const WORDS: usize = 9;
+/// Bytes of a particle.
+const PARTICLE: usize = size_of::<Particle>();
+/// Numbers of a body: a vector and a matrix.
+const BODY: usize = 12;
+
+impl WaterCheckpoint {
+    /// Writes the file; one that is there stays whole until the new one is complete.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let state = &self.state;
+        let words = [
+            self.step,
+            self.time_step.to_bits(),
+            self.particles.len() as u64,
+            state.limit.to_bits().into(),
+            state.escaped.into(),
+            state.steps,
+            state.lasted.to_bits(),
+            state.before.len() as u64,
+            self.loads.len() as u64,
+        ];
+        let loads = self.loads.iter().map(|load| (load.force, load.moment));
+        let bodies = state.before.iter().copied().chain(loads);
+        replace(path, |file| {
+            file.write_all(MAGIC)?;
+            for word in words {
+                file.write_all(&word.to_le_bytes())?;
+            }
+            for particle in &self.particles {
+                let words: [u32; PARTICLE / 4] = bytemuck::cast(*particle);
+                file.write_all(words.map(u32::to_le_bytes).as_flattened())?;
+            }
+            for (vector, matrix) in bodies {
+                for number in vector.to_array().into_iter().chain(matrix.to_cols_array()) {
+                    file.write_all(&number.to_le_bytes())?;
+                }
+            }
+            file.write_all(&self.blocks.to_bytes())
+        })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, is no checkpoint of free water, or is cut short.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            let message = "this is not a checkpoint of free water of this version of riprap";
+            return Err(Error::file(path, message));
+        };
+        let mut reader = Reader { rest, path };
+        let words = reader.take(WORDS, 8)?;
+        let word = |n: usize| u64::from_le_bytes(std::array::from_fn(|k| words[8 * n + k]));
+        let count = |n: usize| usize::try_from(word(n)).unwrap_or(usize::MAX);
+        let particles = reader.take(count(2), PARTICLE)?;
+        let particles = particles.chunks_exact(PARTICLE).map(|row| {
+            let word = |n: usize| u32::from_le_bytes(std::array::from_fn(|k| row[4 * n + k]));
+            bytemuck::cast::<[u32; PARTICLE / 4], Particle>(std::array::from_fn(word))
+        });
+        let particles = particles.collect();
+        let before = reader.bodies(count(7))?;
+        let loads = reader.bodies(count(8))?;
+        let load = |(force, moment)| Load {
+            force,
+            moment,
+            ..Load::default()
+        };
+        Ok(Self {
+            step: word(0),
+            time_step: f64::from_bits(word(1)),
+            particles,
+            state: State {
+                limit: f32::from_bits(word(3) as u32),
+                escaped: word(4) as u32,
+                steps: word(5),
+                lasted: f64::from_bits(word(6)),
+                before,
+            },
+            loads: loads.into_iter().map(load).collect(),
+            blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
+                Error::Scene { message, .. } => {
+                    Error::file(path, format!("{message}; use an older checkpoint"))
+                }
+                other => other,
+            })?,
+        })
+    }
+}
+
+/// The bytes of a file that have not been read.
+struct Reader<'a> {
+    rest: &'a [u8],
+    path: &'a Path,
+}
+
+impl<'a> Reader<'a> {
+    /// `count` things of `size` bytes.
+    fn take(&mut self, count: usize, size: usize) -> Result<&'a [u8]> {
+        let parts = count
+            .checked_mul(size)
+            .and_then(|bytes| self.rest.split_at_checked(bytes));
+        let Some((head, tail)) = parts else {
+            let message = "the checkpoint is cut short; use an older one";
+            return Err(Error::file(self.path, message));
+        };
+        self.rest = tail;
+        Ok(head)
+    }
+
+    fn bodies(&mut self, count: usize) -> Result<Vec<(DVec3, DMat3)>> {
+        let rows = self.take(count, 8 * BODY)?.chunks_exact(8 * BODY);
+        let body = |row: &[u8]| {
+            let number = |n: usize| f64::from_le_bytes(std::array::from_fn(|k| row[8 * n + k]));
+            let matrix: [f64; 9] = std::array::from_fn(|n| number(3 + n));
+            let vector = DVec3::new(number(0), number(1), number(2));
+            (vector, DMat3::from_cols_array(&matrix))
+        };
+        Ok(rows.map(body).collect())
+    }
+}

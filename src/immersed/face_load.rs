@@ -1,0 +1,165 @@
+//! The load of a fluid on one plane face of a block.
+
+use super::{FACE_LOAD, Frame};
+use crate::{
+    block::{Form, Part, Polyhedron},
+    bodies::Pose,
+};
+use glam::DVec3;
+
+/// A plane face of a block where it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaneFace {
+    /// Number of the part among those of the block.
+    pub part: usize,
+    /// Number of the face among those of the part.
+    pub face: usize,
+    /// Its centroid, m.
+    pub centre: DVec3,
+    /// Outward unit normal.
+    pub normal: DVec3,
+    /// m².
+    pub area: f64,
+}
+
+/// What a fluid does to one plane face of a block, from the cells of the layer beside it: what a face of less
+/// than some cells shows is coarse. Without a cell of fluid beside it, it has no load.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceLoad {
+    /// The face.
+    pub face: PlaneFace,
+    /// Area with fluid beside it, m²: its share of the cells beside it that lie in the domain.
+    pub wetted: f64,
+    /// Force on the wetted area, N: minus its pressure times the normal, and shear.
+    pub force: DVec3,
+    /// Moment of this force about the centroid of the block, N m.
+    pub moment: DVec3,
+    /// Mean height over the face of the centres of the cells from which this follows, m.
+    pub height: f64,
+    /// Number of these cells.
+    pub cells: u32,
+}
+
+impl FaceLoad {
+    /// Mean pressure on the wetted area, Pa, that pushes onto the rock where it is positive; NaN without fluid
+    /// beside it.
+    pub fn pressure(&self) -> f64 {
+        -self.force.dot(self.face.normal) / self.wetted
+    }
+
+    /// Mean shear stress on the wetted area, Pa; NaN without fluid beside it.
+    pub fn shear(&self) -> DVec3 {
+        let normal = self.face.normal;
+        (self.force - self.force.dot(normal) * normal) / self.wetted
+    }
+
+    /// From what the device added up, [`FACE_LOAD`] numbers.
+    pub(super) fn new(frame: &Frame, face: PlaneFace, sums: &[f32]) -> Self {
+        let at = |n: usize| f64::from(sums[n]);
+        let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
+        let [cells, beside] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
+        if cells == 0.0 {
+            return Self {
+                face,
+                ..Self::default()
+            };
+        }
+        let wetted = face.area * cells / beside;
+        let cell = frame.units.cell;
+        // The traction of a cell acts on its share of the wetted area.
+        let share = wetted / (cells * cell * cell);
+        Self {
+            face,
+            wetted,
+            force: vector(0) * share * frame.units.force_from_lattice(1.0),
+            moment: vector(3) * share * frame.units.torque_from_lattice(1.0),
+            height: at(6) / cells * cell,
+            cells: cells as u32,
+        }
+    }
+
+    /// With the pressure that a body force of `weight` (N/m³) adds between the cells and the face: at a wall the
+    /// pressure rises along its normal by the body force.
+    pub(crate) fn at_face(mut self, weight: DVec3, block: DVec3) -> Self {
+        let PlaneFace { centre, normal, .. } = self.face;
+        let force = weight.dot(normal) * self.height * self.wetted * normal;
+        self.force += force;
+        self.moment += (centre - block).cross(force);
+        self
+    }
+}
+
+/// The plane faces of a part, the number `part` of its block, at a pose.
+pub fn plane_faces(part: usize, of: &Part, pose: &Pose) -> Vec<PlaneFace> {
+    let Form::Convex(shape) = &of.form else {
+        return Vec::new();
+    };
+    let face = |face: usize| {
+        let corners = corners(shape, face, of.offset, pose);
+        let (centre, vector) = area_of(&corners);
+        PlaneFace {
+            part,
+            face,
+            centre,
+            normal: vector.normalize_or_zero(),
+            area: vector.length(),
+        }
+    };
+    (0..shape.faces().len()).map(face).collect()
+}
+
+/// Corners of a face at a pose, m, counter-clockwise seen from outside.
+pub fn corners(shape: &Polyhedron, face: usize, offset: DVec3, pose: &Pose) -> Vec<DVec3> {
+    let corner = |&v: &u32| pose.point(offset + shape.vertices()[v as usize]);
+    shape.loops()[face].iter().map(corner).collect()
+}
+
+/// Centroid and area of a plane polygon, the area as a vector along its normal.
+pub fn area_of(corners: &[DVec3]) -> (DVec3, DVec3) {
+    let Some(&first) = corners.first() else {
+        return Default::default();
+    };
+    let triangles = || {
+        corners
+            .windows(2)
+            .map(|pair| [pair[0] - first, pair[1] - first])
+    };
+    let vector: DVec3 = triangles().map(|[a, b]| 0.5 * a.cross(b)).sum();
+    let along = vector.normalize_or_zero();
+    let moment: DVec3 = triangles()
+        .map(|[a, b]| 0.5 * a.cross(b).dot(along) * (a + b) / 3.0)
+        .sum();
+    let area = vector.length();
+    let centre = if area > 0.0 {
+        moment / area
+    } else {
+        DVec3::ZERO
+    };
+    (first + centre, vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_of_a_turned_box_close_it() {
+        let shape = Polyhedron::cuboid(DVec3::new(2.0, 3.0, 4.0)).unwrap();
+        let turn = glam::DQuat::from_rotation_y(0.7);
+        let pose = Pose::rigid(DVec3::ONE, turn, DVec3::ZERO, DVec3::ZERO);
+        let part = Part {
+            form: Form::Convex(shape),
+            offset: DVec3::X,
+        };
+        let faces = plane_faces(0, &part, &pose);
+        let area: f64 = faces.iter().map(|face| face.area).sum();
+        assert!((area - 2.0 * (6.0 + 8.0 + 12.0)).abs() < 1e-12);
+        let volume: f64 = faces
+            .iter()
+            .map(|face| face.area * face.normal.dot(face.centre - DVec3::ONE) / 3.0)
+            .sum();
+        assert!((volume - 24.0).abs() < 1e-12, "{volume}");
+        let middle = faces.iter().map(|face| face.centre).sum::<DVec3>() / 6.0;
+        assert!((middle - pose.point(DVec3::X)).length() < 1e-12);
+    }
+}

@@ -1,0 +1,139 @@
+//! The plane polygon that is left of a facet some way below it, and rows of points on it.
+
+use super::lattice::Lattice;
+use crate::block::HalfSpace;
+use glam::DVec3;
+
+/// Cosine of the angle to a plane below which a direction lies in it.
+const WITHIN: f64 = 1e-9;
+
+/// The part of a plane that lies in all of some half-spaces.
+pub(super) struct Facet {
+    plane: HalfSpace,
+    corners: Vec<DVec3>,
+}
+
+impl Facet {
+    /// What the square of half-width `reach` (m) about the foot of `about` has in common with `others`; none
+    /// if that is nothing.
+    pub fn new(
+        plane: HalfSpace,
+        others: impl Iterator<Item = HalfSpace>,
+        about: DVec3,
+        reach: f64,
+    ) -> Option<Self> {
+        let u = plane.normal.any_orthonormal_vector();
+        let v = plane.normal.cross(u);
+        let foot = about - plane.normal * plane.height(about);
+        let signs = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        let mut corners = signs.map(|(s, t)| foot + (u * s + v * t) * reach).to_vec();
+        for other in others {
+            corners = clip(&corners, &other);
+            if corners.len() < 3 {
+                return None;
+            }
+        }
+        Some(Self { plane, corners })
+    }
+
+    /// From where to where it reaches along a direction, m.
+    fn extent(&self, direction: DVec3) -> [f64; 2] {
+        let places = self.corners.iter().map(|c| c.dot(direction));
+        places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+            [low.min(at), high.max(at)]
+        })
+    }
+
+    /// Whether it lies along an axis, across all of the domain.
+    fn spans(&self, lattice: &Lattice, axis: usize) -> bool {
+        let [low, high] = self.extent(DVec3::AXES[axis]);
+        self.plane.normal[axis].abs() < WITHIN
+            && low <= lattice.low[axis] + lattice.tolerance()
+            && high >= lattice.high[axis] - lattice.tolerance()
+    }
+
+    /// Points a spacing apart: those of the lattice along an axis that it spans, so that they match the rows
+    /// of the fluid and the ends of a period; along others evenly from edge to edge, both included.
+    pub fn points(&self, lattice: &Lattice) -> Vec<DVec3> {
+        let spanned = (0..3).find(|axis| self.spans(lattice, *axis));
+        let along = match spanned {
+            Some(axis) => DVec3::AXES[axis],
+            None => self.longest_edge(),
+        };
+        let across = self.plane.normal.cross(along).normalize();
+        // The positive axis if it is one.
+        let other = (0..3).find(|axis| across[*axis].abs() > 1.0 - WITHIN);
+        let across = other.map_or(across, |axis| DVec3::AXES[axis]);
+        let range = self.extent(across);
+        let rows = match other.filter(|axis| self.spans(lattice, *axis)) {
+            Some(axis) => lattice.row(axis, range),
+            None => lattice.fitted(range),
+        };
+        let origin = self.plane.normal * self.plane.distance;
+        let mut points = Vec::new();
+        for row in rows {
+            // Just inside, or rounding would hide one end of an edge that the row runs along.
+            let inset = (1e-3 * lattice.tolerance()).min(0.5 * (range[1] - range[0]));
+            let inside = row.clamp(range[0] + inset, range[1] - inset);
+            let Some(range) = self.section(along, across, inside) else {
+                continue;
+            };
+            let row_points = match spanned {
+                Some(axis) => lattice.row(axis, range),
+                None => lattice.fitted(range),
+            };
+            points.extend(
+                row_points
+                    .into_iter()
+                    .map(|at| origin + along * at + across * row),
+            );
+        }
+        points
+    }
+
+    /// Direction of its longest edge.
+    fn longest_edge(&self) -> DVec3 {
+        let next = self.corners.iter().cycle().skip(1);
+        let edges = self.corners.iter().zip(next).map(|(a, b)| *b - *a);
+        let longest = edges.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let any = || self.plane.normal.any_orthonormal_vector();
+        longest.and_then(DVec3::try_normalize).unwrap_or_else(any)
+    }
+
+    /// Where the line at `row` (m) along `across` enters and leaves, m along `along`.
+    fn section(&self, along: DVec3, across: DVec3, row: f64) -> Option<[f64; 2]> {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut meet = |at: f64| range = [range[0].min(at), range[1].max(at)];
+        let next = self.corners.iter().cycle().skip(1);
+        for (a, b) in self.corners.iter().zip(next) {
+            let (below, above) = (a.dot(across) - row, b.dot(across) - row);
+            if below * above > 0.0 {
+                continue;
+            }
+            let (from, to) = (a.dot(along), b.dot(along));
+            if below == above {
+                meet(from);
+                meet(to);
+            } else {
+                meet(from + (to - from) * (below / (below - above)));
+            }
+        }
+        (range[0] <= range[1]).then_some(range)
+    }
+}
+
+/// The part of a convex polygon inside a half-space.
+fn clip(corners: &[DVec3], plane: &HalfSpace) -> Vec<DVec3> {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    let next = corners.iter().cycle().skip(1);
+    for (a, b) in corners.iter().zip(next) {
+        let (from, to) = (plane.height(*a), plane.height(*b));
+        if from <= 0.0 {
+            kept.push(*a);
+        }
+        if from.min(to) < 0.0 && from.max(to) > 0.0 {
+            kept.push(*a + (*b - *a) * (from / (from - to)));
+        }
+    }
+    kept
+}

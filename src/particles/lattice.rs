@@ -1,0 +1,113 @@
+//! The lattice on which particles start, and the box around it.
+
+use crate::{
+    block::HalfSpace,
+    scene::{Boundary, Face, Particles, Scene},
+};
+use glam::DVec3;
+
+/// Points (i + ½) Δx from the lower corner of the domain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lattice {
+    /// Corners of the domain, m.
+    pub low: DVec3,
+    pub high: DVec3,
+    /// Δx, m.
+    pub spacing: f64,
+    /// Layers of shells.
+    pub layers: u32,
+    pub periodic: [bool; 3],
+    /// Whether there is one row along y, in the middle.
+    pub plane: bool,
+}
+
+impl Lattice {
+    pub fn of(scene: &Scene, particles: &Particles) -> Self {
+        let lower = [Face::XMin, Face::YMin, Face::ZMin];
+        Self {
+            low: DVec3::from(scene.domain.origin),
+            high: DVec3::from(scene.domain.end()),
+            spacing: particles.spacing,
+            layers: particles.layers(),
+            periodic: lower.map(|face| *scene.boundaries.face(face) == Boundary::Periodic),
+            plane: particles.plane,
+        }
+    }
+
+    /// Length far below the spacing and far above the rounding of a coordinate, m.
+    pub fn tolerance(&self) -> f64 {
+        1e-6 * self.spacing
+    }
+
+    /// How deep the layer `layer` is, m.
+    pub fn depth(&self, layer: u32) -> f64 {
+        (f64::from(layer) + 0.5) * self.spacing
+    }
+
+    /// Whether what spans the domain along `axis` has no ends there.
+    pub fn endless(&self, axis: usize) -> bool {
+        self.periodic[axis] || self.is_row(axis)
+    }
+
+    fn is_row(&self, axis: usize) -> bool {
+        self.plane && axis == 1
+    }
+
+    /// Where shells may be along `axis`: the domain, and all layers beyond ends, m.
+    pub fn reach(&self, axis: usize) -> [f64; 2] {
+        let beyond = match self.endless(axis) {
+            true => 0.0,
+            false => f64::from(self.layers) * self.spacing,
+        };
+        [self.low[axis] - beyond, self.high[axis] + beyond]
+    }
+
+    /// The same as half-spaces.
+    pub fn sides(&self, axis: usize) -> [HalfSpace; 2] {
+        let [low, high] = self.reach(axis);
+        [
+            HalfSpace {
+                normal: -DVec3::AXES[axis],
+                distance: -low,
+            },
+            HalfSpace {
+                normal: DVec3::AXES[axis],
+                distance: high,
+            },
+        ]
+    }
+
+    /// The coordinates of the lattice along `axis` from `from` to `to` (m), ends included but for the upper
+    /// end of a period.
+    pub fn row(&self, axis: usize, [from, to]: [f64; 2]) -> Vec<f64> {
+        if self.is_row(axis) {
+            return vec![0.5 * (self.low[axis] + self.high[axis])];
+        }
+        let place = |x: f64| (x - self.low[axis]) / self.spacing - 0.5;
+        let (first, last) = (place(from) - 1e-6, place(to) + 1e-6);
+        let (mut first, mut last) = (first.ceil() as i64, last.floor() as i64);
+        if self.periodic[axis] {
+            let count = ((self.high[axis] - self.low[axis]) / self.spacing).round() as i64;
+            (first, last) = (first.max(0), last.min(count - 1));
+        }
+        (first..=last)
+            .map(|i| self.low[axis] + (i as f64 + 0.5) * self.spacing)
+            .collect()
+    }
+
+    /// About as many coordinates as the spacing asks for from `from` to `to` (m), those two included.
+    pub fn fitted(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let length = to - from;
+        // One interval from the length on at which two points may stand.
+        let mut count = (length / self.spacing).round();
+        if count == 1.0 && length < super::crowd::NEAREST * self.spacing {
+            count = 0.0;
+        }
+        if count <= 0.0 {
+            return vec![0.5 * (from + to)];
+        }
+        (0..=count as u64)
+            .map(|i| from + length * (i as f64 / count))
+            .collect()
+    }
+}

@@ -1,0 +1,120 @@
+//! Structures of the kernels as they lie in memory.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DMat3, DVec3};
+
+/// A particle of the water or of a shell.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Particle {
+    /// Quanta; the first negative: it has left.
+    pub at: [i32; 3],
+    /// What it is called, or the number of a particle of a shell.
+    pub id: u32,
+    /// In speeds of sound.
+    pub velocity: [f32; 3],
+    /// Density less the reference density, in parts of it; of a particle of a shell its pressure.
+    pub excess: f32,
+}
+
+/// The place of a shell's particle in its body.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Home {
+    /// From the centroid, in the body's frame, spacings.
+    pub place: [f32; 3],
+    /// Number of the body.
+    pub body: u32,
+}
+
+/// How a body moves.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Motion {
+    /// Centroid, quanta.
+    pub centre: [i32; 3],
+    /// Number of the first particle of its shell.
+    pub first: u32,
+    /// In speeds of sound.
+    pub velocity: [f32; 3],
+    /// Number of the particles of its shell.
+    pub count: u32,
+    /// Spacings over the square of the unit of time.
+    pub acceleration: [f32; 4],
+    /// Columns of F.
+    pub turn: [[f32; 4]; 3],
+    /// Columns of Ḟ.
+    pub rate: [[f32; 4]; 3],
+    /// Columns of F̈.
+    pub change: [[f32; 4]; 3],
+}
+
+impl Motion {
+    pub(super) fn of(
+        centre: [i32; 3],
+        shell: [u32; 2],
+        [velocity, acceleration]: [DVec3; 2],
+        [turn, rate, change]: [DMat3; 3],
+    ) -> Self {
+        Self {
+            centre,
+            first: shell[0],
+            velocity: velocity.as_vec3().to_array(),
+            count: shell[1],
+            acceleration: column(acceleration),
+            turn: columns(turn),
+            rate: columns(rate),
+            change: columns(change),
+        }
+    }
+}
+
+fn column(v: DVec3) -> [f32; 4] {
+    [v.x as f32, v.y as f32, v.z as f32, 0.0]
+}
+
+fn columns(m: DMat3) -> [[f32; 4]; 3] {
+    [m.x_axis, m.y_axis, m.z_axis].map(column)
+}
+
+/// The time of the particles within an exchange.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Clock {
+    /// Length of the coming step; 0: the exchange is over.
+    pub step: f32,
+    /// Longest step that the last one allowed.
+    pub limit: f32,
+    /// From the start of the exchange.
+    pub elapsed: f32,
+    /// To its end.
+    pub left: f32,
+    /// Steps since the start of the exchange.
+    pub steps: u32,
+    /// 1 and the highest id of a particle that is nowhere, or 0.
+    pub fault: u32,
+    /// Particles that have left since the start.
+    pub escaped: u32,
+    /// The longest list of neighbours that had no room; 0 if all had.
+    pub crowd: u32,
+    /// The step that waits for room.
+    pub held: f32,
+}
+
+/// A convex part of a body, by its faces.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Hull {
+    /// Centre of its circumscribed sphere in the body's frame, spacings.
+    pub centre: [f32; 3],
+    /// Radius of that, spacings.
+    pub radius: f32,
+    /// Number of the body.
+    pub body: u32,
+    /// Its first face.
+    pub first_face: u32,
+    /// Number of its faces.
+    pub faces: u32,
+    /// Nothing: WGSL fills up sixteen bytes.
+    pub unused: u32,
+}

@@ -1,0 +1,465 @@
+//! Water of particles on the device.
+
+use super::{
+    Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water, hulls,
+    kernels::{Kernels, NUMBERS},
+    near,
+};
+use crate::{
+    Error, Result,
+    bodies::{Load, Pose},
+    readback::{self, Readback},
+};
+use glam::{DMat3, DVec3};
+
+/// Steps that are recorded at once: one wait for all of them must end on a slow adapter too.
+const BATCH: u64 = 16;
+/// Share of the acoustic step below which a step is no longer one: the water moves at a hundred times the speed
+/// that it was set up for.
+const SHORTEST: f32 = 1e-3;
+
+/// What an exchange has led to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Exchange {
+    /// Mean load on each body over the time of the exchange; nothing on those that are not asked about.
+    pub loads: Vec<Load>,
+    /// Steps that the water took.
+    pub steps: u32,
+}
+
+/// Water of particles, with walls and blocks.
+///
+/// δ-SPH: Monaghan (1992) with the Wendland C2 function, density diffusion of Fourtakas et al. (2019), walls of
+/// Adami, Hu & Adams (2012). Nothing here blocks: somebody must poll the device while a future is awaited.
+#[derive(Debug)]
+pub struct Particles {
+    setup: Setup,
+    frame: Frame,
+    numbers: Numbers,
+    /// Bodies in the order of the device, those with loads first, and the place of each in it.
+    order: Vec<usize>,
+    number: Vec<usize>,
+    /// First particle of each shell in the order of the device, and one more.
+    first: Vec<u32>,
+    kernels: Kernels,
+    clock: Clock,
+    /// How each body moved at the last exchange, and how long that took, s.
+    before: Vec<(DVec3, DMat3)>,
+    lasted: f64,
+    /// Whether the shells that never move are in their places.
+    placed: bool,
+    report: Option<wgpu::Buffer>,
+    readback: Readback,
+    steps: u64,
+}
+
+impl Particles {
+    /// Water at rest or in motion: places (m), velocities (m/s) and pressures (Pa) of its particles at the time 0.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the setup or the water is not as it must be; [`Error::Limit`] of the device.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        setup: Setup,
+        positions: &[DVec3],
+        velocities: &[DVec3],
+        pressures: &[f64],
+    ) -> Result<Self> {
+        let frame = Frame::new(&setup)?;
+        if positions.len() != velocities.len() || positions.len() != pressures.len() {
+            let message = "there must be a velocity and a pressure for each particle";
+            return Err(Error::scene("water", message));
+        }
+        let too_many = |count: usize| {
+            u32::try_from(count).map_err(|_| {
+                let message = format!("{count} particles are too many; use a larger spacing");
+                Error::scene("particles.spacing", message)
+            })
+        };
+        let mut order: Vec<usize> = (0..setup.bodies.len()).collect();
+        order.sort_by_key(|&body| !setup.bodies[body].loaded);
+        let mut number = vec![0; order.len()];
+        let mut first = vec![0];
+        let (mut homes, mut loaded_shell) = (Vec::new(), 0);
+        for (place, &body) in order.iter().enumerate() {
+            number[body] = place;
+            let shell = &setup.bodies[body].shell;
+            homes.extend(shell.iter().map(|x| Home {
+                place: frame.length(*x).as_vec3().to_array(),
+                body: place as u32,
+            }));
+            first.push(too_many(homes.len())?);
+            if setup.bodies[body].loaded {
+                loaded_shell = first[place + 1];
+            }
+        }
+        let numbers = Numbers {
+            water: too_many(positions.len())?,
+            shell: first[order.len()],
+            loaded_shell,
+            bodies: order.len() as u32,
+            loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
+        };
+        let (hulls, planes) = match setup.scheme {
+            Scheme::Delta => Default::default(),
+            Scheme::Mueller { .. } => hulls::hulls(&setup, &frame, &order)?,
+        };
+        let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
+        let mut particles = Vec::with_capacity(positions.len().max(1));
+        for (id, position) in positions.iter().enumerate() {
+            let at = frame.place(*position);
+            let (velocity, pressure) = (velocities[id], pressures[id]);
+            if !frame.holds(at) || !velocity.is_finite() || !pressure.is_finite() {
+                return Err(Error::scene(
+                    "water",
+                    format!(
+                        "particle {id} at {position} m with {velocity} m/s and {pressure} Pa is not in the domain, or \
+                         not finite"
+                    ),
+                ));
+            }
+            particles.push(Particle {
+                at,
+                id: id as u32,
+                velocity: frame.velocity(velocity).as_vec3().to_array(),
+                excess: setup.excess(pressure) as f32,
+            });
+        }
+        // Room for one, that is nowhere.
+        let nowhere = Particle {
+            at: [-1; 3],
+            ..Particle::default()
+        };
+        particles.resize(positions.len().max(1), nowhere);
+        queue.write_buffer(&kernels.water.unsorted, 0, bytemuck::cast_slice(&particles));
+        queue.write_buffer(&kernels.homes, 0, bytemuck::cast_slice(&homes));
+        if homes.is_empty() {
+            queue.write_buffer(&kernels.shell.unsorted, 0, bytemuck::bytes_of(&nowhere));
+        }
+        let fastest = velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
+        Ok(Self {
+            clock: Clock {
+                limit: first_limit(&setup, &frame, fastest),
+                ..Clock::default()
+            },
+            before: Vec::new(),
+            lasted: 0.0,
+            placed: false,
+            report: None,
+            readback: Readback::default(),
+            steps: 0,
+            setup,
+            frame,
+            numbers,
+            order,
+            number,
+            first,
+            kernels,
+        })
+    }
+
+    /// The longest step (s) that the water allowed at last.
+    pub fn limit(&self) -> f64 {
+        f64::from(self.clock.limit) * self.frame.unit_time()
+    }
+
+    /// Lets the water run for `time` (s) beside bodies that are where `poses` has them and move on as they do, in as
+    /// many steps as it wants.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`] if a particle is nowhere, or the water so fast that time stands still;
+    /// [`Error::DeviceLost`].
+    pub async fn advance(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        poses: &[Pose],
+        time: f64,
+    ) -> Result<Exchange> {
+        self.begin(queue, poses, time);
+        loop {
+            let wanted = (f64::from(self.clock.left) / f64::from(self.clock.limit)).ceil();
+            let batch = (wanted as u64).clamp(1, BATCH);
+            let mut encoder = device.create_command_encoder(&Default::default());
+            for _ in 0..batch {
+                self.record(&mut encoder);
+            }
+            let report = self.report(device, &mut encoder);
+            queue.submit([encoder.finish()]);
+            let words: Vec<u32> = readback::map(&report, report.size()).await?;
+            self.report = Some(report);
+            let (clock, loads) = words.split_at(size_of::<Clock>() / 4);
+            self.clock = *bytemuck::from_bytes(bytemuck::cast_slice(clock));
+            if self.clock.crowd > 0 {
+                self.make_room(device, queue)?;
+                continue;
+            }
+            self.look()?;
+            if self.clock.step == 0.0 {
+                self.steps += u64::from(self.clock.steps);
+                let loads = bytemuck::cast_slice(loads);
+                return Ok(self.exchange(loads, time));
+            }
+        }
+    }
+
+    /// Sets the time and the places of the bodies for an exchange of `time` (s).
+    fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) {
+        let motions: Vec<Motion> = self
+            .order
+            .iter()
+            .enumerate()
+            .map(|(place, &body)| {
+                let pose = &poses[body];
+                let shell = [self.first[place], self.first[place + 1] - self.first[place]];
+                let (mut rate, mut change) = (DVec3::ZERO, DMat3::ZERO);
+                if let Some((velocity, turning)) = self.before.get(body)
+                    && self.setup.bodies[body].accelerates
+                    && self.lasted > 0.0
+                {
+                    rate = (pose.velocity - *velocity) / self.lasted;
+                    change = (pose.deformation_rate - *turning) * (1.0 / self.lasted);
+                }
+                let unit = self.frame.unit_time();
+                Motion::of(
+                    self.frame.place(pose.centre),
+                    shell,
+                    [
+                        self.frame.velocity(pose.velocity),
+                        self.frame.acceleration(rate),
+                    ],
+                    [
+                        pose.deformation,
+                        self.frame.rate(pose.deformation_rate),
+                        change * (unit * unit),
+                    ],
+                )
+            })
+            .collect();
+        queue.write_buffer(&self.kernels.motions, 0, bytemuck::cast_slice(&motions));
+        let left = (time / self.frame.unit_time()) as f32;
+        self.clock = Clock {
+            step: left / (left / self.clock.limit).ceil().max(1.0),
+            elapsed: 0.0,
+            left,
+            steps: 0,
+            ..self.clock
+        };
+        queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
+        let none = vec![0.0f32; NUMBERS * self.numbers.loaded.max(1) as usize];
+        queue.write_buffer(&self.kernels.loads, 0, bytemuck::cast_slice(&none));
+        self.before = poses
+            .iter()
+            .map(|pose| (pose.velocity, pose.deformation_rate))
+            .collect();
+        self.lasted = time;
+    }
+
+    /// Makes the lists of neighbours longer and goes on with the step that waits for it.
+    fn make_room(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        let room = near::more_room(self.clock.crowd);
+        self.kernels
+            .grow(device, queue, (&self.setup, &self.frame), room)?;
+        self.clock.crowd = 0;
+        self.clock.step = self.clock.held;
+        queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
+        Ok(())
+    }
+
+    /// Records a step of the exchange; one that is over does nothing.
+    fn record(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let moves = self.setup.bodies.iter().any(|body| body.moves);
+        if moves || !self.placed {
+            self.kernels.record_shells(encoder);
+            self.placed = true;
+        }
+        self.kernels.record_step(encoder);
+    }
+
+    /// Records the way of clock and loads to the host.
+    fn report(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> wgpu::Buffer {
+        let clock = size_of::<Clock>() as u64;
+        let loads = 4 * (NUMBERS * self.numbers.loaded as usize) as u64;
+        let report = self.report.take();
+        let report = report.unwrap_or_else(|| readback::staging(device, clock + loads));
+        encoder.copy_buffer_to_buffer(&self.kernels.clock, 0, &report, 0, clock);
+        if loads > 0 {
+            encoder.copy_buffer_to_buffer(&self.kernels.loads, 0, &report, clock, loads);
+        }
+        report
+    }
+
+    /// Whether all particles are somewhere and time goes on.
+    fn look(&self) -> Result<()> {
+        let shortest = SHORTEST * (self.setup.acoustic_step() / self.frame.unit_time()) as f32;
+        let (cause, id) = match self.clock {
+            Clock {
+                fault: 0, limit, ..
+            } if limit >= shortest => return Ok(()),
+            Clock {
+                fault: 0, limit, ..
+            } => (
+                format!(
+                    "water is so fast that a step would be {:.2e} s",
+                    f64::from(limit) * self.frame.unit_time()
+                ),
+                None,
+            ),
+            Clock { fault, .. } => (
+                "its density or velocity is not a number".to_owned(),
+                Some(fault - 1),
+            ),
+        };
+        Err(Error::ParticleLost {
+            particle: id,
+            step: self.steps + u64::from(self.clock.steps),
+            cause,
+            remedy: "give particles.largest_speed the speed that water really reaches, or use a smaller \
+                     particles.courant; look for water that is squeezed between blocks"
+                .into(),
+        })
+    }
+
+    fn exchange(&self, numbers: &[f32], time: f64) -> Exchange {
+        let unit = time / self.frame.unit_time();
+        let load = |&place: &usize| match numbers.get(place * NUMBERS..(place + 1) * NUMBERS) {
+            Some(numbers) => self.frame.load(numbers, unit),
+            None => Load::default(),
+        };
+        Exchange {
+            loads: self.number.iter().map(load).collect(),
+            steps: self.clock.steps,
+        }
+    }
+
+    /// The water as it is.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`].
+    pub async fn water(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Water> {
+        let particles = self.particles(device, queue).await?;
+        Ok(Water::of(&self.setup, &self.frame, &particles))
+    }
+
+    /// The particles in the units and the order of the device, those that have left included.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`].
+    pub async fn particles(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Vec<Particle>> {
+        let count = self.numbers.water as usize;
+        let buffer = &self.kernels.water.unsorted;
+        self.readback.read(device, queue, buffer, count).await
+    }
+
+    /// What [`Particles::restore`] wants besides the particles.
+    pub fn state(&self) -> State {
+        State {
+            limit: self.clock.limit,
+            escaped: self.clock.escaped,
+            steps: self.steps,
+            lasted: self.lasted,
+            before: self.before.clone(),
+        }
+    }
+
+    /// Whether particles are as many as these.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if not.
+    pub fn check(&self, particles: &[Particle]) -> Result<()> {
+        if particles.len() == self.numbers.water as usize {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "restart",
+            format!(
+                "the checkpoint has {} particles and the scene {}; restart with the scene that wrote it",
+                particles.len(),
+                self.numbers.water
+            ),
+        ))
+    }
+
+    /// Goes back to a state of this water, to the same bits.
+    ///
+    /// # Errors
+    /// If it is of another number of particles.
+    pub fn restore(
+        &mut self,
+        queue: &wgpu::Queue,
+        particles: &[Particle],
+        state: &State,
+    ) -> Result<()> {
+        self.check(particles)?;
+        let bytes = bytemuck::cast_slice(particles);
+        queue.write_buffer(&self.kernels.water.unsorted, 0, bytes);
+        self.clock = Clock {
+            limit: state.limit,
+            escaped: state.escaped,
+            ..Clock::default()
+        };
+        self.steps = state.steps;
+        self.lasted = state.lasted;
+        self.before.clone_from(&state.before);
+        self.placed = false;
+        Ok(())
+    }
+
+    /// The setup.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Cells and units.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Numbers of particles and bodies.
+    pub fn numbers(&self) -> Numbers {
+        self.numbers
+    }
+
+    /// Particles that have left the domain.
+    pub fn escaped(&self) -> u32 {
+        self.clock.escaped
+    }
+
+    /// Steps of the water since the start.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+}
+
+/// What water remembers besides its particles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Longest step that the last one allowed, in the unit of the device.
+    pub limit: f32,
+    /// Particles that have left.
+    pub escaped: u32,
+    /// Steps since the start.
+    pub steps: u64,
+    /// Length of the last exchange, s.
+    pub lasted: f64,
+    /// Velocity (m/s) and Ḟ (1/s) of each body at its start.
+    pub before: Vec<(DVec3, DMat3)>,
+}
+
+/// The longest first step, of water that is pushed by gravity alone and moves at `fastest` (m/s), in units of the
+/// device.
+fn first_limit(setup: &Setup, frame: &Frame, fastest: f64) -> f32 {
+    let h = setup.smoothing;
+    let by_force = (h / frame.acceleration(setup.gravity).length().max(1e-30)).sqrt();
+    let by_sound = h / (10.0 * fastest / setup.sound_speed).max(1.0);
+    (setup.courant * by_force.min(by_sound)) as f32
+}

@@ -1,0 +1,124 @@
+//! Which files and numbers make the kernels of particles.
+
+use super::{Frame, Neighbours, Scheme, Setup, StateEquation};
+use crate::link::Program;
+use std::f64::consts::PI;
+
+/// Storage buffers of the kernel that has the most of them, `drift` and `neighbours`.
+pub const MOST_BINDINGS: u32 = 7;
+
+/// Frequency of a particle on the spring of a wall, over that of sound across a spacing: half of what limits the
+/// step; it is damped to half of its critical damping.
+const PENALTY: f64 = 0.5;
+
+/// The kernels of a step, each an entry point of the file of its name.
+pub const KERNELS: [&str; 17] = [
+    "sort_count",
+    "sort_list",
+    "sort_order",
+    "shell_place",
+    "shell_pressure",
+    "neighbours",
+    "admit",
+    "accelerate",
+    "shell_force",
+    "body_load",
+    "drift",
+    "mueller_density",
+    "mueller_move",
+    "mueller_load",
+    "mueller_drift",
+    "least",
+    "tick",
+];
+
+/// The program of a kernel: slots that it does not have are passed over.
+pub fn program(setup: &Setup, frame: &Frame, kernel: &str) -> Program {
+    let periodic = frame.period.iter().any(|period| *period > 0);
+    Program::new(kernel)
+        .slot(
+            "runs",
+            if periodic {
+                "runs_periodic"
+            } else {
+                "runs_open"
+            },
+        )
+        .slot(
+            "around",
+            match setup.neighbours {
+                Neighbours::Cells => "around_cells",
+                Neighbours::Lists => "around_lists",
+            },
+        )
+        .slot(
+            "state",
+            match setup.state {
+                StateEquation::Linear => "state_linear",
+                StateEquation::Tait => "state_tait",
+            },
+        )
+}
+
+/// The numbers that they take.
+pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
+    let h = setup.smoothing;
+    let scale = match setup.plane {
+        true => 7.0 / (4.0 * PI * h.powi(2)),
+        false => 21.0 / (16.0 * PI * h.powi(3)),
+    };
+    let reach = 2.0 * h;
+    // Poly6, spiky and Laplacian: see the kernels.
+    let mueller = match setup.plane {
+        true => [
+            4.0 / (PI * reach.powi(8)),
+            30.0 / (PI * reach.powi(5)),
+            40.0 / (PI * reach.powi(5)),
+        ],
+        false => [
+            315.0 / (64.0 * PI * reach.powi(9)),
+            45.0 / (PI * reach.powi(6)),
+            45.0 / (PI * reach.powi(6)),
+        ],
+    };
+    let viscosity = match setup.scheme {
+        Scheme::Delta => 0.0,
+        Scheme::Mueller { viscosity } => viscosity * frame.unit_time() / setup.spacing.powi(2),
+    };
+    let gravity = frame.acceleration(setup.gravity);
+    let [from, to] = frame.kept;
+    vec![
+        ("EDGE_X", frame.edge[0].into()),
+        ("EDGE_Y", frame.edge[1].into()),
+        ("EDGE_Z", frame.edge[2].into()),
+        ("CELLS_X", frame.cells[0].into()),
+        ("CELLS_Y", frame.cells[1].into()),
+        ("CELLS_Z", frame.cells[2].into()),
+        ("PERIOD_X", frame.period[0].into()),
+        ("PERIOD_Y", frame.period[1].into()),
+        ("PERIOD_Z", frame.period[2].into()),
+        ("QUANTUM", 1.0 / frame.quanta),
+        ("SUPPORT_SQUARED", 4.0 * h * h),
+        ("SMOOTHING", h),
+        ("REACH", reach),
+        ("POLY6", mueller[0]),
+        ("SPIKY", mueller[1]),
+        ("LAPLACIAN", mueller[2]),
+        ("VISCOSITY", viscosity),
+        ("PENALTY_STIFFNESS", PENALTY.powi(2)),
+        ("PENALTY_DAMPING", PENALTY),
+        ("KERNEL_SCALE", scale),
+        ("GRAVITY_X", gravity.x),
+        ("GRAVITY_Y", gravity.y),
+        ("GRAVITY_Z", gravity.z),
+        ("ARTIFICIAL_VISCOSITY", setup.artificial_viscosity),
+        ("DENSITY_DIFFUSION", setup.density_diffusion),
+        ("COURANT", setup.courant),
+        ("KEPT_FROM_X", from[0].into()),
+        ("KEPT_FROM_Y", from[1].into()),
+        ("KEPT_FROM_Z", from[2].into()),
+        ("KEPT_TO_X", to[0].into()),
+        ("KEPT_TO_Y", to[1].into()),
+        ("KEPT_TO_Z", to[2].into()),
+    ]
+}

@@ -1,0 +1,227 @@
+//! Loads on the faces of blocks.
+
+use crate::world::{DENSITY, World, fluid, material};
+use glam::DVec3;
+use riprap::immersed::FaceLoad;
+
+const GRAVITY: f64 = 0.01;
+
+/// A closed tank of 24 cells (12 m) an edge with still, heavy water and a fixed box of 8 × 6 × 5 m.
+fn tank(position: [f64; 3], angle: f64) -> World {
+    let wall = |face: &str| format!("{face} = {{ kind = \"wall\" }}\n");
+    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
+        .map(wall)
+        .concat();
+    World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        {walls}
+        [initial]
+        pressure = "{DENSITY} * {GRAVITY} * (12 - z)"
+        [rock]
+        gravity = [0, 0, -{GRAVITY}]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        faces = true
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [8, 6, 5]
+        position = {position:?}
+        rotation = {{ axis = [1, 2, 3], angle = {angle} }}
+        motion = "fixed""#,
+        fluid([24, 24, 24], 0.1).replace(
+            "viscosity",
+            &format!("acceleration = [0, 0, -{GRAVITY}]\nviscosity")
+        ),
+        material("rock", 2650.0)
+    ))
+}
+
+fn faces(world: &World) -> &[FaceLoad] {
+    world.sim.coupled().unwrap().faces(0)
+}
+
+/// Pressure is linear in still water, so that its mean over a face is that at the centroid: with rounding where faces
+/// lie along the grid; else the cells beside a face are not centred on it, by less than a tenth of a cell, which is
+/// 0.5 % of the head over the block of ten cells. Together the faces feel the whole load as well as that.
+#[test]
+fn still_water_presses_by_its_depth() {
+    for (position, angle, limit) in [([6.0, 6.0, 6.0], 0.0, 1e-5), ([6.1, 5.9, 6.3], 25.0, 5e-3)] {
+        let mut world = tank(position, angle);
+        assert!(faces(&world).is_empty(), "before the first exchange");
+        world.advance(200);
+        let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
+        let head = DENSITY * GRAVITY * 5.0;
+        for load in faces(&world) {
+            let there = DENSITY * GRAVITY * (12.0 - load.face.centre.z);
+            let error = (load.pressure() - there) / head;
+            println!("{}: {error:.1e}, {} cells", load.face.normal, load.cells);
+            assert_eq!(load.wetted, load.face.area);
+            assert!(error.abs() < limit, "{}: {error}", load.face.normal);
+            assert!(load.shear().length() < 1e-6 * head);
+            force += load.force;
+            moment += load.moment;
+        }
+        let felt = world.felt(0);
+        let whole = felt.flow.force + felt.buoyancy.force;
+        let exact = DENSITY * GRAVITY * 240.0;
+        let error = (force - whole) / exact;
+        println!("sum {error}; moment {}", moment / (exact * 8.0));
+        assert!(error.length() < 2.0 * limit, "{error}");
+        // About the centroid there is none.
+        assert!(moment.length() < 2.0 * limit * exact * 8.0, "{moment}");
+    }
+}
+
+/// A box that goes four cells along x, through two searches of tiles: its faces never miss a cell.
+#[test]
+fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
+    let text = format!(
+        r#"{}{}
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.2
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        faces = true
+        [[blocks]]
+        name = "ball"
+        kind = "sphere"
+        radius = 1
+        position = [10, 10, 10]
+        motion = "fixed"
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [4, 3, 2.5]
+        position = [3, 3, 3.25]
+        motion = "driven"
+        velocity = [0.2, 0, 0]"#,
+        fluid([24; 3], 0.1),
+        material("rock", 2650.0)
+    );
+    let mut world = World::new(&text);
+    for step in 1..=40 {
+        world.advance(1);
+        let coupled = world.sim.coupled().unwrap();
+        assert!(coupled.faces(0).is_empty(), "nobody asks about the ball");
+        assert_eq!(coupled.faces(1).len(), 6);
+        for load in coupled.faces(1) {
+            // 8 × 6 × 5 cells; of those along x one more in sight where both ends fall on centres of cells.
+            let area = 4.0 * load.face.area;
+            let cells = f64::from(load.cells);
+            let most = if load.face.normal.x.abs() > 0.5 {
+                area
+            } else {
+                area * 9.0 / 8.0
+            };
+            assert!(
+                (area..=most).contains(&cells),
+                "step {step}: {cells} of {area}"
+            );
+        }
+    }
+    let searches = world.sim.coupled().unwrap().exchanges().cells.searches;
+    assert!(searches > 2, "{searches}");
+}
+
+/// On the bottom there is no water below, and the rest of the faces stay as they are.
+#[test]
+fn a_face_on_the_ground_is_dry() {
+    let mut world = tank([6.0, 6.0, 2.5], 0.0);
+    world.advance(200);
+    for load in faces(&world) {
+        if load.face.normal.z < -0.5 {
+            assert_eq!((load.wetted, load.cells), (0.0, 0));
+            assert!(load.pressure().is_nan());
+            assert_eq!(load.force, DVec3::ZERO);
+        } else {
+            let there = DENSITY * GRAVITY * (12.0 - load.face.centre.z);
+            assert!((load.pressure() / there - 1.0).abs() < 1e-5);
+        }
+    }
+}
+
+/// Couette flow over a slab as wide as the periodic domain: τ = μU/H everywhere on its top. The slab's surface moves
+/// with τ by less than a hundredth of H = 8 cells.
+#[test]
+fn a_moving_lid_shears_the_face_below() {
+    let (speed, nu) = (0.1, 0.1);
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "wall", velocity = [{speed}, 0, 0] }}
+        [initial]
+        velocity = ["{speed} * max(0, z - 2)/4", 0, 0]
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.2
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "slab"
+        faces = true
+        [[blocks]]
+        name = "slab"
+        kind = "box"
+        size = [4, 4, 2]
+        position = [2, 2, 1]
+        motion = "fixed""#,
+        fluid([8, 8, 12], nu),
+        material("rock", 2650.0)
+    ));
+    world.advance(400);
+    let exact = DENSITY * nu * speed / 4.0;
+    let top = faces(&world).iter().find(|load| load.face.normal.z > 0.5);
+    let top = top.unwrap();
+    let felt = world.felt(0).flow.force;
+    println!("{} of {exact}, {felt}", top.shear());
+    assert!((top.shear() - DVec3::X * exact).length() < 1e-2 * exact);
+    // What the cells of the slab lose is the same force.
+    assert!((top.force.x / felt.x - 1.0).abs() < 1e-2, "{felt}");
+}
+
+#[test]
+fn loads_on_faces_repeat_to_the_bit() {
+    let run = || {
+        let mut world = tank([6.1, 5.9, 6.3], 25.0);
+        world.advance(20);
+        faces(&world).to_vec()
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn who_does_not_ask_has_no_loads_on_faces() {
+    let text = format!(
+        r#"{}{}
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[blocks]]
+        kind = "box"
+        size = [2, 2, 2]
+        position = [3, 3, 3]"#,
+        fluid([12; 3], 0.1),
+        material("rock", 2650.0)
+    );
+    let world = World::new(&text);
+    let immersed = world.sim.coupled().unwrap().immersed();
+    assert!(immersed.face_sums().is_none());
+    assert!(
+        immersed
+            .kernels()
+            .all(|(kernel, _)| !kernel.entry().contains("faces"))
+    );
+}

@@ -1,0 +1,213 @@
+//! Shells of walls and blocks.
+
+use crate::{DX, Made, fault, is_on_lattice, nearest, scene, tank};
+use glam::{DQuat, DVec3};
+use riprap::block::Form;
+
+/// A block in the tank.
+fn block(keys: &str) -> String {
+    format!("[[blocks]]\nname = \"b\"\n{keys}\n")
+}
+
+/// Least depth of the shell points of block `b` below its faces, m.
+fn least_depth(made: &Made) -> f64 {
+    let index = made.block("b");
+    let shape = &made.setup.setup.blocks[index].shape;
+    let depth = |x: &DVec3| {
+        let parts = shape.parts().iter().map(|part| {
+            let x = *x - part.offset;
+            match &part.form {
+                Form::Sphere { radius } => radius - x.length(),
+                Form::Convex(p) => p
+                    .faces()
+                    .iter()
+                    .map(|f| -f.height(x))
+                    .fold(f64::INFINITY, f64::min),
+            }
+        });
+        parts.fold(f64::NEG_INFINITY, f64::max)
+    };
+    made.shells[index]
+        .iter()
+        .map(depth)
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn walls_of_a_tank_are_four_layers_of_the_lattice_with_corners() {
+    let made = Made::of(&tank("").unwrap());
+    // Along x 40 cells and four layers at both ends, along z 20 and four below, and four above at the walls.
+    assert_eq!(made.all_shells().len(), 20 * (2 * 4 * 28 + 40 * 4));
+    // A corner is divided between the walls that meet there.
+    assert_eq!(made.shell("wall_x_min").len(), 20 * (4 * 24 + 10));
+    assert_eq!(made.shell("wall_z_min").len(), 20 * (40 * 4 + 2 * 6));
+    let all = made.all_shells();
+    assert!((nearest(&all) - DX).abs() < 1e-9);
+    let aligned = |x: &DVec3| (0..3).all(|a| is_on_lattice(x[a], 0.0));
+    assert!(all.iter().all(aligned));
+    assert!(all.iter().all(|x| x.y > 0.0 && x.y < 1.0));
+}
+
+#[test]
+fn a_box_on_the_lattice_has_exactly_its_layers() {
+    // 14 × 12 × 10 cells: four layers leave 6 × 4 × 2 empty.
+    let made = Made::of(
+        &tank(&block(
+            "kind = \"box\"\nsize = [0.7, 0.6, 0.5]\nposition = [1.05, 0.5, 0.75]",
+        ))
+        .unwrap(),
+    );
+    let shell = made.shell("b");
+    assert_eq!(shell.len(), 14 * 12 * 10 - 6 * 4 * 2);
+    let aligned = |x: &DVec3| (0..3).all(|a| is_on_lattice(x[a], 0.0));
+    assert!(shell.iter().all(aligned));
+    assert!((nearest(&shell) / DX - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_block_as_thick_as_the_spacing_has_one_layer() {
+    let made = Made::of(
+        &tank(&block(
+            "kind = \"box\"\nsize = [0.4, 0.3, 0.05]\nposition = [1, 0.5, 0.8]",
+        ))
+        .unwrap(),
+    );
+    assert_eq!(made.shell("b").len(), 8 * 6);
+}
+
+#[test]
+fn points_lie_half_a_spacing_deep_and_apart_in_blocks_of_all_shapes() {
+    for keys in [
+        "kind = \"box\"\nsize = [0.43, 0.31, 0.27]\nposition = [1, 0.5, 0.7]\nrotation = { axis = [1, 2, 3], angle = 33 }",
+        "kind = \"vertices\"\nvertices = [[0,0,0],[0.9,0,0],[0,0,0.45],[0,0.4,0],[0.9,0.4,0],[0,0.4,0.45]]\nposition = [0.5, 0.3, 0.52]",
+        "kind = \"tetrahedron\"\nedge = 0.5\nposition = [1, 0.5, 0.7]",
+        "kind = \"icosahedron\"\nedge = 0.15\nposition = [1, 0.5, 0.7]",
+        "kind = \"sphere\"\nradius = 0.21\nposition = [1, 0.5, 0.7]",
+        "kind = \"compound\"\nposition = [1, 0.5, 0.6]\nparts = [{ kind = \"box\", size = [0.6, 0.2, 0.1] }, \
+         { kind = \"box\", size = [0.2, 0.2, 0.17], position = [0, 0, 0.135] }]",
+    ] {
+        for motion in ["free", "fixed"] {
+            let made = Made::of(&tank(&block(&format!("{keys}\nmotion = \"{motion}\""))).unwrap());
+            let shell = made.shell("b");
+            assert!(shell.len() > 50, "{keys}: {}", shell.len());
+            let depth = least_depth(&made);
+            assert!(depth >= 0.5 * DX * (1.0 - 1e-5), "{keys}: depth {depth}");
+            let apart = nearest(&shell);
+            assert!(apart >= 0.599 * DX, "{keys}: {apart} m apart");
+        }
+    }
+}
+
+/// Shells fill what they stand for: their number is that of the cubes in the layers.
+#[test]
+fn as_many_points_as_there_is_room_for() {
+    for (keys, room) in [
+        // Four layers leave a box of 0.03 × 0 × 0: all of it is filled.
+        (
+            "kind = \"box\"\nsize = [0.43, 0.31, 0.27]\nposition = [1, 0.5, 0.7]\nrotation = { axis = [1, 2, 3], angle = 33 }",
+            0.43 * 0.31 * 0.27,
+        ),
+        (
+            "kind = \"sphere\"\nradius = 0.2\nposition = [1, 0.5, 0.7]",
+            4.0 / 3.0 * std::f64::consts::PI * 0.2 * 0.2 * 0.2,
+        ),
+        (
+            "kind = \"vertices\"\nvertices = [[0,0,0],[0.9,0,0],[0,0,0.45],[0,0.4,0],[0.9,0.4,0],[0,0.4,0.45]]\nposition = [0.5, 0.3, 0.52]",
+            0.5 * 0.9 * 0.45 * 0.4,
+        ),
+    ] {
+        let made = Made::of(&tank(&block(keys)).unwrap());
+        let filled = made.shell("b").len() as f64 * DX.powi(3);
+        assert!(
+            (filled / room - 1.0).abs() < 0.08,
+            "{keys}: {}",
+            filled / room
+        );
+    }
+}
+
+#[test]
+fn what_spans_a_period_has_no_ends_and_the_rows_of_the_water() {
+    let made = Made::of(
+        &tank(&block(
+            "kind = \"box\"\nsize = [0.2, 1.0, 0.8]\nposition = [0.4, 0.5, 0.5]\nmotion = \"driven\"",
+        ))
+        .unwrap(),
+    );
+    // 4 cells thick: full, with a whole period of rows.
+    assert_eq!(made.shell("b").len(), 4 * 20 * 16);
+    assert!(made.shell("b").iter().all(|x| is_on_lattice(x.y, 0.0)));
+}
+
+#[test]
+fn ramps_keep_the_rows_of_the_water_and_share_the_ground_with_the_floor() {
+    // 30° up to the wall x_max, beyond the domain on all sides but one.
+    let ramp = "[[solids]]\nname = \"ramp\"\nkind = \"half_space\"\npoint = [1, 0, 0]\nnormal = [-0.5, 0, 0.8660254037844386]\n";
+    let made = Made::of(&tank(ramp).unwrap());
+    let shell = made.shell("ramp");
+    let normal = DVec3::new(-0.5, 0.0, 0.75_f64.sqrt());
+    let depth = |x: &DVec3| -normal.dot(*x - DVec3::X);
+    assert!(shell.iter().all(|x| is_on_lattice(x.y, 0.0)));
+    for layer in 0..4 {
+        let at = (f64::from(layer) + 0.5) * DX;
+        let rows = shell.iter().filter(|x| (depth(x) - at).abs() < 1e-7);
+        let under = rows
+            .filter(|x| x.x > 1.4 && x.x < 1.95 && x.z > 0.0)
+            .count();
+        // 0.55 m along x are 0.635 m along the slope: 13 rows, or one less.
+        assert!(
+            under == 12 * 20 || under == 13 * 20,
+            "layer {layer}: {under}"
+        );
+    }
+    // None is where the floor is deeper, none of the floor where the ramp is.
+    assert!(shell.iter().all(|x| depth(x) >= -x.z - 1e-6));
+    let floor = made.shell("wall_z_min");
+    assert!(floor.iter().all(|x| -x.z >= depth(x) - 1e-6));
+    assert!(nearest(&made.all_shells()) >= 0.599 * DX);
+}
+
+#[test]
+fn a_turned_block_keeps_its_points() {
+    let keys = "kind = \"box\"\nsize = [0.4, 0.3, 0.2]\nposition = [1, 0.5, 0.7]";
+    let straight = Made::of(&tank(&block(keys)).unwrap());
+    let turned = format!("{keys}\nrotation = {{ axis = [0, 0, 1], angle = 90 }}");
+    let turned = Made::of(&tank(&block(&turned)).unwrap());
+    let index = turned.block("b");
+    let rotation = turned.setup.setup.blocks[index].rotation;
+    assert!(rotation.angle_between(DQuat::from_rotation_z(90_f64.to_radians())) < 1e-12);
+    let (a, b) = (&straight.shells[index], &turned.shells[index]);
+    assert_eq!(a.len(), b.len());
+    for x in a {
+        assert!(b.iter().any(|y| x.distance(*y) < 1e-9), "{x}");
+    }
+}
+
+#[test]
+fn blocks_that_carry_no_shell_are_refused() {
+    let words = fault(
+        &tank(&block(
+            "kind = \"box\"\nsize = [0.4, 0.3, 0.04]\nposition = [1, 0.5, 0.8]",
+        ))
+        .unwrap(),
+    );
+    assert!(
+        words.contains("block b: is thinner than the spacing"),
+        "{words}"
+    );
+    for (keys, part) in [
+        ("kind = \"sphere\"\nradius = 0.2", "is a sphere"),
+        (
+            "kind = \"box\"\nsize = [0.3, 1.0, 0.3]\nrotation = { axis = [1, 0, 0], angle = 10 }",
+            "oblique to y",
+        ),
+        (
+            "kind = \"box\"\nsize = [0.3, 0.9, 0.3]",
+            "give it that width",
+        ),
+    ] {
+        let more = block(&format!("{keys}\nposition = [1, 0.5, 0.75]"));
+        let words = fault(&scene("plane = true", &more).unwrap());
+        assert!(words.contains(part), "{words}");
+    }
+}

@@ -1,0 +1,82 @@
+//! Factors of safety of blocks that stand on others, by their contacts.
+
+use crate::{
+    incline::on_incline,
+    rig::{blocks, settled},
+    toppling::column,
+    wedge,
+};
+use glam::DVec3;
+use riprap::{
+    bodies::Setup,
+    safety::{Mode, Standing},
+};
+
+/// Of the block of this number, once it has come to rest under mass damping, with a force of a fluid (N).
+fn standing(setup: Setup, block: usize, force: DVec3) -> Standing {
+    let rest = settled(&setup, 50.0, 0.3);
+    let mut blocks = blocks(setup.clone());
+    blocks.restore(&rest).expect("the same blocks");
+    Standing::of(&setup, &blocks, block, [force, DVec3::ZERO])
+}
+
+/// tan φ/tan α and (b/h)/tan α; the contact's normal and area have the tilt by which it gives way, 1e-4.
+#[test]
+fn a_block_on_an_incline() {
+    let (tan_alpha, tan_phi) = (30f64.to_radians().tan(), 60f64.to_radians().tan());
+    let still = standing(on_incline(60.0), 1, DVec3::ZERO);
+    assert_eq!(still.sliding.mode, Mode::OnOne(0));
+    assert!(
+        (still.sliding.factor / (tan_phi / tan_alpha) - 1.0).abs() < 1e-3,
+        "{still:?}"
+    );
+    assert!(
+        (still.toppling * 0.4 * tan_alpha - 1.0).abs() < 1e-3,
+        "{still:?}"
+    );
+    assert_eq!(still.uplift, f64::INFINITY);
+    // Under water both are the same, and uplift is the ratio of the densities.
+    let buoyancy = DVec3::Z * 1000.0 * 9.81 * 0.4;
+    let wet = standing(on_incline(60.0), 1, buoyancy);
+    assert!((wet.sliding.factor / still.sliding.factor - 1.0).abs() < 1e-9);
+    assert!((wet.toppling / still.toppling - 1.0).abs() < 1e-9);
+    assert!((wet.uplift - 2.5).abs() < 1e-9, "{wet:?}");
+}
+
+/// A strip at the upper edge of the base has lifted off; it topples over the other edge.
+#[test]
+fn a_column_topples_over_its_edge() {
+    let found = standing(column(20.0), 1, DVec3::ZERO).toppling;
+    let exact = 0.5 / 20f64.to_radians().tan();
+    assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+}
+
+/// As it was put there, before a step of it: by the faces that lie on others.
+#[test]
+fn before_it_presses_it_stands_on_its_faces() {
+    for alpha in [10f64, 20.0] {
+        let setup = column(alpha);
+        let found = Standing::of(&setup, &blocks(setup.clone()), 1, [DVec3::ZERO; 2]);
+        let tan_alpha = alpha.to_radians().tan();
+        let tan_phi = 50f64.to_radians().tan();
+        assert!(
+            (found.sliding.factor * tan_alpha / tan_phi - 1.0).abs() < 1e-9,
+            "{found:?}"
+        );
+        assert!(
+            (found.toppling * tan_alpha / 0.5 - 1.0).abs() < 1e-3,
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_wedge_on_two_planes() {
+    let planes = [[45.0, 105.0, 20.0], [70.0, 235.0, 30.0]];
+    let tan_phi = planes.map(|[_, _, phi]: [f64; 3]| phi.to_radians().tan());
+    let setup = wedge::on_planes(&planes, tan_phi);
+    let block = setup.blocks.len() - 1;
+    let found = standing(setup, block, DVec3::ZERO).sliding;
+    assert!(matches!(found.mode, Mode::OnTwo(..)), "{found:?}");
+    assert!((found.factor / 1.10662 - 1.0).abs() < 1e-3, "{found:?}");
+}

@@ -1,0 +1,11 @@
+//! Particles of water: kernels against their twins, and small flows.
+
+#[path = "../rig/mod.rs"]
+mod rig;
+
+mod mueller;
+mod programs;
+mod step;
+mod still;
+mod tank;
+mod twin;

@@ -1,0 +1,231 @@
+//! The scheme of Müller, Charypar & Gross (2003) and Geraili Mikola & Sitar (2014) against its twin in f64 and SI.
+
+use crate::{
+    rig::Rig,
+    step::Noise,
+    tank::{lattice, resting},
+    twin::wrench,
+};
+use glam::{DQuat, DVec3};
+use riprap::{
+    block::{Form, Polyhedron, Shape},
+    bodies::Pose,
+    particles::{Body, Neighbours, Particles, Scheme, Setup, Side, Water},
+};
+use std::{f64::consts::PI, sync::Arc};
+
+const VISCOSITY: f64 = 0.02;
+
+struct Twin<'a> {
+    setup: &'a Setup,
+    poses: &'a [Pose],
+}
+
+impl Twin<'_> {
+    /// Support of the kernels.
+    fn reach(&self) -> f64 {
+        2.0 * self.setup.smoothing * self.setup.spacing
+    }
+
+    fn mass(&self) -> f64 {
+        let power = if self.setup.plane { 2 } else { 3 };
+        self.setup.density * self.setup.spacing.powi(power)
+    }
+
+    fn poly6(&self, r: f64) -> f64 {
+        let h = self.reach();
+        let scale = match self.setup.plane {
+            true => 4.0 / (PI * h.powi(8)),
+            false => 315.0 / (64.0 * PI * h.powi(9)),
+        };
+        scale * (h * h - r * r).max(0.0).powi(3)
+    }
+
+    /// Gradient of the spiky function and Laplacian of that for viscosity.
+    fn spiky(&self, r: DVec3) -> (DVec3, f64) {
+        let (h, d) = (self.reach(), r.length());
+        if d >= h || d == 0.0 {
+            return (DVec3::ZERO, 0.0);
+        }
+        let [gradient, laplacian] = match self.setup.plane {
+            true => [30.0 / (PI * h.powi(5)), 40.0 / (PI * h.powi(5))],
+            false => [45.0 / (PI * h.powi(6)); 2],
+        };
+        (-gradient * (h - d).powi(2) * r / d, laplacian * (h - d))
+    }
+
+    /// Acceleration by the springs of a body: frequency c/(2Δx), half of critical damping.
+    fn penalty(&self, body: usize, x: DVec3, v: DVec3) -> DVec3 {
+        let (pose, Some(shape)) = (&self.poses[body], &self.setup.bodies[body].shape) else {
+            return DVec3::ZERO;
+        };
+        let place = pose.deformation.transpose() * (x - pose.centre);
+        let mut sum = DVec3::ZERO;
+        for part in shape.parts() {
+            let Form::Convex(polyhedron) = &part.form else {
+                panic!("a sphere")
+            };
+            let height =
+                |n: &riprap::block::HalfSpace| n.normal.dot(place - part.offset) - n.distance;
+            let face = polyhedron
+                .faces()
+                .iter()
+                .max_by(|a, b| height(a).total_cmp(&height(b)))
+                .unwrap();
+            if height(face) < 0.0 {
+                let n = pose.deformation * face.normal;
+                let relative = v - pose.point_velocity(place);
+                let omega = 0.5 * self.setup.sound_speed / self.setup.spacing;
+                let push = -omega.powi(2) * height(face) - omega * relative.dot(n);
+                sum += push.max(0.0) * n;
+            }
+        }
+        sum
+    }
+
+    /// Velocities after `dt`, and the force of each particle on the body.
+    fn step(&self, water: &Water, body: usize, dt: f64) -> (Vec<DVec3>, Vec<f64>, Vec<DVec3>) {
+        let (m, c2) = (self.mass(), self.setup.sound_speed.powi(2));
+        let x = &water.positions;
+        let v: Vec<DVec3> = water.velocities.iter().map(|v| v.as_dvec3()).collect();
+        let rho: Vec<f64> = x
+            .iter()
+            .map(|a| x.iter().map(|b| m * self.poly6((*a - *b).length())).sum())
+            .collect();
+        let p = |n: usize| c2 * (rho[n] - self.setup.density);
+        let (mut fresh, mut forces) = (Vec::new(), Vec::new());
+        for i in 0..x.len() {
+            let mut f = DVec3::ZERO;
+            for j in 0..x.len() {
+                let (gradient, laplacian) = self.spiky(x[i] - x[j]);
+                f -= m * (p(i) + p(j)) / (2.0 * rho[j]) * gradient;
+                f += self.setup.density * VISCOSITY * m * (v[j] - v[i]) / rho[j] * laplacian;
+            }
+            let mut a = f / rho[i] + self.setup.gravity;
+            for other in 0..self.poses.len() {
+                a += self.penalty(other, x[i], v[i]);
+            }
+            fresh.push(v[i] + a * dt);
+            forces.push(-m * self.penalty(body, x[i], v[i]));
+        }
+        (fresh, rho, forces)
+    }
+}
+
+fn check(plane: bool) {
+    let spacing = 0.1;
+    let size = if plane {
+        DVec3::new(1.2, 0.4, 1.0)
+    } else {
+        DVec3::new(0.9, 0.9, 0.8)
+    };
+    let middle = 0.5 * size;
+    let half = if plane {
+        DVec3::new(0.2, 0.4, 0.15)
+    } else {
+        DVec3::splat(0.17)
+    };
+    let cube = |half: DVec3| Arc::new(Shape::from(Polyhedron::cuboid(2.0 * half).unwrap()));
+    let mut noise = Noise(11);
+    let setup = |neighbours| {
+        let mut setup = Setup::tank(size, spacing, 20.0);
+        setup.plane = plane;
+        setup.smoothing = 1.3;
+        setup.neighbours = neighbours;
+        setup.scheme = Scheme::Mueller {
+            viscosity: VISCOSITY,
+        };
+        setup.faces[2][1] = Side::Open;
+        let body = |half, loaded| Body {
+            shape: Some(cube(half)),
+            moves: loaded,
+            loaded,
+            ..Body::default()
+        };
+        setup.bodies = vec![
+            body(0.5 * size + DVec3::splat(0.3), false),
+            body(half, true),
+        ];
+        setup
+    };
+    // The floor is the upper face of a box below the tank.
+    let floor = resting(DVec3::new(middle.x, middle.y, -0.5 * size.z - 0.3));
+    let block = Pose::rigid(
+        middle,
+        DQuat::from_rotation_y(0.3),
+        DVec3::new(0.4, 0.0, -0.1),
+        DVec3::new(0.0, 0.6, 0.0),
+    );
+    let poses = [floor, block];
+    let cells = (size / spacing).round().to_array().map(|n| n as i32);
+    let one = setup(Neighbours::Cells);
+    let positions: Vec<DVec3> = lattice(&one, [0; 3], [cells[0], cells[1], cells[2] - 2])
+        .into_iter()
+        .map(|x| x + 0.03 * noise.vector(plane) - 0.05 * DVec3::Z)
+        .collect();
+    let velocities: Vec<DVec3> = positions
+        .iter()
+        .map(|_| 0.5 * noise.vector(plane))
+        .collect();
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+        let setup = setup(neighbours);
+        let pressures = vec![0.0; positions.len()];
+        let mut particles = Particles::new(
+            device,
+            queue,
+            setup.clone(),
+            &positions,
+            &velocities,
+            &pressures,
+        )
+        .unwrap();
+        let before = rig.wait(particles.water(device, queue)).unwrap();
+        let dt = 0.5 * particles.limit();
+        let done = rig
+            .wait(particles.advance(device, queue, &poses, dt))
+            .unwrap();
+        assert_eq!(done.steps, 1);
+        let after = rig.wait(particles.water(device, queue)).unwrap();
+        let twin = Twin {
+            setup: &setup,
+            poses: &poses,
+        };
+        let (fresh, rho, forces) = twin.step(&before, 1, dt);
+        let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+        for n in 0..after.len() {
+            dv = dv.max((after.velocities[n].as_dvec3() - fresh[n]).length());
+            most = most.max((fresh[n] - before.velocities[n].as_dvec3()).length());
+            drho = drho.max((after.densities[n] - rho[n]).abs());
+            let way = before.positions[n] + fresh[n] * dt;
+            dx = dx.max((after.positions[n] - way).length());
+        }
+        let levers: Vec<DVec3> = before.positions.iter().map(|x| *x - block.centre).collect();
+        let width = if plane { size.y } else { 1.0 };
+        let (force, moment) = wrench(&forces, &levers);
+        let load = done.loads[1];
+        let scale: f64 = forces.iter().map(|f| width * f.length()).sum();
+        println!(
+            "dv {dv:.1e} of {most:.1e}, drho {drho:.1e}, dx {dx:.1e}, {} {}",
+            load.force,
+            width * force
+        );
+        assert!(scale > 0.0, "the block meets water");
+        assert!(dv < 1e-5 * most && drho < 1e-2 && dx < 1e-5 * spacing);
+        assert!((load.force - width * force).length() < 1e-4 * scale);
+        let miss = (load.moment - width * moment).to_cols_array();
+        let worst = miss.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        assert!(worst < 1e-4 * scale * 0.2, "{worst}");
+    }
+}
+
+#[test]
+fn a_step_in_a_plane() {
+    check(true);
+}
+
+#[test]
+fn a_step_in_space() {
+    check(false);
+}

@@ -1,0 +1,263 @@
+//! A step of the device against its twin.
+
+use crate::{
+    rig::Rig,
+    tank::{lattice, resting, walls},
+    twin::{Dummy, Twin, Wet, wrench},
+};
+use glam::{DMat3, DQuat, DVec3};
+use riprap::{
+    bodies::Pose,
+    particles::{Body, Neighbours, Particles, Setup, Side, StateEquation},
+};
+
+/// Numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
+pub struct Noise(pub u64);
+
+impl Noise {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    pub fn vector(&mut self, plane: bool) -> DVec3 {
+        let v = DVec3::new(self.number(), self.number(), self.number());
+        if plane { DVec3::new(v.x, 0.0, v.z) } else { v }
+    }
+}
+
+fn base(plane: bool, periodic: bool) -> Setup {
+    let spacing = 0.1;
+    let size = if plane {
+        DVec3::new(1.3, 0.7, 1.1)
+    } else {
+        DVec3::new(1.3, 1.3, 0.9)
+    };
+    let mut setup = Setup::tank(size, spacing, 20.0);
+    setup.origin = DVec3::new(-3.0, 0.2, 5.0);
+    setup.plane = plane;
+    setup.smoothing = if plane { 1.7 } else { 1.5 };
+    if periodic {
+        setup.faces[0] = [Side::Periodic; 2];
+        if !plane {
+            setup.faces[1] = [Side::Periodic; 2];
+        }
+    }
+    setup.faces[2][1] = Side::Open;
+    setup
+}
+
+/// A turned body of dummy particles in disturbed water, and the walls: one step, everything compared.
+fn check(setup: Setup) {
+    for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+        check_with(Setup {
+            neighbours,
+            ..setup.clone()
+        });
+    }
+}
+
+fn check_with(setup: Setup) {
+    let plane = setup.plane;
+    let mut setup = setup;
+    let mut noise = Noise(7);
+    let middle = setup.origin + 0.5 * setup.size;
+    let pose = Pose {
+        centre: middle,
+        ..Pose::rigid(
+            middle,
+            DQuat::from_rotation_y(0.4),
+            DVec3::new(0.3, 0.0, -0.2),
+            DVec3::new(0.0, 0.5, 0.0),
+        )
+    };
+    let mut block = Vec::new();
+    for k in -1..2 {
+        for i in -1..2 {
+            for j in if plane { 0..1 } else { -1..2 } {
+                block.push(0.1 * DVec3::new(f64::from(i), f64::from(j), f64::from(k)));
+            }
+        }
+    }
+    let fixed = walls(&setup);
+    setup.bodies = vec![
+        fixed,
+        Body {
+            shell: block.clone(),
+            moves: true,
+            loaded: true,
+            ..Body::default()
+        },
+    ];
+    let cells = (setup.size / setup.spacing)
+        .round()
+        .to_array()
+        .map(|n| n as i32);
+    let mut places = lattice(&setup, [0; 3], [cells[0], cells[1], cells[2] - 2]);
+    places.retain(|x| (*x - middle).abs().max_element() > 0.3 || noise.number() > 0.9);
+    let positions: Vec<DVec3> = places
+        .iter()
+        .map(|x| *x + 0.01 * noise.vector(plane))
+        .collect();
+    let velocities: Vec<DVec3> = places.iter().map(|_| 0.5 * noise.vector(plane)).collect();
+    let pressures: Vec<f64> = places
+        .iter()
+        .map(|x| 9810.0 * (setup.origin.z + setup.size.z - x.z) + 500.0 * noise.number())
+        .collect();
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut particles = Particles::new(
+        device,
+        queue,
+        setup.clone(),
+        &positions,
+        &velocities,
+        &pressures,
+    )
+    .unwrap();
+    let before = rig.wait(particles.water(device, queue)).unwrap();
+    assert_eq!(before.len(), positions.len());
+    let water: Vec<Wet> = (0..before.len())
+        .map(|n| Wet {
+            x: before.positions[n],
+            v: before.velocities[n].as_dvec3(),
+            rho: before.densities[n],
+        })
+        .collect();
+    let poses = [resting(DVec3::ZERO), pose];
+    let mut dummies: Vec<Dummy> = setup.bodies[0]
+        .shell
+        .iter()
+        .map(|x| Dummy {
+            x: *x,
+            v: DVec3::ZERO,
+            a: DVec3::ZERO,
+        })
+        .collect();
+    let first = dummies.len();
+    dummies.extend(block.iter().map(|x| Dummy {
+        x: pose.point(*x),
+        v: pose.point_velocity(*x),
+        a: DVec3::ZERO,
+    }));
+    let dt = 0.9 * particles.limit();
+    let done = rig
+        .wait(particles.advance(device, queue, &poses, dt))
+        .unwrap();
+    assert_eq!(done.steps, 1);
+    let after = rig.wait(particles.water(device, queue)).unwrap();
+    let exact = Twin(&setup).step(&water, &dummies, dt);
+    let change = |a: f64, b: f64| (a - b).abs();
+    let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, [0.0f64; 2]);
+    for n in 0..after.len() {
+        dv = dv.max((after.velocities[n].as_dvec3() - exact.water[n].v).length());
+        drho = drho.max(change(after.densities[n], exact.water[n].rho));
+        let mut miss = after.positions[n] - exact.water[n].x;
+        for axis in 0..3 {
+            miss[axis] -= setup.size[axis] * (miss[axis] / setup.size[axis]).round();
+        }
+        dx = dx.max(miss.length());
+        most[0] = most[0].max((exact.water[n].v - water[n].v).length());
+        most[1] = most[1].max(change(exact.water[n].rho, water[n].rho));
+    }
+    let limit = particles.limit();
+    let levers: Vec<DVec3> = block.iter().map(|x| pose.deformation * *x).collect();
+    let width = if plane { setup.size.y } else { 1.0 };
+    let (force, moment) = wrench(&exact.forces[first..], &levers);
+    let (force, moment) = (width * force, moment * width);
+    let load = done.loads[1];
+    println!(
+        "dv {dv:.2e} of {:.2e}, drho {drho:.2e} of {:.2e}, dx {dx:.2e}, limit {limit:.6e} {:.6e}, force {} {force}",
+        most[0], most[1], exact.limit, load.force
+    );
+    // Sums of a hundred pushes in f32, each rounded at 6e-8 of itself; they cancel to a tenth.
+    assert!(dv < 2e-6 * most[0].max(setup.sound_speed * 1e-2), "{dv}");
+    assert!(drho < 1e-5 * most[1], "{drho}");
+    assert!(dx < 1e-6 * setup.spacing, "{dx}");
+    assert!(change(limit, exact.limit) < 1e-5 * exact.limit);
+    let scale: f64 = exact.forces[first..]
+        .iter()
+        .map(|f| width * f.length())
+        .sum();
+    assert!((load.force - force).length() < 1e-5 * scale);
+    let miss = load.moment - moment;
+    let worst = miss
+        .to_cols_array()
+        .into_iter()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    assert!(worst < 1e-5 * scale * 0.2, "{worst}");
+    assert_eq!(done.loads[0].moment, DMat3::ZERO);
+}
+
+#[test]
+fn in_space() {
+    check(base(false, false));
+}
+
+#[test]
+fn in_space_periodic() {
+    check(base(false, true));
+}
+
+#[test]
+fn in_a_plane() {
+    check(base(true, false));
+}
+
+#[test]
+fn in_a_plane_periodic() {
+    check(base(true, true));
+}
+
+#[test]
+fn with_the_state_equation_of_tait() {
+    let mut setup = base(true, false);
+    setup.state = StateEquation::Tait;
+    check(setup);
+}
+
+#[test]
+fn lists_grow_where_water_is_squeezed() {
+    // Three times as many particles as the lattice has, without a push of their own.
+    let mut setup = base(true, false);
+    setup.neighbours = Neighbours::Lists;
+    setup.bodies = vec![walls(&setup)];
+    let places = lattice(&setup, [0; 3], [13, 1, 9]);
+    let mut noise = Noise(3);
+    let positions: Vec<DVec3> = (0..3)
+        .flat_map(|_| {
+            places
+                .iter()
+                .map(|x| *x + 0.03 * noise.vector(true))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let still = vec![DVec3::ZERO; positions.len()];
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut ends = Vec::new();
+    for neighbours in [Neighbours::Lists, Neighbours::Cells] {
+        let setup = Setup {
+            neighbours,
+            ..setup.clone()
+        };
+        let pressures = vec![0.0; positions.len()];
+        let mut particles =
+            Particles::new(device, queue, setup, &positions, &still, &pressures).unwrap();
+        let poses = [resting(DVec3::ZERO)];
+        let time = 0.9 * particles.limit();
+        let done = rig
+            .wait(particles.advance(device, queue, &poses, time))
+            .unwrap();
+        assert_eq!(done.steps, 1);
+        ends.push(rig.wait(particles.water(device, queue)).unwrap());
+    }
+    let [lists, cells] = [&ends[0], &ends[1]];
+    for n in 0..lists.len() {
+        assert!((lists.velocities[n] - cells.velocities[n]).length() < 1e-5);
+        assert!((lists.densities[n] - cells.densities[n]).abs() < 1e-3);
+    }
+}

@@ -1,0 +1,34 @@
+//! Water at rest stays at rest.
+
+use crate::tank::{Tank, lattice, resting, walls};
+use glam::DVec3;
+use riprap::particles::{Setup, Side};
+
+#[test]
+fn a_still_tank_stays_still() {
+    let (depth, n) = (1.0, 20);
+    let spacing = depth / f64::from(n);
+    let mut setup = Setup::tank(DVec3::new(1.0, spacing, 1.5), spacing, 10.0 * 4.43);
+    setup.plane = true;
+    setup.faces[2][1] = Side::Open;
+    setup.bodies = vec![walls(&setup)];
+    let water = lattice(&setup, [0, 0, 0], [20, 1, n]);
+    let hydrostatic = |x: DVec3| 1000.0 * 9.81 * (depth - x.z);
+    let mut tank = Tank::new(setup, vec![resting(DVec3::ZERO)], &water, hydrostatic);
+    let scale = (9.81f64 * depth).sqrt();
+    // After a few passages of waves what the start had wrong is damped away.
+    tank.advance(10.0 * depth / scale);
+    let water = tank.water();
+    let (mut error, mut norm, mut speed) = (0.0, 0.0, 0.0);
+    for n in 0..water.len() {
+        let exact = hydrostatic(water.positions[n]);
+        error += (water.pressures[n] - exact).powi(2);
+        norm += exact * exact;
+        speed += f64::from(water.velocities[n].length_squared());
+    }
+    let rms = (speed / water.len() as f64).sqrt() / scale;
+    let error = f64::sqrt(error / norm);
+    println!("L2(p) {error:.4}, u_rms {rms:.2e} of the speed of waves");
+    assert!(error < 0.02 && rms < 0.002, "{error} {rms}");
+    assert_eq!(water.len(), 400);
+}

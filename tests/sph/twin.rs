@@ -1,0 +1,197 @@
+//! A step of the scheme in f64 and SI units, each particle with each other: Wendland C2; momentum with artificial
+//! viscosity from the old state, continuity with diffusion and the way with the new velocity; dummy particles with
+//! the pressure of the water before them.
+
+use glam::{DMat3, DVec3};
+use riprap::particles::{Setup, Side, StateEquation};
+use std::f64::consts::PI;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Wet {
+    pub x: DVec3,
+    pub v: DVec3,
+    pub rho: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Dummy {
+    pub x: DVec3,
+    pub v: DVec3,
+    /// Acceleration of the wall.
+    pub a: DVec3,
+}
+
+pub struct Outcome {
+    pub water: Vec<Wet>,
+    /// Force on each dummy particle.
+    pub forces: Vec<DVec3>,
+    /// Longest next step.
+    pub limit: f64,
+}
+
+pub struct Twin<'a>(pub &'a Setup);
+
+impl Twin<'_> {
+    fn h(&self) -> f64 {
+        self.0.smoothing * self.0.spacing
+    }
+
+    /// Normalisation in a plane per width.
+    fn alpha(&self) -> f64 {
+        let h = self.h();
+        if self.0.plane {
+            7.0 / (4.0 * PI * h * h)
+        } else {
+            21.0 / (16.0 * PI * h * h * h)
+        }
+    }
+
+    pub fn w(&self, r: f64) -> f64 {
+        let q = r / self.h();
+        if q >= 2.0 {
+            0.0
+        } else {
+            self.alpha() * (1.0 - q / 2.0).powi(4) * (1.0 + 2.0 * q)
+        }
+    }
+
+    /// ∇W at the end of r.
+    fn gradient(&self, r: DVec3) -> DVec3 {
+        let (d, h) = (r.length(), self.h());
+        let q = d / h;
+        if q >= 2.0 || d == 0.0 {
+            return DVec3::ZERO;
+        }
+        let slope = self.alpha() / h
+            * (-2.0 * (1.0 - q / 2.0).powi(3) * (1.0 + 2.0 * q) + 2.0 * (1.0 - q / 2.0).powi(4));
+        slope * r / d
+    }
+
+    /// From the nearest image of b to a.
+    fn between(&self, a: DVec3, b: DVec3) -> DVec3 {
+        let mut r = a - b;
+        for axis in 0..3 {
+            if self.0.faces[axis][0] == Side::Periodic && !(self.0.plane && axis == 1) {
+                r[axis] -= self.0.size[axis] * (r[axis] / self.0.size[axis]).round();
+            }
+        }
+        r
+    }
+
+    fn pressure(&self, rho: f64) -> f64 {
+        let c2 = self.0.sound_speed.powi(2);
+        match self.0.state {
+            StateEquation::Linear => c2 * (rho - self.0.density),
+            StateEquation::Tait => {
+                self.0.density * c2 / 7.0 * ((rho / self.0.density).powi(7) - 1.0)
+            }
+        }
+    }
+
+    fn density(&self, p: f64) -> f64 {
+        let c2 = self.0.sound_speed.powi(2);
+        match self.0.state {
+            StateEquation::Linear => self.0.density + p / c2,
+            StateEquation::Tait => {
+                self.0.density * (1.0 + 7.0 * p / (self.0.density * c2)).powf(1.0 / 7.0)
+            }
+        }
+    }
+
+    /// Mass, per width in a plane.
+    fn mass(&self) -> f64 {
+        self.0.density * self.0.spacing.powi(if self.0.plane { 2 } else { 3 })
+    }
+
+    pub fn wall_pressure(&self, water: &[Wet], wall: &Dummy) -> f64 {
+        let (mut above, mut below) = (0.0, 0.0);
+        for f in water {
+            let r = self.between(wall.x, f.x);
+            let w = self.w(r.length());
+            above += w * (self.pressure(f.rho) + f.rho * (self.0.gravity - wall.a).dot(r));
+            below += w;
+        }
+        if below > 0.0 {
+            (above / below).max(0.0)
+        } else {
+            0.0
+        }
+    }
+
+    pub fn step(&self, water: &[Wet], walls: &[Dummy], dt: f64) -> Outcome {
+        let (m, h, c) = (self.mass(), self.h(), self.0.sound_speed);
+        let pressures: Vec<f64> = walls.iter().map(|w| self.wall_pressure(water, w)).collect();
+        let mut forces = vec![DVec3::ZERO; walls.len()];
+        let (mut fresh, mut limit) = (Vec::new(), f64::INFINITY);
+        for i in water {
+            let (mut a, mut steepest) = (self.0.gravity, 0.0f64);
+            for j in water {
+                let r = self.between(i.x, j.x);
+                if r.length() >= 2.0 * h {
+                    continue;
+                }
+                let vr = (i.v - j.v).dot(r);
+                let mu = h * vr / (r.length_squared() + 0.01 * h * h);
+                steepest = steepest.max(mu.abs());
+                let pi = match vr < 0.0 {
+                    true => -self.0.artificial_viscosity * c * mu / (0.5 * (i.rho + j.rho)),
+                    false => 0.0,
+                };
+                let push = (self.pressure(i.rho) + self.pressure(j.rho)) / (i.rho * j.rho) + pi;
+                a -= m * push * self.gradient(r);
+            }
+            for (k, w) in walls.iter().enumerate() {
+                let rho = self.density(pressures[k]);
+                let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
+                let pull = m * push * self.gradient(self.between(i.x, w.x));
+                a -= pull;
+                forces[k] += m * pull;
+            }
+            let v = i.v + a * dt;
+            let by_force = (h / a.length()).sqrt();
+            let by_sound = h / (c.max(10.0 * v.length()) + steepest);
+            limit = limit.min(self.0.courant * by_force.min(by_sound));
+            fresh.push(v);
+        }
+        let mut out = Vec::new();
+        for (n, i) in water.iter().enumerate() {
+            let mut rate = 0.0;
+            for (k, j) in water.iter().enumerate() {
+                let r = self.between(i.x, j.x);
+                let (volume, gradient) = (m / j.rho, self.gradient(r));
+                rate += i.rho * volume * (fresh[n] - fresh[k]).dot(gradient);
+                if r.length() > 0.0 {
+                    // What the density of still water at j has more than at i.
+                    let still = -self.0.density * self.0.gravity.dot(r) / (c * c);
+                    let excess = j.rho - i.rho - still;
+                    let flux = 2.0 * excess * (-r).dot(gradient) / r.length_squared();
+                    rate += self.0.density_diffusion * h * c * volume * flux;
+                }
+            }
+            for w in walls {
+                let gradient = self.gradient(self.between(i.x, w.x));
+                let volume = m / self.0.density;
+                rate += i.rho * volume * (fresh[n] - w.v).dot(gradient);
+            }
+            out.push(Wet {
+                x: i.x + fresh[n] * dt,
+                v: fresh[n],
+                rho: i.rho + rate * dt,
+            });
+        }
+        Outcome {
+            water: out,
+            forces,
+            limit,
+        }
+    }
+}
+
+/// Force and Σ f ⊗ r of forces at places.
+pub fn wrench(forces: &[DVec3], levers: &[DVec3]) -> (DVec3, DMat3) {
+    let mut moment = DMat3::ZERO;
+    for (f, r) in forces.iter().zip(levers) {
+        moment += DMat3::from_cols(*f * r.x, *f * r.y, *f * r.z);
+    }
+    (forces.iter().copied().sum(), moment)
+}

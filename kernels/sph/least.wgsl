@@ -1,4 +1,5 @@
-// The longest step that all particles of each run of 64 allow; by itself, from many runs to few.
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, the way up: the longest step that all particles of
+// each run of 64 allow.
 // needs invocation
 
 @group(0) @binding(0) var<storage, read> limits: array<vec4<f32>>;

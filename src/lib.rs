@@ -9,7 +9,8 @@
 //! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
 //! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
 //! [`bodies`] (all of it, a step) → [`safety`] (how far from moving). What water does to it and it to water is
-//! [`immersed`].
+//! [`immersed`]; water with a free surface is [`particles`], on the same blocks, and
+//! [`simulation::FreeSurface`] its loop.
 //!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
 //! adapter, reads no environment, never blocks and does not panic on input.

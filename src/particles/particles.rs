@@ -204,8 +204,9 @@ impl Particles {
         }
     }
 
-    /// Sets the time and the places of the bodies for an exchange of `time` (s).
-    fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) {
+    /// Sets the time and the places of the bodies for an exchange of `time` (s), of which the steps are then
+    /// recorded: [`Particles::advance`] does all of it.
+    pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) {
         let motions: Vec<Motion> = self
             .order
             .iter()
@@ -267,8 +268,11 @@ impl Particles {
         Ok(())
     }
 
-    /// Records a step of the exchange; one that is over does nothing.
-    fn record(&mut self, encoder: &mut wgpu::CommandEncoder) {
+    /// Records a step of the exchange into the caller's encoder; one that is over does nothing. A list of neighbours
+    /// that has no room stops the exchange, which [`Particles::advance`] mends; with [`Neighbours::Cells`] there are no lists.
+    ///
+    /// [`Neighbours::Cells`]: super::Neighbours::Cells
+    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let moves = self.setup.bodies.iter().any(|body| body.moves);
         if moves || !self.placed {
             self.kernels.record_shells(encoder);
@@ -412,6 +416,16 @@ impl Particles {
         self.before.clone_from(&state.before);
         self.placed = false;
         Ok(())
+    }
+
+    /// The [`Particle`]s on the device, in no order; what has left has a negative place.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.kernels.water.unsorted
+    }
+
+    /// Their [`Clock`] on the device.
+    pub fn clock(&self) -> &wgpu::Buffer {
+        &self.kernels.clock
     }
 
     /// The setup.

@@ -8,15 +8,15 @@
 #[path = "../harness/src/gpu.rs"]
 mod gpu;
 
+#[allow(dead_code)]
+#[path = "../harness/src/bench/tank.rs"]
+mod tank;
+
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
-use glam::{DMat3, DVec3};
-use riprap::{
-    bodies::Pose,
-    particles::{Body, Neighbours, Particles, Setup, Side},
-    wgpu,
-};
+use riprap::{particles::Neighbours, wgpu};
 use std::time::{Duration, Instant};
+use tank::Tank;
 
 /// Particles along an edge.
 const EDGES: [u32; 2] = [20, 40];
@@ -65,126 +65,44 @@ fn bench(
 ) -> Result<String, riprap::Error> {
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
-    let (mut setup, positions) = tank(edge);
-    if software {
-        setup.neighbours = Neighbours::Lists;
-    }
-    let pressures: Vec<f64> = positions
-        .iter()
-        .map(|x| setup.density * 9.81 * (setup.size.z - x.z))
-        .collect();
-    let still = vec![DVec3::ZERO; positions.len()];
-    let mut particles = Particles::new(
-        &device,
-        &queue,
-        setup.clone(),
-        &positions,
-        &still,
-        &pressures,
-    )?;
-    let pose = Pose {
-        centre: DVec3::ZERO,
-        deformation: DMat3::IDENTITY,
-        velocity: DVec3::ZERO,
-        deformation_rate: DMat3::ZERO,
+    let neighbours = if software {
+        Neighbours::Lists
+    } else {
+        Neighbours::Cells
     };
-    let (water, walls) = pairs(&setup, &positions);
+    let mut tank = Tank::fill(&device, &queue, edge, neighbours)?;
+    let count = tank.count;
     let mut best = f64::INFINITY;
     let mut group = criterion.benchmark_group("particles");
-    group.throughput(Throughput::Elements(
-        positions.len() as u64 * u64::from(STEPS),
-    ));
-    group.bench_function(
-        BenchmarkId::new(positions.len().to_string(), name),
-        |bencher| {
-            bencher.iter_custom(|iterations| {
-                let mut total = 0.0;
-                for _ in 0..iterations {
-                    let (cpu, wall) = (ProcessTime::now(), Instant::now());
-                    let time = particles.limit() * f64::from(STEPS) * 0.999;
-                    let poses = [pose];
-                    let done = particles.advance(&device, &queue, &poses, time);
-                    let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
-                    let steps = match done {
-                        Ok(Ok(done)) => f64::from(done.steps),
-                        Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
-                    };
-                    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-                    let spent = match software {
-                        true => cpu.elapsed().as_secs_f64() / cores as f64,
-                        false => wall.elapsed().as_secs_f64(),
-                    };
-                    best = best.min(spent / steps);
-                    total += spent / steps * f64::from(STEPS);
-                }
-                Duration::from_secs_f64(total).max(Duration::from_nanos(1))
-            });
-        },
-    );
+    group.throughput(Throughput::Elements(count as u64 * u64::from(STEPS)));
+    group.bench_function(BenchmarkId::new(count.to_string(), name), |bencher| {
+        bencher.iter_custom(|iterations| {
+            let mut total = 0.0;
+            for _ in 0..iterations {
+                let (cpu, wall) = (ProcessTime::now(), Instant::now());
+                let done = tank.advance(&device, &queue, STEPS);
+                let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
+                let steps = match done {
+                    Ok(Ok(steps)) => f64::from(steps),
+                    Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
+                };
+                let cores = std::thread::available_parallelism().map_or(1, usize::from);
+                let spent = match software {
+                    true => cpu.elapsed().as_secs_f64() / cores as f64,
+                    false => wall.elapsed().as_secs_f64(),
+                };
+                best = best.min(spent / steps);
+                total += spent / steps * f64::from(STEPS);
+            }
+            Duration::from_secs_f64(total).max(Duration::from_nanos(1))
+        });
+    });
     group.finish();
-    // Momentum and continuity each meet all pairs, the pressure of walls theirs.
-    let met = 2.0 * water + 3.0 * walls;
     Ok(format!(
-        "{:>9} particles, {:>5.1} neighbours: {:>8.2} ms a step, {:>7.2} million particles/s, {:>9.1} million pairs/s on {name}",
-        positions.len(),
-        (water + walls) / positions.len() as f64,
+        "{count:>9} particles, {:>5.1} neighbours: {:>8.2} ms a step, {:>7.2} million particles/s, {:>9.1} million pairs/s on {name}",
+        tank.neighbours,
         1e3 * best,
-        positions.len() as f64 / best / 1e6,
-        met / best / 1e6,
+        count as f64 / best / 1e6,
+        tank.pairs / best / 1e6,
     ))
-}
-
-/// A cube of water, `edge` particles long, in a tank that it fills, open above.
-fn tank(edge: u32) -> (Setup, Vec<DVec3>) {
-    let spacing = 1.0 / f64::from(edge);
-    let mut setup = Setup::tank(DVec3::ONE, spacing, 45.0);
-    setup.faces[2][1] = Side::Open;
-    let layers = setup.layers() as i32;
-    let (mut shell, mut water) = (Vec::new(), Vec::new());
-    let edge = edge as i32;
-    for k in -layers..edge {
-        for j in -layers..edge + layers {
-            for i in -layers..edge + layers {
-                let place = spacing * (DVec3::new(i.into(), j.into(), k.into()) + 0.5);
-                let inside = [i, j, k].iter().all(|n| (0..edge).contains(n));
-                if inside { &mut water } else { &mut shell }.push(place);
-            }
-        }
-    }
-    setup.bodies = vec![Body {
-        shell,
-        ..Body::default()
-    }];
-    (setup, water)
-}
-
-/// Pairs of water with water and of water with walls, of particles on the lattice, each for its end in the water.
-fn pairs(setup: &Setup, positions: &[DVec3]) -> (f64, f64) {
-    let reach = (2.0 * setup.smoothing).ceil() as i32;
-    let mut offsets = Vec::new();
-    for k in -reach..=reach {
-        for j in -reach..=reach {
-            for i in -reach..=reach {
-                let r = DVec3::new(i.into(), j.into(), k.into());
-                if r.length_squared() < 4.0 * setup.smoothing.powi(2) && (i, j, k) != (0, 0, 0) {
-                    offsets.push(r * setup.spacing);
-                }
-            }
-        }
-    }
-    let (mut water, mut walls) = (0.0, 0.0);
-    for x in positions {
-        for offset in &offsets {
-            let y = *x + *offset;
-            let inside = y.cmpge(DVec3::ZERO).all() && y.cmplt(setup.size).all();
-            *if inside {
-                &mut water
-            } else if y.z < setup.size.z {
-                &mut walls
-            } else {
-                continue;
-            } += 1.0;
-        }
-    }
-    (water, walls)
 }

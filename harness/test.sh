@@ -16,6 +16,6 @@ else
 fi
 cargo test --quiet --workspace --doc
 # Both runners have built them.
-for example in embed own_kernel dry_blocks own_broadphase own_bodies; do
+for example in embed own_kernel dry_blocks own_broadphase own_bodies own_water; do
     "${CARGO_TARGET_DIR:-target}/debug/examples/$example"
 done

@@ -1,5 +1,5 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
-//! blocks meet and move.
+//! blocks meet and move, and particles of water.
 
 mod clock;
 mod copy;
@@ -8,8 +8,10 @@ mod group;
 mod report;
 pub mod rock;
 mod subject;
+mod tank;
 mod targets;
 mod variant;
+mod water;
 
 pub use copy::copy_bandwidth;
 pub use report::Machine;
@@ -30,13 +32,13 @@ pub struct Args {
     /// Adapter whose description contains NAME [default: the first of `riprap adapters`]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-    /// Only one part [default: both]
+    /// Only one part [default: all]
     #[arg(long, value_name = "PART")]
     pub only: Option<Part>,
     /// Only the main kernels, on 64³ cells, and at most 1000 blocks, for a short time
     #[arg(long)]
     pub quick: bool,
-    /// Piles of up to 100 000 blocks; takes many minutes
+    /// Piles of up to 100 000 blocks and a million particles; takes many minutes
     #[arg(long, conflicts_with = "quick")]
     pub full: bool,
     /// Cells an axis; may be repeated [default: 64, 96, 128 and, where that takes seconds, 256]
@@ -55,14 +57,17 @@ pub enum Part {
     Fluid,
     /// The blocks.
     Rock,
+    /// The particles.
+    Water,
 }
 
-/// A result of either part: one object of the file.
+/// A result of a part: one object of the file.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Measured {
     Fluid(Row),
     Rock(rock::Row),
+    Water(water::Row),
 }
 
 /// Measures, prints a table as it goes, and writes the file.
@@ -89,20 +94,27 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         None => Machine::host(),
     };
     println!("{machine}");
+    let asked = |part| args.only.is_none_or(|only| only == part);
     let mut measured: Vec<Measured> = Vec::new();
     if let Some((_, device, queue)) = &device
-        && args.only != Some(Part::Rock)
+        && asked(Part::Fluid)
     {
         let rows = fluid(&args, &machine, device, queue)?;
         measured.extend(rows.into_iter().map(Measured::Fluid));
     }
-    if args.only != Some(Part::Fluid) {
+    if asked(Part::Rock) {
         let gpu = device
             .as_ref()
             .map(|(_, device, queue)| rock::Gpu { device, queue });
         let plan = rock::Plan::new(args.quick, args.full);
         let rows = rock::measure(&plan, gpu.as_ref(), &machine)?;
         measured.extend(rows.into_iter().map(Measured::Rock));
+    }
+    if let Some((_, device, queue)) = &device
+        && asked(Part::Water)
+    {
+        let rows = water::measure((args.quick, args.full), device, queue, &machine)?;
+        measured.extend(rows.into_iter().map(Measured::Water));
     }
     if let Some(path) = &args.json {
         let text = serde_json::to_string_pretty(&measured)?;

@@ -1,0 +1,88 @@
+//! A program with a wgpu device and an encoder of its own that has riprap compute free water.
+//!
+//! A column of water stands in a tank, behind nothing: it falls and runs along the floor. The steps go into this
+//! program's encoder, and the particles are read where riprap left them, in its units. After a while the front must
+//! be farther than water gets without pressure and nearer than √(2 g H) lets it be; otherwise the program fails.
+//!
+//! `cargo run --release -p riprap-harness --example own_water`
+
+use glam::{DMat3, DVec3};
+use riprap::{
+    bodies::Pose,
+    particles::{Body, Particles, Setup, Side},
+    readback::Readback,
+    wgpu,
+};
+use std::error::Error;
+
+#[allow(dead_code)] // The harness uses more of it.
+#[path = "../src/gpu.rs"]
+mod gpu;
+
+/// Distance of particles, m; the column is 10 wide and 20 high.
+const SPACING: f64 = 0.05;
+const COLUMN: [i32; 2] = [10, 20];
+/// Simulated time, s.
+const TIME: f64 = 0.3;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let adapter = gpu::pick(None)?;
+    let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits())?;
+
+    // Nothing varies along y. The floor and the wall behind the column are four layers of particles.
+    let mut setup = Setup::tank(DVec3::new(2.0, 0.1, 1.2), SPACING, 50.0);
+    setup.plane = true;
+    setup.faces[2][1] = Side::Open;
+    let point = |i: i32, k: i32| DVec3::new(f64::from(i) + 0.5, 1.0, f64::from(k) + 0.5) * SPACING;
+    let (mut water, mut wall) = (Vec::new(), Vec::new());
+    for k in -4..24 {
+        for i in -4..44 {
+            if i >= 0 && k >= 0 && i < COLUMN[0] && k < COLUMN[1] {
+                water.push(point(i, k));
+            } else if i < 0 || k < 0 {
+                wall.push(point(i, k));
+            }
+        }
+    }
+    setup.bodies = vec![Body {
+        shell: wall,
+        ..Body::default()
+    }];
+    let still = vec![DVec3::ZERO; water.len()];
+    let pressures: Vec<f64> = water.iter().map(|x| 9810.0 * (1.0 - x.z)).collect();
+    let mut particles = Particles::new(&device, &queue, setup, &water, &still, &pressures)?;
+    let place = Pose {
+        centre: DVec3::ZERO,
+        deformation: DMat3::IDENTITY,
+        velocity: DVec3::ZERO,
+        deformation_rate: DMat3::ZERO,
+    };
+
+    // As many steps as it may take: those after the end of the time do nothing.
+    particles.begin(&queue, &[place], TIME);
+    let most = (2.0 * TIME / particles.setup().acoustic_step()).ceil() as usize;
+    for _ in 0..most.div_ceil(50) {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        for _ in 0..50 {
+            particles.record(&mut encoder);
+        }
+        queue.submit([encoder.finish()]);
+    }
+    let patience = std::time::Duration::from_secs(120);
+    let mut readback = Readback::default();
+    let read = readback.read(&device, &queue, particles.buffer(), water.len());
+    let found: Vec<riprap::particles::Particle> =
+        gpu::drive(&device, patience, "the water", read)??;
+    let frame = particles.frame();
+    let there = found.iter().filter(|particle| particle.at[0] >= 0);
+    let front = there
+        .map(|particle| frame.position(particle.at).x)
+        .fold(0.0, f64::max);
+    let start = f64::from(COLUMN[0]) * SPACING;
+    println!("the front has run from {start:.2} to {front:.2} m in {TIME} s");
+    let fastest = start + TIME * (2.0 * 9.81 * 1.0f64).sqrt();
+    if front < start + 0.1 || front > fastest {
+        return Err(format!("it should be between {:.2} and {fastest:.2} m", start + 0.1).into());
+    }
+    Ok(())
+}

@@ -44,11 +44,7 @@ pub fn run(stand: &Stand) -> Outcome {
         let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
         let period = 2.0 * PI / omega;
         let spacing = DEPTH / f64::from(layers);
-        let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
-        if let Some(particles) = &mut scene.particles {
-            // Waves of a fiftieth of the depth are far slower than a fall through it.
-            particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
-        }
+        let scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
         let blocks = block_setup(&scene)?;
         let (mut setup, start) = particle_setup(&scene, &blocks)?;
         if stand.software {

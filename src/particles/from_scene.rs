@@ -54,13 +54,20 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let gravity = DVec3::from_array(
         [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0)),
     );
+    let fastest = largest_speed(scene, blocks, &start, gravity);
     let mut setup = Setup {
         origin: DVec3::from(scene.domain.origin),
         size: DVec3::from(scene.domain.size),
         faces: sides,
         spacing: particles.spacing,
         smoothing: particles.smoothing,
-        sound_speed: scene::Particles::SOUND * largest_speed(scene, blocks, &start, gravity),
+        sound_speed: match particles.scheme {
+            scene::Scheme::Delta => scene::Particles::SOUND * fastest,
+            scene::Scheme::Mueller => {
+                let usual = scene::Particles::STIFFNESS * fastest.powi(2);
+                particles.stiffness.unwrap_or(usual).sqrt()
+            }
+        },
         density: scene.fluid.density,
         gravity,
         artificial_viscosity: particles.artificial_viscosity,

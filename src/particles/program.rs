@@ -4,8 +4,8 @@ use super::{Frame, Neighbours, Scheme, Setup, StateEquation};
 use crate::link::Program;
 use std::f64::consts::PI;
 
-/// Storage buffers of the kernel that has the most of them, `drift` and `neighbours`.
-pub const MOST_BINDINGS: u32 = 7;
+/// Storage buffers of the kernel that has the most of them, `mueller_move` with lists.
+pub const MOST_BINDINGS: u32 = 8;
 
 /// Frequency of a particle on the spring of a wall, over that of sound across a spacing: half of what limits the
 /// step; it is damped to half of its critical damping.

@@ -24,6 +24,10 @@ pub struct Particles {
     /// after a fall through the height D of all water at the start, or the largest speed of water and
     /// blocks at the start if that is more.
     pub largest_speed: Option<f64>,
+    /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. Its authors give
+    /// none. Default 5 U², at which water is denser at the bottom of a tank by a tenth: the stiffer, the more the
+    /// surface pulls, where sums lack neighbours.
+    pub stiffness: Option<f64>,
     /// Artificial viscosity α (Monaghan 1992), no unit, from 0: a kinematic viscosity of
     /// α h c/10 in space and α h c/8 in a plane. Default 0.01.
     #[serde(default = "Particles::usual_viscosity")]
@@ -44,6 +48,9 @@ impl Particles {
     /// Speed of sound over the largest speed: density then varies by about a hundredth.
     pub const SOUND: f64 = 10.0;
 
+    /// Stiffness of the scheme `mueller` over the square of the largest speed.
+    pub const STIFFNESS: f64 = 5.0;
+
     /// Those of this spacing (m), the rest as it is by default.
     pub fn of(spacing: f64) -> Self {
         Self {
@@ -52,6 +59,7 @@ impl Particles {
             scheme: Scheme::default(),
             equation_of_state: EquationOfState::default(),
             largest_speed: None,
+            stiffness: None,
             artificial_viscosity: Self::usual_viscosity(),
             density_diffusion: Self::usual_diffusion(),
             courant: Self::usual_courant(),
@@ -94,7 +102,7 @@ pub enum Scheme {
     /// δ-SPH: continuity with diffusion of density, Wendland's C2 kernel, dummy particles in solids.
     #[default]
     Delta,
-    /// That of Geraili Mikola & Sitar (2014), to compare with: density by a sum, p = c² (ρ − ρ₀), the kernels of
+    /// That of Geraili Mikola & Sitar (2014), to compare with: density by a sum, p = k (ρ − ρ₀), the kernels of
     /// Müller, Charypar & Gross (2003), walls and blocks as damped springs. Still water does not come to rest with it.
     /// Viscous by `fluid.viscosity`, or where that is 0 by what `artificial_viscosity` amounts to.
     Mueller,

@@ -57,6 +57,23 @@ fn a_minimal_tank_has_the_documented_defaults() {
 }
 
 #[test]
+fn stiffness_belongs_to_the_scheme_that_has_one() {
+    let keys = |more: &str| changed("spacing = 0.05", &format!("spacing = 0.05\n{more}"));
+    let scene = keys("scheme = \"mueller\"\nstiffness = 50").unwrap();
+    assert_eq!(scene.particles.unwrap().stiffness, Some(50.0));
+    for (more, what) in [
+        ("stiffness = 50", "mueller"),
+        ("scheme = \"mueller\"\nstiffness = 0", "stiffness"),
+    ] {
+        let error = keys(more).unwrap_err().to_string();
+        assert!(
+            error.contains("particles.stiffness") && error.contains(what),
+            "{error}"
+        );
+    }
+}
+
+#[test]
 fn layers_reach_as_far_as_the_kernel() {
     let layers = |smoothing| Particles {
         smoothing,

@@ -2,16 +2,18 @@
 
 use glam::DVec3;
 use riprap::{
+    kernel::{Binding, bindings},
     layout,
     particles::{
-        Clock, Frame, Home, Hull, KERNELS, Motion, Neighbours, Particle, Setup, Side,
-        StateEquation, program,
+        Clock, Frame, Home, Hull, KERNELS, MOST_BINDINGS, Motion, Neighbours, Particle, Setup,
+        Side, StateEquation, program,
     },
 };
 use std::mem::offset_of;
 
 #[test]
-fn all_variants_compile() {
+fn all_variants_compile_and_bind_what_is_asked_for() {
+    let mut most = 0;
     for periodic in [false, true] {
         for state in [StateEquation::Linear, StateEquation::Tait] {
             let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
@@ -23,11 +25,15 @@ fn all_variants_compile() {
                 setup.neighbours = neighbours;
                 let frame = Frame::new(&setup).unwrap();
                 for kernel in KERNELS {
-                    program(&setup, &frame, kernel).link().unwrap();
+                    let linked = program(&setup, &frame, kernel).link().unwrap();
+                    let all = bindings(&linked, kernel).unwrap();
+                    let storage = |b: &&Binding| b.kind != wgpu::BufferBindingType::Uniform;
+                    most = most.max(all.iter().filter(storage).count() as u32);
                 }
             }
         }
     }
+    assert_eq!(most, MOST_BINDINGS);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::rules::{finite, not_negative, positive, refuse};
 use crate::error::Result;
 use crate::scene::{
-    Axis, Boundary, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity, Scene,
+    Axis, Boundary, Face, Field, Initial, Numerics, Particles, ProbePlace, Quantity, Scene, Scheme,
 };
 
 /// How far from whole the number of particles along a periodic edge may be: far above the rounding of a
@@ -31,6 +31,16 @@ impl Scene {
         }
         if let Some(speed) = particles.largest_speed {
             positive("particles.largest_speed", speed, "m/s")?;
+        }
+        if let Some(stiffness) = particles.stiffness {
+            positive("particles.stiffness", stiffness, "m²/s²")?;
+            if particles.scheme != Scheme::Mueller {
+                return refuse(
+                    "particles.stiffness",
+                    "belongs to scheme = \"mueller\"; remove it, or give largest_speed, from which the speed of sound \
+                     follows",
+                );
+            }
         }
         let rates = [
             ("artificial_viscosity", particles.artificial_viscosity),

@@ -1,15 +1,8 @@
-// Geraili Mikola & Sitar 2014, section 4: the reaction of all particles in a body, a workgroup a body, added up over the
-// steps of an exchange.
-// needs penalty
+// Geraili Mikola & Sitar 2014, section 4: the reaction of all particles in a body.
+// needs penalty, body_sums
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
-// Twelve numbers a body: force times time, and the sum of f_i r_j at 3 + 3 i + j.
-@group(0) @binding(4) var<storage, read_write> loads: array<f32>;
-
-const NUMBERS = 12u;
-
-var<workgroup> sums: array<array<f32, 12>, 64>;
 
 @compute @workgroup_size(64)
 fn mueller_load(
@@ -18,12 +11,7 @@ fn mueller_load(
     @builtin(local_invocation_index) local: u32,
 ) {
     let body = group.x + group.y * groups.x;
-    let known = body < arrayLength(&loads) / NUMBERS;
-    var force = vec3(0.0);
-    var moment_x = vec3(0.0);
-    var moment_y = vec3(0.0);
-    var moment_z = vec3(0.0);
-    if (known && clock.step != 0.0) {
+    if (is_loaded(body) && clock.step != 0.0) {
         let motion = motions[body];
         for (var n = local; n < arrayLength(&particles); n += 64u) {
             let here = particles[n];
@@ -36,25 +24,9 @@ fn mueller_load(
                     f -= penalty(hulls[k], here.at, here.velocity, clock.elapsed);
                 }
             }
-            let r = between(here.at, wrapped(motion.centre)) - clock.elapsed * motion.velocity;
-            force += f;
-            moment_x += f.x * r;
-            moment_y += f.y * r;
-            moment_z += f.z * r;
+            let away = between(here.at, wrapped(motion.centre));
+            add_force(f, away - clock.elapsed * motion.velocity);
         }
     }
-    sums[local] = array(
-        force.x, force.y, force.z,
-        moment_x.x, moment_x.y, moment_x.z,
-        moment_y.x, moment_y.y, moment_y.z,
-        moment_z.x, moment_z.y, moment_z.z,
-    );
-    workgroupBarrier();
-    if (known && local < NUMBERS) {
-        var sum = 0.0;
-        for (var n = 0u; n < 64u; n++) {
-            sum += sums[n][local];
-        }
-        loads[body * NUMBERS + local] += clock.step * sum;
-    }
+    add_up(body, local, clock.step);
 }

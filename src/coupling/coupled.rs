@@ -9,7 +9,7 @@ use crate::{
     broadphase::AutoBroadphase,
     immersed::{FaceLoad, Frame, Immersed, Submerged, Work},
     lattice::Lattice,
-    scene::{Scene, Search},
+    scene::Scene,
     simulation::{self, BlockSetup},
     units::Units,
 };
@@ -81,12 +81,7 @@ impl Coupled {
         (scene, units): (&Scene, &Units),
         setup: BlockSetup,
     ) -> Result<Self> {
-        let mut finder = AutoBroadphase::new(device, queue);
-        match scene.rock.search {
-            Search::Auto => {}
-            Search::Host => finder.crossover = usize::MAX,
-            Search::Device => finder.crossover = 0,
-        }
+        let mut finder = simulation::finder(device, queue, scene.rock.search);
         let mut setup = setup;
         let free = |block: &Block| block.motion == Motion::Free;
         if setup.setup.time_step.is_none() && !setup.setup.blocks.iter().any(free) {

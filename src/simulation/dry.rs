@@ -4,9 +4,9 @@ use super::{BlockSetup, LeftOut, block_setup};
 use crate::{
     Error, Result,
     bodies::{self, Blocks, Snapshot},
-    broadphase::Broadphase,
+    broadphase::{AutoBroadphase, Broadphase},
     checkpoint::BlockCheckpoint,
-    scene::Scene,
+    scene::{Scene, Search},
 };
 
 /// Sub-steps of a step where the scene gives no time step: a step keeps its length when contacts
@@ -15,6 +15,17 @@ const SUB_STEPS: f64 = 10.0;
 /// Sweeps over all pairs in which blocks that overlap are pushed apart; each sweep settles a layer of
 /// a pile, so this is enough for any that a scene lays by hand.
 const SWEEPS: usize = 1000;
+
+/// What finds the pairs of a scene's blocks beside a fluid, whose device it may use.
+pub(crate) fn finder(device: &wgpu::Device, queue: &wgpu::Queue, search: Search) -> AutoBroadphase {
+    let mut finder = AutoBroadphase::new(device, queue);
+    match search {
+        Search::Auto => {}
+        Search::Host => finder.crossover = usize::MAX,
+        Search::Device => finder.crossover = 0,
+    }
+    finder
+}
 
 /// The blocks of a scene at the time 0, pushed apart if it says so. They take a sub-step and go back, so
 /// that overlaps and a step that is too long show before the run.

@@ -1,6 +1,6 @@
 //! Free water and the blocks in it.
 
-use super::{BlockSetup, begin, block_setup};
+use super::{BlockSetup, begin, block_setup, finder};
 use crate::{
     Error, Result,
     bodies::{Blocks, Load, Motion, Pose, Snapshot},
@@ -8,7 +8,7 @@ use crate::{
     checkpoint::WaterCheckpoint,
     coupling::Felt,
     particles::{Neighbours, Particles, Water, particle_setup},
-    scene::{Scene, Search},
+    scene::Scene,
 };
 
 /// Acoustic steps of a step of the scene: the water takes as many as it wants, and an unequal last one wastes at
@@ -59,12 +59,7 @@ impl FreeSurface {
             // No contact limits the step of blocks that nothing pushes.
             setup.setup.time_step = Some(time_step);
         }
-        let mut finder = AutoBroadphase::new(device, queue);
-        match scene.rock.search {
-            Search::Auto => {}
-            Search::Host => finder.crossover = usize::MAX,
-            Search::Device => finder.crossover = 0,
-        }
+        let mut finder = finder(device, queue, scene.rock.search);
         let blocks = begin(scene, &setup, &mut finder).await?;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);

@@ -16,7 +16,7 @@ pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
 pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;
-pub(crate) use dry::begin;
+pub(crate) use dry::{begin, finder};
 pub use face_surface::face_surface;
 pub use fields::Totals;
 pub use free_surface::FreeSurface;

@@ -1,0 +1,42 @@
+// Force and moment on each body, a workgroup a body, added up over the steps of an exchange.
+
+// Twelve numbers a body: force times time, and the sum of f_i r_j at 3 + 3 i + j.
+@group(0) @binding(4) var<storage, read_write> loads: array<f32>;
+
+const NUMBERS = 12u;
+
+var<workgroup> sums: array<array<f32, 12>, 64>;
+
+// What an invocation has added up so far.
+var<private> force: vec3<f32>;
+var<private> moment: array<vec3<f32>, 3>;
+
+// A force at the offset r from the centroid.
+fn add_force(f: vec3<f32>, r: vec3<f32>) {
+    force += f;
+    moment[0] += f.x * r;
+    moment[1] += f.y * r;
+    moment[2] += f.z * r;
+}
+
+fn is_loaded(body: u32) -> bool {
+    return body < arrayLength(&loads) / NUMBERS;
+}
+
+// Adds what all invocations have found to the load of the body; all of them must come here.
+fn add_up(body: u32, local: u32, step: f32) {
+    sums[local] = array(
+        force.x, force.y, force.z,
+        moment[0].x, moment[0].y, moment[0].z,
+        moment[1].x, moment[1].y, moment[1].z,
+        moment[2].x, moment[2].y, moment[2].z,
+    );
+    workgroupBarrier();
+    if (is_loaded(body) && local < NUMBERS) {
+        var sum = 0.0;
+        for (var n = 0u; n < 64u; n++) {
+            sum += sums[n][local];
+        }
+        loads[body * NUMBERS + local] += step * sum;
+    }
+}

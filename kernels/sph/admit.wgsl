@@ -5,7 +5,7 @@
 
 @compute @workgroup_size(1)
 fn admit() {
-    if (clock.crowd > 0u && clock.step != 0.0) {
+    if (clock.crowd + clock.shell_crowd > 0u && clock.step != 0.0) {
         clock.held = clock.step;
         clock.step = 0.0;
     }

@@ -19,4 +19,16 @@ struct Clock {
     crowd: u32,
     // The step that waits for room.
     held: f32,
+    // The longest list of a shell's particle that had no room; 0 if all had.
+    shell_crowd: u32,
+    // 1: the coming step sorts the particles anew and makes the lists of neighbours.
+    stale: u32,
+    // By how much two particles may have come nearer since the lists were made.
+    travel: f32,
+    // The fastest that any body moves.
+    body_speed: f32,
+    // Particles that had left when the lists were looked at last: nobody must meet those any more.
+    missed: u32,
+    // Steps since the start of the exchange that sorted.
+    sorts: u32,
 }

@@ -10,4 +10,10 @@ struct ClockShared {
     escaped: atomic<u32>,
     crowd: atomic<u32>,
     held: f32,
+    shell_crowd: atomic<u32>,
+    stale: u32,
+    travel: f32,
+    body_speed: f32,
+    missed: u32,
+    sorts: u32,
 }

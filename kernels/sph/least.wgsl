@@ -1,9 +1,10 @@
 // Merrill & Grimshaw 2009, Parallel scan for stream architectures, the way up: the longest step that all particles of
-// each run of 64 allow.
+// each run of 64 allow, and the highest speed.
 // needs invocation
 
+// Velocities, or speeds as first numbers, and steps.
 @group(0) @binding(0) var<storage, read> limits: array<vec4<f32>>;
-// One a run, as its last number.
+// One a run.
 @group(0) @binding(1) var<storage, read_write> run_limits: array<vec4<f32>>;
 
 const RUN = 64u;
@@ -20,8 +21,11 @@ fn least(
     }
     let end = min((n + 1u) * RUN, arrayLength(&limits));
     var limit = limits[n * RUN].w;
-    for (var k = n * RUN + 1u; k < end; k++) {
-        limit = min(limit, limits[k].w);
+    var square = 0.0;
+    for (var k = n * RUN; k < end; k++) {
+        let here = limits[k];
+        limit = min(limit, here.w);
+        square = max(square, dot(here.xyz, here.xyz));
     }
-    run_limits[n] = vec4(0.0, 0.0, 0.0, limit);
+    run_limits[n] = vec4(sqrt(square), 0.0, 0.0, limit);
 }

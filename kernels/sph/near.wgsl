@@ -8,6 +8,8 @@ struct Range {
 
 @group(0) @binding(12) var<uniform> range: Range;
 
+// Square of what the lists reach: the support and the skin.
+override LIST_SQUARED: f32 = 16.0;
 // Room in each list.
 override CAPACITY: u32 = 1;
 

@@ -1,4 +1,4 @@
-// Verlet 1967, Phys. Rev. 159:98: the particles within the support of each, found once for all sums of a step.
+// Verlet 1967, Phys. Rev. 159:98: the particles within the support of each, found once for all sums of several steps.
 // needs invocation, particle_grid, $runs, clock_shared, near
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
@@ -16,7 +16,7 @@ fn neighbours(
     @builtin(local_invocation_index) local: u32,
 ) {
     let n = particle_of(invocation(group, groups, local));
-    if (n >= arrayLength(&particles) || clock.step == 0.0) {
+    if (n >= arrayLength(&particles) || clock.step == 0.0 || clock.stale == 0u) {
         return;
     }
     let at = particles[n].at;
@@ -31,7 +31,7 @@ fn neighbours(
         let cells = run(home, k);
         for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
             let r = between(at, particles[j].at);
-            if (dot(r, r) < SUPPORT_SQUARED) {
+            if (dot(r, r) < LIST_SQUARED) {
                 if (count < CAPACITY) {
                     near_out[first + 64u * count] = j;
                 }
@@ -44,7 +44,7 @@ fn neighbours(
         let cells = run(home, k);
         for (var j = shell_starts[cells.x]; j < shell_starts[cells.y]; j++) {
             let r = between(at, shell[j].at);
-            if (dot(r, r) < SUPPORT_SQUARED) {
+            if (dot(r, r) < LIST_SQUARED) {
                 if (count < CAPACITY) {
                     near_out[first + 64u * count] = j;
                 }

@@ -1,13 +1,27 @@
 // Monaghan 2005, Rep. Prog. Phys. 68:1703: what the water does to each particle of the shells of bodies that
 // somebody asks about; the opposite of what these do to the water.
-// needs invocation, particle_grid, $runs, $state, wendland, clock
+// needs invocation, particle_grid, $runs, $state, wendland, clock, $around_water
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
-@group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
 // One a particle of a shell, by its number; the shells that are asked about come first.
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
+
+// The particle, its density, and the sum over the water around it.
+var<private> here: Particle;
+var<private> density: f32;
+var<private> force: vec3<f32>;
+
+fn meet_water(j: u32) {
+    let other = particles[j];
+    let r = between(here.at, other.at);
+    let square = dot(r, r);
+    let push = (pressure_of(other.excess) + here.excess) / (density * (1.0 + other.excess));
+    if (square < SUPPORT_SQUARED) {
+        force += push * slope(sqrt(square)) * r;
+    }
+}
 
 @compute @workgroup_size(64)
 fn shell_force(
@@ -15,31 +29,18 @@ fn shell_force(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
+    let n = particle_of(invocation(group, groups, local));
     if (n >= arrayLength(&shell) || clock.step == 0.0) {
         return;
     }
-    let here = shell[n];
+    here = shell[n];
     if (here.id >= arrayLength(&forces)) {
         return;
     }
-    var force = vec3(0.0);
+    force = vec3(0.0);
     if (here.at.x >= 0) {
-        let cell = cell_of(here.at);
-        let density = 1.0 + excess_of(here.excess);
-        for (var k = 0; k < RUNS; k++) {
-            let cells = run(cell, k);
-            for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
-                let other = particles[j];
-                let r = between(here.at, other.at);
-                let square = dot(r, r);
-                if (square >= SUPPORT_SQUARED) {
-                    continue;
-                }
-                let push = (pressure_of(other.excess) + here.excess) / (density * (1.0 + other.excess));
-                force += push * slope(sqrt(square)) * r;
-            }
-        }
+        density = 1.0 + excess_of(here.excess);
+        around_water(n, here.at);
     }
     forces[here.id] = vec4(force, 0.0);
 }

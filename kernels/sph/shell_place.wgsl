@@ -5,6 +5,8 @@
 @group(0) @binding(1) var<storage, read> motions: array<Motion>;
 @group(0) @binding(2) var<storage, read> clock: Clock;
 @group(0) @binding(3) var<storage, read_write> unsorted: array<Particle>;
+// In the order of their last sort, which is kept.
+@group(0) @binding(4) var<storage, read> shell: array<Particle>;
 
 @compute @workgroup_size(64)
 fn shell_place(
@@ -16,12 +18,13 @@ fn shell_place(
     if (n >= arrayLength(&homes) || clock.step == 0.0) {
         return;
     }
-    let home = homes[n];
+    let id = shell[n].id;
+    let home = homes[id];
     let motion = motions[home.body];
     let velocity = velocity_at(motion, home.place);
     let offset = lever(motion, home.place) + clock.elapsed * velocity;
     let at = wrapped(motion.centre + vec3<i32>(round(offset / QUANTUM)));
     let cells = vec3(CELLS_X, CELLS_Y, CELLS_Z);
     let inside = all(at >= vec3(0)) && all(cell_of(at) < cells);
-    unsorted[n] = Particle(select(vec3(-1), at, inside), n, velocity, 0.0);
+    unsorted[n] = Particle(select(vec3(-1), at, inside), id, velocity, 0.0);
 }

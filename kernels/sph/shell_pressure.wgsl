@@ -1,8 +1,7 @@
 // Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057, eq. 27: the pressure of the water beside a wall, continued into it.
-// needs invocation, particle_grid, $runs, $state, wendland, bodies, clock
+// needs invocation, particle_grid, $runs, $state, wendland, bodies, clock, $around_water
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
-@group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> shell: array<Particle>;
 @group(0) @binding(3) var<storage, read> homes: array<Home>;
 @group(0) @binding(4) var<storage, read> motions: array<Motion>;
@@ -12,13 +11,31 @@ override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = 0.0;
 override GRAVITY_Z: f32 = 0.0;
 
+// Where the particle is, and the sums over the water around it.
+var<private> at: vec3<i32>;
+var<private> weights: f32;
+var<private> pressure: f32;
+var<private> column: vec3<f32>;
+
+fn meet_water(j: u32) {
+    let other = particles[j];
+    let r = between(at, other.at);
+    let square = dot(r, r);
+    if (square < SUPPORT_SQUARED) {
+        let w = weight(sqrt(square));
+        weights += w;
+        pressure += w * pressure_of(other.excess);
+        column += w * (1.0 + other.excess) * r;
+    }
+}
+
 @compute @workgroup_size(64)
 fn shell_pressure(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
+    let n = particle_of(invocation(group, groups, local));
     if (n >= arrayLength(&shell) || clock.step == 0.0) {
         return;
     }
@@ -26,25 +43,11 @@ fn shell_pressure(
     if (here.at.x < 0) {
         return;
     }
-    let cell = cell_of(here.at);
-    var weights = 0.0;
-    var pressure = 0.0;
-    var column = vec3(0.0);
-    for (var k = 0; k < RUNS; k++) {
-        let cells = run(cell, k);
-        for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
-            let other = particles[j];
-            let r = between(here.at, other.at);
-            let square = dot(r, r);
-            if (square >= SUPPORT_SQUARED) {
-                continue;
-            }
-            let w = weight(sqrt(square));
-            weights += w;
-            pressure += w * pressure_of(other.excess);
-            column += w * (1.0 + other.excess) * r;
-        }
-    }
+    at = here.at;
+    weights = 0.0;
+    pressure = 0.0;
+    column = vec3(0.0);
+    around_water(n, at);
     let home = homes[here.id];
     let wall = acceleration_at(motions[home.body], home.place);
     let fall = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z) - wall;

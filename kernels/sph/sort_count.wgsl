@@ -1,11 +1,12 @@
 // Green 2010, Particle simulation using CUDA, first step of a counting sort: the number of particles in each cell.
-// needs invocation, particle_grid
+// needs invocation, particle_grid, clock
 
 @group(0) @binding(0) var<storage, read> unsorted: array<Particle>;
 // One a cell, one for those that have left, and a last one that stays zero.
 @group(0) @binding(1) var<storage, read_write> counts: array<atomic<u32>>;
 // The place of each particle among those of its cell; which of two comes first is left to the device.
 @group(0) @binding(2) var<storage, read_write> arrivals: array<u32>;
+@group(0) @binding(3) var<storage, read> clock: Clock;
 
 @compute @workgroup_size(64)
 fn sort_count(
@@ -14,7 +15,7 @@ fn sort_count(
     @builtin(local_invocation_index) local: u32,
 ) {
     let n = invocation(group, groups, local);
-    if (n >= arrayLength(&unsorted)) {
+    if (n >= arrayLength(&unsorted) || clock.stale == 0u) {
         return;
     }
     arrivals[n] = atomicAdd(&counts[cell_number(unsorted[n].at)], 1u);

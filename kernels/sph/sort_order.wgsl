@@ -1,12 +1,13 @@
 // Green 2010, Particle simulation using CUDA, last step of a counting sort: the particles themselves, those of a cell
 // by their ids. Sums over them then have one order, however they arrived.
-// needs invocation, particle_grid
+// needs invocation, particle_grid, clock
 
 @group(0) @binding(0) var<storage, read> unsorted: array<Particle>;
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read> list: array<u32>;
 @group(0) @binding(3) var<storage, read> arrivals: array<u32>;
 @group(0) @binding(4) var<storage, read_write> sorted: array<Particle>;
+@group(0) @binding(5) var<storage, read> clock: Clock;
 
 @compute @workgroup_size(64)
 fn sort_order(
@@ -19,6 +20,11 @@ fn sort_order(
         return;
     }
     let particle = unsorted[n];
+    if (clock.stale == 0u) {
+        // As they were sorted last.
+        sorted[n] = particle;
+        return;
+    }
     let cell = cell_number(particle.at);
     let first = starts[cell];
     if (particle.at.x < 0) {

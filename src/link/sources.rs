@@ -33,8 +33,8 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
     "sph":
         "accelerate", "admit", "around_cells", "arrive", "around_lists", "bodies", "body_load", "body_sums", "clock", "clock_shared", "drift", "least", "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "mueller_move", "near", "neighbours", "particle_grid", "penalty", "runs_open",
-        "runs_periodic", "shell_force", "shell_place", "shell_pressure", "sort_count", "sort_list", "sort_order",
-        "state_linear", "state_tait", "tick", "wendland";
+        "runs_periodic", "shell_force", "shell_neighbours", "shell_place", "shell_pressure", "sort_count", "sort_list", "sort_order",
+        "state_linear", "state_tait", "tick", "water_cells", "water_lists", "wendland";
 };
 
 /// The text of the file `name`.

@@ -1,8 +1,8 @@
 //! The kernels of a step and the memory that they share.
 
 use super::{
-    Clock, Frame, Home, Hull, Motion, Scheme, Setup,
-    near::{Near, usual_room},
+    Clock, Frame, Home, Hull, Motion, Neighbours, Scheme, Setup,
+    near::{Names, Near, shell_room, usual_room},
     program,
     sorting::{Sorted, Sorting},
 };
@@ -14,6 +14,10 @@ use crate::{
 
 /// Limits of which an invocation takes the least.
 const RUN: u32 = 64;
+/// The kernels that meet pairs.
+const OF_SHELL: Names = ["shell_neighbours", "shell_pressure", "shell_force"];
+const OF_DELTA: Names = ["neighbours", "accelerate", "drift"];
+const OF_MUELLER: Names = ["neighbours", "mueller_density", "mueller_move"];
 /// Numbers of a load.
 pub(super) const NUMBERS: usize = 12;
 
@@ -44,14 +48,15 @@ pub(super) struct Kernels {
     pub loads: wgpu::Buffer,
     pub clock: wgpu::Buffer,
     place: (Kernel, wgpu::BindGroup),
-    pressure: (Kernel, wgpu::BindGroup),
     near: Near,
-    fresh: wgpu::Buffer,
-    force: (Kernel, wgpu::BindGroup),
+    near_shell: Near,
+    /// The gate that lists must pass, if there are any.
+    admit: Option<(Kernel, wgpu::BindGroup)>,
     load: (Kernel, wgpu::BindGroup),
     /// `mueller_drift`, where the sums leave the places to it.
     last: Option<(Kernel, wgpu::BindGroup)>,
-    hulls: [wgpu::Buffer; 2],
+    /// All by the names of their bindings.
+    buffers: Vec<(&'static str, wgpu::Buffer)>,
     least: Kernel,
     /// From many limits to one, with the number of those that come out.
     leasts: Vec<(wgpu::BindGroup, u32)>,
@@ -67,9 +72,6 @@ impl Kernels {
         numbers: Numbers,
         (hulls, planes): (&[Hull], &[[f32; 4]]),
     ) -> Result<Self> {
-        let sorting = Sorting::new(device, setup, frame)?;
-        let water = sorting.of(device, frame, numbers.water)?;
-        let shell = sorting.of(device, frame, numbers.shell)?;
         let buffer = |label, count: u32, one: usize| {
             let bytes = u64::from(count.max(1)) * one as u64;
             at_most(device, label, bytes)?;
@@ -81,6 +83,9 @@ impl Kernels {
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
         let clock = buffer("clock", 1, size_of::<Clock>())?;
+        let sorting = Sorting::new(device, setup, frame)?;
+        let water = sorting.of(device, frame, &clock, numbers.water)?;
+        let shell = sorting.of(device, frame, &clock, numbers.shell)?;
         let hull_buffer = buffer("hulls", hulls.len() as u32, size_of::<Hull>())?;
         let plane_buffer = buffer("faces of hulls", planes.len() as u32, 16)?;
         queue.write_buffer(&hull_buffer, 0, bytemuck::cast_slice(hulls));
@@ -111,12 +116,26 @@ impl Kernels {
             let bind = kernel.bind(device, &buffers)?;
             Ok::<_, crate::Error>((kernel, bind))
         };
-        let (load, last) = match setup.scheme {
-            Scheme::Delta => ("body_load", None),
-            Scheme::Mueller { .. } => ("mueller_load", Some("mueller_drift")),
+        let (of_water, load, last) = match setup.scheme {
+            Scheme::Delta => (OF_DELTA, "body_load", None),
+            Scheme::Mueller { .. } => (OF_MUELLER, "mueller_load", Some("mueller_drift")),
         };
-        let room = usual_room(setup);
-        let near = Near::new(device, queue, (setup, frame), numbers.water, room, &buffers)?;
+        let near = |names, count, room| {
+            Near::new(
+                device,
+                queue,
+                (setup, frame),
+                names,
+                (count, room),
+                &buffers,
+            )
+        };
+        let near_shell = near(OF_SHELL, numbers.shell, shell_room(setup, frame))?;
+        let near = near(of_water, numbers.water, usual_room(setup, frame))?;
+        let admit = match setup.neighbours {
+            Neighbours::Cells => None,
+            Neighbours::Lists => Some(bound("admit")?),
+        };
         let least = kernel("least")?;
         let (mut limits, mut count, mut leasts) = (fresh.clone(), numbers.water.max(1), Vec::new());
         while count > 1 {
@@ -131,13 +150,12 @@ impl Kernels {
         Ok(Self {
             numbers,
             place: bound("shell_place")?,
-            pressure: bound("shell_pressure")?,
-            force: bound("shell_force")?,
             load: bound(load)?,
             last: last.map(bound).transpose()?,
             near,
-            fresh,
-            hulls: [hull_buffer, plane_buffer],
+            near_shell,
+            admit,
+            buffers: buffers.map(|(name, of)| (name, of.clone())).to_vec(),
             least,
             leasts,
             tick: (tick, tick_bound),
@@ -151,28 +169,35 @@ impl Kernels {
         })
     }
 
-    /// Makes the lists of neighbours longer.
+    /// Makes the lists of neighbours longer: those of the water, of shells, or both, to the rooms that are not 0.
     pub fn grow(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         (setup, frame): (&Setup, &Frame),
-        capacity: u32,
+        [water, shell]: [u32; 2],
     ) -> Result<()> {
-        let buffers = [
-            ("particles", &self.water.sorted),
-            ("starts", &self.water.starts),
-            ("shell", &self.shell.sorted),
-            ("shell_starts", &self.shell.starts),
-            ("clock", &self.clock),
-            ("fresh", &self.fresh),
-            ("moved", &self.water.unsorted),
-            ("motions", &self.motions),
-            ("hulls", &self.hulls[0]),
-            ("planes", &self.hulls[1]),
-        ];
-        let count = self.numbers.water;
-        self.near = Near::new(device, queue, (setup, frame), count, capacity, &buffers)?;
+        let buffers: Vec<_> = self.buffers.iter().map(|(name, of)| (*name, of)).collect();
+        let of_water = match setup.scheme {
+            Scheme::Delta => OF_DELTA,
+            Scheme::Mueller { .. } => OF_MUELLER,
+        };
+        let near = |names, count, room| {
+            Near::new(
+                device,
+                queue,
+                (setup, frame),
+                names,
+                (count, room),
+                &buffers,
+            )
+        };
+        if water > 0 {
+            self.near = near(of_water, self.numbers.water, water)?;
+        }
+        if shell > 0 {
+            self.near_shell = near(OF_SHELL, self.numbers.shell, shell)?;
+        }
         Ok(())
     }
 
@@ -189,11 +214,15 @@ impl Kernels {
     pub fn record_step(&self, encoder: &mut wgpu::CommandEncoder) {
         self.sorting.record(encoder, &self.water);
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        let shell = self.numbers.shell.div_ceil(WORKGROUP);
-        self.pressure.0.record(&mut pass, &self.pressure.1, shell);
+        self.near.record_lists(&mut pass);
+        self.near_shell.record_lists(&mut pass);
+        if let Some((kernel, bind)) = &self.admit {
+            kernel.record(&mut pass, bind, 1);
+        }
+        self.near_shell.record_first(&mut pass);
         self.near.record_first(&mut pass);
         if self.numbers.loaded > 0 {
-            self.force.0.record(&mut pass, &self.force.1, shell);
+            self.near_shell.record_second(&mut pass);
             let bodies = self.numbers.loaded;
             self.load.0.record(&mut pass, &self.load.1, bodies);
         }

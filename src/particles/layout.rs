@@ -99,6 +99,18 @@ pub struct Clock {
     pub crowd: u32,
     /// The step that waits for room.
     pub held: f32,
+    /// The longest list of a shell's particle that had no room; 0 if all had.
+    pub shell_crowd: u32,
+    /// 1: the coming step sorts the particles anew and makes the lists of neighbours.
+    pub stale: u32,
+    /// By how much two particles may have come nearer since the lists were made, spacings.
+    pub travel: f32,
+    /// The fastest that any body moves, in speeds of sound.
+    pub body_speed: f32,
+    /// Particles that had left when the lists were looked at last.
+    pub missed: u32,
+    /// Steps since the start of the exchange that sorted.
+    pub sorts: u32,
 }
 
 /// A convex part of a body, by its faces.

@@ -1,6 +1,6 @@
-//! The sums over neighbours: straight from the cells, or from lists that a step makes once.
+//! The sums over neighbours: straight from the cells, or from lists that are made once for several steps.
 
-use super::{Frame, Neighbours, Scheme, Setup, program};
+use super::{Frame, Neighbours, Setup, program};
 use crate::{
     Result,
     kernel::Kernel,
@@ -17,14 +17,15 @@ const FEW: u32 = 16;
 /// Named buffers.
 pub(super) type Buffers<'a> = [(&'a str, &'a wgpu::Buffer)];
 
-/// The passes that meet all pairs.
+/// The kernels that meet all pairs of some particles with water: the one that makes their lists, and two sums.
+pub(super) type Names = [&'static str; 3];
+
+/// The passes that meet all pairs of some particles with water.
 #[derive(Debug)]
 pub(super) struct Near {
-    /// Lists and the gate that they must pass, if there are lists.
-    lists: Option<(Kernel, Kernel, wgpu::BindGroup)>,
-    /// `accelerate`, or `mueller_density`.
+    /// If there are lists.
+    lists: Option<Kernel>,
     first: Kernel,
-    /// `drift`, or `mueller_move`.
     second: Kernel,
     ranges: Vec<Range>,
 }
@@ -38,9 +39,9 @@ struct Range {
     second: wgpu::BindGroup,
 }
 
-/// Room for the neighbours of a particle in a list.
-pub(super) fn usual_room(setup: &Setup) -> u32 {
-    let reach = 2.0 * setup.smoothing;
+/// Room for the neighbours of a particle of the water in a list.
+pub(super) fn usual_room(setup: &Setup, frame: &Frame) -> u32 {
+    let reach = 2.0 * setup.smoothing + frame.skin;
     let around = if setup.plane {
         PI * reach.powi(2)
     } else {
@@ -49,9 +50,17 @@ pub(super) fn usual_room(setup: &Setup) -> u32 {
     (ROOM * around).ceil() as u32 + FEW
 }
 
-/// Room for `crowd` neighbours and some more.
+/// Room for the water around a particle of a shell: most have water on one side only.
+pub(super) fn shell_room(setup: &Setup, frame: &Frame) -> u32 {
+    usual_room(setup, frame) / 2
+}
+
+/// Room for `crowd` neighbours and some more; 0 for nobody.
 pub(super) fn more_room(crowd: u32) -> u32 {
-    crowd + crowd / 4 + FEW
+    match crowd {
+        0 => 0,
+        _ => crowd + crowd / 4 + FEW,
+    }
 }
 
 impl Near {
@@ -59,8 +68,8 @@ impl Near {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         (setup, frame): (&Setup, &Frame),
-        count: u32,
-        capacity: u32,
+        [lists, first, second]: Names,
+        (count, capacity): (u32, u32),
         buffers: &Buffers<'_>,
     ) -> Result<Self> {
         let mut constants = program::constants(setup, frame);
@@ -68,10 +77,6 @@ impl Near {
         let kernel = |name: &str| {
             let linked = program::program(setup, frame, name).link()?;
             Kernel::new(device, &linked, name, &constants)
-        };
-        let [first, second] = match setup.scheme {
-            Scheme::Delta => ["accelerate", "drift"],
-            Scheme::Mueller { .. } => ["mueller_density", "mueller_move"],
         };
         let (first, second) = (kernel(first)?, kernel(second)?);
         if setup.neighbours == Neighbours::Cells {
@@ -88,7 +93,7 @@ impl Near {
                 second,
             });
         }
-        let (lists, admit) = (kernel("neighbours")?, kernel("admit")?);
+        let lists = kernel(lists)?;
         let counts = storage(
             device,
             "neighbours of particles",
@@ -128,31 +133,31 @@ impl Near {
             });
             start = end;
         }
-        let gate = admit.bind(device, buffers)?;
         Ok(Self {
-            lists: Some((lists, admit, gate)),
+            lists: Some(lists),
             first,
             second,
             ranges,
         })
     }
 
-    /// Records the first sums: new velocities, or densities.
-    pub fn record_first(&self, pass: &mut wgpu::ComputePass<'_>) {
-        if let Some((lists, admit, gate)) = &self.lists {
-            for range in &self.ranges {
-                if let Some(bound) = &range.lists {
-                    lists.record(pass, bound, range.groups);
-                }
+    /// Records the lists, if there are any.
+    pub fn record_lists(&self, pass: &mut wgpu::ComputePass<'_>) {
+        for range in &self.ranges {
+            if let (Some(lists), Some(bound)) = (&self.lists, &range.lists) {
+                lists.record(pass, bound, range.groups);
             }
-            admit.record(pass, gate, 1);
         }
+    }
+
+    /// Records the first sums.
+    pub fn record_first(&self, pass: &mut wgpu::ComputePass<'_>) {
         for range in &self.ranges {
             self.first.record(pass, &range.first, range.groups);
         }
     }
 
-    /// Records the second sums: new densities and places, or velocities.
+    /// Records the second sums.
     pub fn record_second(&self, pass: &mut wgpu::ComputePass<'_>) {
         for range in &self.ranges {
             self.second.record(pass, &range.second, range.groups);

@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water, hulls,
+    Body, Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water, hulls,
     kernels::{Kernels, NUMBERS},
     near,
 };
@@ -25,6 +25,8 @@ pub struct Exchange {
     pub loads: Vec<Load>,
     /// Steps that the water took.
     pub steps: u32,
+    /// Steps of them that sorted the particles, and made lists of neighbours if there are any.
+    pub sorts: u32,
 }
 
 /// Water of particles, with walls and blocks.
@@ -39,6 +41,8 @@ pub struct Particles {
     /// Bodies in the order of the device, those with loads first, and the place of each in it.
     order: Vec<usize>,
     number: Vec<usize>,
+    /// How far each shell reaches from the centroid of its body, m.
+    reaches: Vec<f64>,
     /// First particle of each shell in the order of the device, and one more.
     first: Vec<u32>,
     kernels: Kernels,
@@ -51,6 +55,10 @@ pub struct Particles {
     report: Option<wgpu::Buffer>,
     readback: Readback,
     steps: u64,
+    /// Whether the next step sorts in any case.
+    renewed: bool,
+    /// Where the bodies were at the start of the last exchange.
+    poses: Vec<Pose>,
 }
 
 impl Particles {
@@ -133,10 +141,16 @@ impl Particles {
         };
         particles.resize(positions.len().max(1), nowhere);
         queue.write_buffer(&kernels.water.unsorted, 0, bytemuck::cast_slice(&particles));
+        let shells: Vec<_> = (0..numbers.shell)
+            .map(|id| Particle { id, ..nowhere })
+            .collect();
+        queue.write_buffer(&kernels.shell.sorted, 0, bytemuck::cast_slice(&shells));
         queue.write_buffer(&kernels.homes, 0, bytemuck::cast_slice(&homes));
         if homes.is_empty() {
             queue.write_buffer(&kernels.shell.unsorted, 0, bytemuck::bytes_of(&nowhere));
         }
+        let reach = |body: &Body| body.shell.iter().map(|x| x.length()).fold(0.0, f64::max);
+        let reaches = setup.bodies.iter().map(reach).collect();
         let fastest = velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
         Ok(Self {
             clock: Clock {
@@ -149,9 +163,12 @@ impl Particles {
             report: None,
             readback: Readback::default(),
             steps: 0,
+            renewed: true,
+            poses: Vec::new(),
             setup,
             frame,
             numbers,
+            reaches,
             order,
             number,
             first,
@@ -191,12 +208,13 @@ impl Particles {
             self.report = Some(report);
             let (clock, loads) = words.split_at(size_of::<Clock>() / 4);
             self.clock = *bytemuck::from_bytes(bytemuck::cast_slice(clock));
-            if self.clock.crowd > 0 {
+            if self.clock.crowd + self.clock.shell_crowd > 0 {
                 self.make_room(device, queue)?;
                 continue;
             }
             self.look()?;
             if self.clock.step == 0.0 {
+                self.renewed = false;
                 self.steps += u64::from(self.clock.steps);
                 let loads = bytemuck::cast_slice(loads);
                 return Ok(self.exchange(loads, time));
@@ -239,12 +257,18 @@ impl Particles {
             })
             .collect();
         queue.write_buffer(&self.kernels.motions, 0, bytemuck::cast_slice(&motions));
+        let travel = f64::from(self.clock.travel) + self.jump(poses);
+        let stale = self.renewed || self.clock.stale != 0 || travel > self.frame.skin;
         let left = (time / self.frame.unit_time()) as f32;
         self.clock = Clock {
             step: left / (left / self.clock.limit).ceil().max(1.0),
             elapsed: 0.0,
             left,
             steps: 0,
+            sorts: 0,
+            stale: stale.into(),
+            travel: if stale { 0.0 } else { travel as f32 },
+            body_speed: self.fastest(poses) as f32,
             ..self.clock
         };
         queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
@@ -255,14 +279,45 @@ impl Particles {
             .map(|pose| (pose.velocity, pose.deformation_rate))
             .collect();
         self.lasted = time;
+        // Until it is known what the clock has come to.
+        self.renewed = true;
+        self.poses.clear();
+        self.poses.extend_from_slice(poses);
+    }
+
+    /// Has the next step sort the particles anew. Between two such calls their order, and with it the rounding of
+    /// all sums, depends on what came before: a run and its restart have the same bits if both call this at the
+    /// time of the checkpoint, as [`Particles::restore`] does.
+    pub fn renew(&mut self) {
+        self.renewed = true;
+    }
+
+    /// How far the bodies are from where the last exchange would have had them, spacings.
+    fn jump(&self, poses: &[Pose]) -> f64 {
+        let jump = |((new, old), reach): ((&Pose, &Pose), &f64)| {
+            let centre = old.centre + self.lasted * old.velocity;
+            let shape = old.deformation + old.deformation_rate * self.lasted;
+            (new.centre - centre).length() + size(new.deformation - shape) * reach
+        };
+        let jumps = poses.iter().zip(&self.poses).zip(&self.reaches).map(jump);
+        jumps.fold(0.0, f64::max) / self.setup.spacing
+    }
+
+    /// The fastest that any particle of a shell moves, in speeds of sound, or somewhat more.
+    fn fastest(&self, poses: &[Pose]) -> f64 {
+        let speed = |(pose, reach): (&Pose, &f64)| {
+            pose.velocity.length() + size(pose.deformation_rate) * reach
+        };
+        let speeds = poses.iter().zip(&self.reaches).map(speed);
+        speeds.fold(0.0, f64::max) / self.frame.sound_speed()
     }
 
     /// Makes the lists of neighbours longer and goes on with the step that waits for it.
     fn make_room(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
-        let room = near::more_room(self.clock.crowd);
+        let rooms = [self.clock.crowd, self.clock.shell_crowd].map(near::more_room);
         self.kernels
-            .grow(device, queue, (&self.setup, &self.frame), room)?;
-        self.clock.crowd = 0;
+            .grow(device, queue, (&self.setup, &self.frame), rooms)?;
+        (self.clock.crowd, self.clock.shell_crowd) = (0, 0);
         self.clock.step = self.clock.held;
         queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
         Ok(())
@@ -338,6 +393,7 @@ impl Particles {
         Exchange {
             loads: self.number.iter().map(load).collect(),
             steps: self.clock.steps,
+            sorts: self.clock.sorts,
         }
     }
 
@@ -415,6 +471,8 @@ impl Particles {
         self.lasted = state.lasted;
         self.before.clone_from(&state.before);
         self.placed = false;
+        self.renewed = true;
+        self.poses.clear();
         Ok(())
     }
 
@@ -467,6 +525,11 @@ pub struct State {
     pub lasted: f64,
     /// Velocity (m/s) and Ḟ (1/s) of each body at its start.
     pub before: Vec<(DVec3, DMat3)>,
+}
+
+/// Root of the sum of the squares of a matrix, by which it lengthens no vector more.
+fn size(m: DMat3) -> f64 {
+    m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The longest first step, of water that is pushed by gravity alone and moves at `fastest` (m/s), in units of the

@@ -12,13 +12,14 @@ pub const MOST_BINDINGS: u32 = 8;
 const PENALTY: f64 = 0.5;
 
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 17] = [
+pub const KERNELS: [&str; 18] = [
     "sort_count",
     "sort_list",
     "sort_order",
     "shell_place",
     "shell_pressure",
     "neighbours",
+    "shell_neighbours",
     "admit",
     "accelerate",
     "shell_force",
@@ -49,6 +50,13 @@ pub fn program(setup: &Setup, frame: &Frame, kernel: &str) -> Program {
             match setup.neighbours {
                 Neighbours::Cells => "around_cells",
                 Neighbours::Lists => "around_lists",
+            },
+        )
+        .slot(
+            "around_water",
+            match setup.neighbours {
+                Neighbours::Cells => "water_cells",
+                Neighbours::Lists => "water_lists",
             },
         )
         .slot(
@@ -98,7 +106,10 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         ("PERIOD_Y", frame.period[1].into()),
         ("PERIOD_Z", frame.period[2].into()),
         ("QUANTUM", 1.0 / frame.quanta),
-        ("SUPPORT_SQUARED", 4.0 * h * h),
+        ("SUPPORT_SQUARED", reach * reach),
+        ("LIST_SQUARED", (reach + frame.skin).powi(2)),
+        // Without lists, or with those that reach no farther, each step sorts.
+        ("SKIN", if frame.skin > 0.0 { frame.skin } else { -1.0 }),
         ("SMOOTHING", h),
         ("REACH", reach),
         ("POLY6", mueller[0]),

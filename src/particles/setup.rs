@@ -47,8 +47,8 @@ pub enum Neighbours {
     /// From their cells, each time: takes no memory, for GPUs.
     #[default]
     Cells,
-    /// From lists, made once a step: for CPU adapters, where the pairs that are too far apart cost as much as the
-    /// others.
+    /// From lists, made once for several steps: for CPU adapters, where the pairs that are too far apart cost as
+    /// much as the others.
     Lists,
 }
 

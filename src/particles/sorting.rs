@@ -49,11 +49,18 @@ impl Sorting {
         })
     }
 
-    /// Prepares the buffers for `count` particles; there is room for one at least.
+    /// Prepares the buffers for `count` particles; there is room for one at least. Only when the clock says that
+    /// their order is stale will they be sorted.
     ///
     /// # Errors
     /// [`crate::Error::Limit`] if the device cannot bind them.
-    pub fn of(&self, device: &wgpu::Device, frame: &Frame, count: u32) -> Result<Sorted> {
+    pub fn of(
+        &self,
+        device: &wgpu::Device,
+        frame: &Frame,
+        clock: &wgpu::Buffer,
+        count: u32,
+    ) -> Result<Sorted> {
         let count = count.max(1);
         let bytes = u64::from(count) * size_of::<Particle>() as u64;
         let cells = 4 * (frame.cell_count() + 2);
@@ -71,6 +78,7 @@ impl Sorting {
             ("starts", &starts),
             ("arrivals", &arrivals),
             ("list", &list),
+            ("clock", clock),
         ];
         Ok(Sorted {
             count,

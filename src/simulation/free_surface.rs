@@ -105,6 +105,8 @@ impl FreeSurface {
         for _ in 0..steps {
             let (from, end) = (self.time(), (self.step + 1) as f64 * self.time_step);
             let mut time = from;
+            // Checkpoints are taken between steps.
+            self.particles.renew();
             while time < end {
                 let until = self.next(time, end);
                 self.exchange(time, until).await?;

@@ -86,6 +86,12 @@ fn structures_lie_as_on_the_device() {
         ("escaped", offset_of!(Clock, escaped)),
         ("crowd", offset_of!(Clock, crowd)),
         ("held", offset_of!(Clock, held)),
+        ("shell_crowd", offset_of!(Clock, shell_crowd)),
+        ("stale", offset_of!(Clock, stale)),
+        ("travel", offset_of!(Clock, travel)),
+        ("body_speed", offset_of!(Clock, body_speed)),
+        ("missed", offset_of!(Clock, missed)),
+        ("sorts", offset_of!(Clock, sorts)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
     let hull = [

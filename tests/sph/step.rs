@@ -261,3 +261,75 @@ fn lists_grow_where_water_is_squeezed() {
         assert!((lists.densities[n] - cells.densities[n]).abs() < 1e-3);
     }
 }
+
+/// A block that moves through water that sloshes, and jumps: the lists that are kept miss nobody.
+#[test]
+fn lists_serve_several_steps() {
+    let mut setup = base(true, true);
+    let middle = setup.origin + 0.5 * setup.size;
+    let grid = [-0.15, -0.05, 0.05, 0.15];
+    let block = grid.map(|x| grid.map(|z| DVec3::new(x, 0.0, z))).concat();
+    setup.bodies = vec![
+        walls(&setup),
+        Body {
+            shell: block,
+            moves: true,
+            loaded: true,
+            ..Body::default()
+        },
+    ];
+    let mut positions = lattice(&setup, [0; 3], [13, 1, 9]);
+    positions.retain(|x| (*x - middle).abs().max_element() > 0.24);
+    let velocities: Vec<DVec3> = positions
+        .iter()
+        .map(|x| DVec3::new(0.4 * (x.z - middle.z), 0.0, 0.3 * (x.x - middle.x).sin()))
+        .collect();
+    let depth = |x: &DVec3| setup.origin.z + 0.9 - x.z;
+    let pressures: Vec<f64> = positions.iter().map(|x| 9810.0 * depth(x)).collect();
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut ends = Vec::new();
+    for neighbours in [Neighbours::Lists, Neighbours::Cells] {
+        let setup = Setup {
+            neighbours,
+            ..setup.clone()
+        };
+        let mut particles =
+            Particles::new(device, queue, setup, &positions, &velocities, &pressures).unwrap();
+        let (mut sorts, mut steps, mut time, mut push) = (0, 0, 0.0, DVec3::ZERO);
+        for n in 0..60 {
+            let dt = 0.99 * particles.limit();
+            let velocity = DVec3::new(0.3, 0.0, 0.1);
+            let mut pose = Pose::rigid(
+                middle + time * velocity,
+                DQuat::from_rotation_y(0.5 * time),
+                velocity,
+                DVec3::new(0.0, 0.5, 0.0),
+            );
+            if n >= 30 {
+                pose.centre.x += 0.02;
+            }
+            let poses = [resting(DVec3::ZERO), pose];
+            let done = rig
+                .wait(particles.advance(device, queue, &poses, dt))
+                .unwrap();
+            (sorts, steps, time) = (sorts + done.sorts, steps + done.steps, time + dt);
+            push += done.loads[1].force / 60.0;
+        }
+        println!("{neighbours:?}: {sorts} sorts in {steps} steps, {push} N");
+        let few = neighbours == Neighbours::Lists;
+        assert!(if few {
+            4 * sorts < steps
+        } else {
+            sorts == steps
+        });
+        let water = rig.wait(particles.water(device, queue)).unwrap();
+        ends.push((water, push));
+    }
+    let [(lists, by_lists), (cells, by_cells)] = [&ends[0], &ends[1]];
+    assert!((*by_lists - *by_cells).length() < 1e-4 * by_cells.length());
+    for n in 0..lists.len() {
+        let miss = (lists.positions[n] - cells.positions[n]).length();
+        assert!(miss < 1e-4 * setup.spacing, "{n}: {miss}");
+    }
+}

@@ -53,6 +53,7 @@ pub mod contact;
 pub mod coupling;
 pub mod error;
 pub mod formula;
+pub mod guide;
 pub mod immersed;
 pub mod integrate;
 pub mod kernel;

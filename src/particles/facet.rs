@@ -36,6 +36,17 @@ impl Facet {
         Some(Self { plane, corners })
     }
 
+    /// Points all over it: near its corners and the middles of its edges, and its middle.
+    pub fn samples(&self) -> Vec<DVec3> {
+        let middle = self.corners.iter().sum::<DVec3>() / self.corners.len() as f64;
+        let ends = self.corners.iter().cycle().skip(1);
+        let mut samples = vec![middle];
+        for (a, b) in self.corners.iter().zip(ends) {
+            samples.extend([a.lerp(middle, 0.02), a.midpoint(*b).lerp(middle, 0.02)]);
+        }
+        samples
+    }
+
     /// From where to where it reaches along a direction, m.
     fn extent(&self, direction: DVec3) -> [f64; 2] {
         let places = self.corners.iter().map(|c| c.dot(direction));

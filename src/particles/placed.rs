@@ -1,6 +1,6 @@
 //! Convex parts of blocks and of water where they are at the start.
 
-use super::lattice::Lattice;
+use super::{facet::Facet, lattice::Lattice};
 use crate::{
     block::{Form, HalfSpace, Shape},
     bodies::Block,
@@ -100,7 +100,7 @@ impl<'a> Placed<'a> {
 #[derive(Clone, Debug)]
 pub(super) enum Solid {
     /// What faces bound, in the world.
-    Faces(Vec<HalfSpace>),
+    Faces(Faces),
     /// A sphere.
     Sphere {
         /// m.
@@ -108,6 +108,15 @@ pub(super) enum Solid {
         /// m.
         radius: f64,
     },
+}
+
+/// Faces of a convex part.
+#[derive(Clone, Debug)]
+pub(super) struct Faces {
+    /// Those that water may meet.
+    pub bare: Vec<HalfSpace>,
+    /// Those that lie inside other parts of the same block.
+    pub seams: Vec<HalfSpace>,
 }
 
 impl Solid {
@@ -142,16 +151,51 @@ impl Solid {
                 ends[axis][end] && beyond
             })
         };
-        Self::Faces(planes.into_iter().filter(|plane| !ends(plane)).collect())
+        let bare = planes.into_iter().filter(|plane| !ends(plane)).collect();
+        let seams = Vec::new();
+        Self::Faces(Faces { bare, seams })
+    }
+
+    /// Sorts out the faces of a part that lie inside `others`, the other parts of its block.
+    pub fn sew(&mut self, part: &Placed<'_>, others: &[&Placed<'_>], lattice: &Lattice) {
+        let Self::Faces(faces) = self else {
+            return;
+        };
+        let planes = part.planes();
+        let reach = 2.0 * (part.high - part.low).length();
+        let is_seam = |plane: &HalfSpace| {
+            let rest = planes.iter().filter(|other| *other != plane).copied();
+            let facet = Facet::new(*plane, rest, part.centre, reach);
+            facet.is_some_and(|facet| {
+                let samples = facet.samples().into_iter();
+                let mut outside = samples.map(|x| x + plane.normal * (1e3 * lattice.tolerance()));
+                outside.all(|x| {
+                    others
+                        .iter()
+                        .any(|other| other.depth(x) > -lattice.tolerance())
+                })
+            })
+        };
+        let all = std::mem::take(&mut faces.bare);
+        (faces.seams, faces.bare) = all.into_iter().partition(is_seam);
     }
 
     /// How deep `point` (m) lies in it, m; negative outside.
     pub fn depth(&self, point: DVec3) -> f64 {
         match self {
             Self::Sphere { centre, radius } => radius - centre.distance(point),
-            Self::Faces(planes) => {
-                let depths = planes.iter().map(|plane| -plane.height(point));
-                depths.fold(f64::INFINITY, f64::min)
+            Self::Faces(faces) => {
+                let depth = |planes: &[HalfSpace]| {
+                    let depths = planes.iter().map(|plane| -plane.height(point));
+                    depths.fold(f64::INFINITY, f64::min)
+                };
+                // What is beyond a seam is another part's.
+                let inside = depth(&faces.seams);
+                if inside < 0.0 {
+                    inside
+                } else {
+                    depth(&faces.bare)
+                }
             }
         }
     }

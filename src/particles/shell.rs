@@ -4,7 +4,7 @@ use super::{
     crowd::Crowd,
     facet::Facet,
     lattice::Lattice,
-    placed::{Placed, Solid},
+    placed::{Faces, Placed, Solid},
     sphere::spiral,
 };
 use crate::{
@@ -47,8 +47,17 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
             check(block, &parts, &lattice)?;
         }
         let fixed = block.motion == Motion::Fixed;
-        let solid = |part: &Placed<'_>| Solid::of(part, &lattice, fixed);
-        solids.push(parts.iter().map(solid).collect::<Vec<_>>());
+        let solid = |(index, part): (usize, &Placed<'_>)| {
+            let mut solid = Solid::of(part, &lattice, fixed);
+            let others = parts
+                .iter()
+                .enumerate()
+                .filter(|(other, _)| *other != index);
+            let others: Vec<&Placed<'_>> = others.map(|(_, other)| other).collect();
+            solid.sew(part, &others, &lattice);
+            solid
+        };
+        solids.push(parts.iter().enumerate().map(solid).collect::<Vec<_>>());
     }
     let still: Vec<usize> = (0..blocks.len())
         .filter(|index| blocks[*index].motion == Motion::Fixed)
@@ -116,8 +125,8 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Ve
         let depth = lattice.depth(layer);
         for solid in solids {
             match solid {
-                Solid::Faces(planes) => {
-                    for facet in facets(block, planes, depth, lattice, fixed) {
+                Solid::Faces(faces) => {
+                    for facet in facets(block, faces, depth, lattice, fixed) {
                         points.extend(facet.points(lattice));
                     }
                 }
@@ -137,14 +146,8 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Ve
     points
 }
 
-/// The facets of what is left when the faces `planes` have moved in by `depth` (m).
-fn facets(
-    block: &Block,
-    planes: &[HalfSpace],
-    depth: f64,
-    lattice: &Lattice,
-    fixed: bool,
-) -> Vec<Facet> {
+/// The facets of what is left when the bare ones of `faces` have moved in by `depth` (m).
+fn facets(block: &Block, faces: &Faces, depth: f64, lattice: &Lattice, fixed: bool) -> Vec<Facet> {
     let moved = |plane: &HalfSpace, by: f64| HalfSpace {
         distance: plane.distance - by,
         ..*plane
@@ -152,7 +155,7 @@ fn facets(
     // Where nothing is left but a plane or a line, that still carries points.
     let slack = 0.1 * lattice.tolerance();
     // A block that moves takes all its shells along, but for what spans a period.
-    let ends = (0..3).filter(|axis| fixed || lattice.endless(*axis) && is_endless(planes, *axis));
+    let ends = (0..3).filter(|axis| fixed || lattice.endless(*axis) && is_endless(faces, *axis));
     let ends: Vec<HalfSpace> = ends.flat_map(|axis| lattice.sides(axis)).collect();
     let middle = 0.5 * (lattice.low + lattice.high);
     let size =
@@ -162,17 +165,19 @@ fn facets(
         false => (block.centre, 2.0 * block.shape.radius() + size),
     };
     let facet = |(index, plane): (usize, &HalfSpace)| {
-        let others = planes.iter().enumerate().filter(|(i, _)| *i != index);
+        let others = faces.bare.iter().enumerate().filter(|(i, _)| *i != index);
         let others = others.map(|(_, other)| moved(other, depth - slack));
+        let others = others.chain(faces.seams.iter().map(|seam| moved(seam, -slack)));
         let others = others.chain(ends.iter().copied());
         Facet::new(moved(plane, depth), others, about, reach)
     };
-    planes.iter().enumerate().filter_map(facet).collect()
+    faces.bare.iter().enumerate().filter_map(facet).collect()
 }
 
 /// Whether no face bounds these along an axis.
-fn is_endless(planes: &[HalfSpace], axis: usize) -> bool {
-    planes.iter().all(|plane| plane.normal[axis].abs() < 1e-9)
+fn is_endless(faces: &Faces, axis: usize) -> bool {
+    let mut planes = faces.bare.iter().chain(&faces.seams);
+    planes.all(|plane| plane.normal[axis].abs() < 1e-9)
 }
 
 /// A block can carry shells.
@@ -215,10 +220,10 @@ fn check(block: &Block, parts: &[Placed<'_>], lattice: &Lattice) -> Result<()> {
     let thick = |part: &Placed<'_>| match part.form {
         Form::Sphere { radius } => *radius >= depth - lattice.tolerance(),
         Form::Convex(_) => {
-            let Solid::Faces(planes) = Solid::of(part, lattice, false) else {
+            let Solid::Faces(faces) = Solid::of(part, lattice, false) else {
                 return true;
             };
-            !facets(block, &planes, depth, lattice, false).is_empty()
+            !facets(block, &faces, depth, lattice, false).is_empty()
         }
     };
     if parts.iter().any(thick) {

@@ -30,6 +30,7 @@ pub struct FreeSurface {
     time_step: f64,
     step: u64,
     exchanges: u64,
+    sorts: u64,
     /// Mean loads of the last exchange, none before the first one.
     last: Vec<Load>,
     felt: Vec<Felt>,
@@ -86,6 +87,7 @@ impl FreeSurface {
             time_step,
             step: 0,
             exchanges: 0,
+            sorts: 0,
             last: Vec::new(),
             felt: vec![Felt::default(); blocks.len()],
             good: Snapshot::default(),
@@ -142,6 +144,7 @@ impl FreeSurface {
             .advance(device, queue, &poses, until - time)
             .await?;
         self.exchanges += 1;
+        self.sorts += u64::from(done.sorts);
         if !self.scene.coupling.average || self.last.is_empty() {
             self.last.clone_from(&done.loads);
         }
@@ -240,6 +243,11 @@ impl FreeSurface {
     /// How often water and blocks met.
     pub fn exchanges(&self) -> u64 {
         self.exchanges
+    }
+
+    /// Steps of the water that sorted its particles, and made lists of neighbours if there are any.
+    pub fn sorts(&self) -> u64 {
+        self.sorts
     }
 
     /// The present state, for a later [`FreeSurface::restore`].

@@ -211,3 +211,76 @@ fn blocks_that_carry_no_shell_are_refused() {
         assert!(words.contains(part), "{words}");
     }
 }
+
+/// A valley of several convex parts: wherever water may stand, the shell below has no hole.
+#[test]
+fn seams_of_a_compound_leave_no_holes() {
+    let profile = [
+        [0.0, 0.1],
+        [0.6, 0.1],
+        [0.72, 0.16],
+        [0.84, 0.1],
+        [0.92, 0.1],
+        [1.2, 0.2],
+        [1.8, 0.65],
+        [2.0, 0.65],
+    ];
+    let ends = [[2.0, -0.3], [0.0, -0.3]];
+    let section: Vec<[f64; 2]> = profile.into_iter().chain(ends).collect();
+    let mesh = prism(&section);
+    let folder = std::env::temp_dir().join(format!("riprap_valley_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("valley.obj"), mesh).unwrap();
+    let file = folder.join("valley.obj").display().to_string();
+    let valley = block(&format!(
+        "kind = \"mesh\"\nfile = \"{file}\"\nmotion = \"fixed\""
+    ));
+    let made = Made::of(&tank(&valley).unwrap());
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(made.setup.setup.blocks[made.block("b")].shape.parts().len() > 2);
+    let shells = made.all_shells();
+    let mut widest = 0.0f64;
+    for pair in profile.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|p| DVec3::new(p[0], 0.0, p[1]));
+        let down = DVec3::Y.cross(b - a).normalize();
+        assert!(down.z < 0.0);
+        for n in 0..40 {
+            for layer in [0.5, 1.5] {
+                let x = a.lerp(b, (f64::from(n) + 0.5) / 40.0) + down * layer * DX;
+                let x = x + DVec3::Y * 0.475;
+                let near = shells
+                    .iter()
+                    .map(|s| s.distance(x))
+                    .fold(f64::INFINITY, f64::min);
+                widest = widest.max(near);
+            }
+        }
+    }
+    // In a cubic lattice nowhere is farther from a point than half a diagonal.
+    let lattice = 0.75f64.sqrt();
+    assert!(widest < lattice * DX, "{} spacings", widest / DX);
+}
+
+/// OBJ of a prism across the tank: its section in x and z, clockwise seen from −y.
+fn prism(section: &[[f64; 2]]) -> String {
+    let n = section.len();
+    let mut text = String::new();
+    for y in [0, 1] {
+        for [x, z] in section {
+            text += &format!("v {x} {y} {z}\n");
+        }
+    }
+    let ring: Vec<String> = (1..=n).map(|i| i.to_string()).collect();
+    let back: Vec<String> = (n + 1..=2 * n).rev().map(|i| i.to_string()).collect();
+    let front: Vec<String> = ring.into_iter().rev().collect();
+    text += &format!(
+        "f {}\nf {}\n",
+        front.join(" "),
+        back.into_iter().rev().collect::<Vec<_>>().join(" ")
+    );
+    for i in 1..=n {
+        let j = i % n + 1;
+        text += &format!("f {i} {j} {}\nf {j} {} {}\n", i + n, j + n, i + n);
+    }
+    text
+}

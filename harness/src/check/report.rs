@@ -1,7 +1,10 @@
 //! What a scene will run.
 
 use super::Immersion;
-use crate::adapters::Adapter;
+use crate::{
+    adapters::Adapter,
+    run::{Coupling, LeftOut},
+};
 use anyhow::Result;
 use riprap::{
     coupling::Coupled, immersed::Immersed, lattice::Lattice, simulation::Simulation, units::Units,
@@ -22,6 +25,8 @@ pub struct Report {
     pub memory: Memory,
     /// What a step dispatches.
     pub kernels: Vec<Kernel>,
+    /// What the scene does not need, so that nobody pays for it.
+    pub left_out: Vec<LeftOut>,
     /// Time and the numbers of the method.
     pub numerics: Numerics,
     /// The blocks, if there are any.
@@ -132,6 +137,7 @@ impl Report {
         let lattice = simulation.lattice();
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
+        let cells = Coupling::of(simulation, simulation.step());
         Ok(Self {
             title: scene.title.clone(),
             adapter,
@@ -141,6 +147,10 @@ impl Report {
                 .kernels(false)
                 .chain(immersed.into_iter().flat_map(Immersed::kernels))
                 .map(Kernel::of)
+                .collect(),
+            left_out: LeftOut::of_lattice(lattice)
+                .into_iter()
+                .chain(cells.as_ref().map(LeftOut::of_places).into_iter().flatten())
                 .collect(),
             numerics: Numerics::of(simulation, simulation.units())?,
             warnings: warnings.collect(),

@@ -96,6 +96,7 @@ impl<E: Engine> Journey<E> {
         summary.time = engine.time();
         summary.seconds = start.elapsed().as_secs_f64();
         summary.take(&self.notes);
+        summary.tell_left_out();
         let written = summary.write(&self.folder);
         written.with_context(|| Unfinished::new(step, &self.notes))?;
         Ok(self.summary)

@@ -11,6 +11,7 @@ mod engine;
 mod flow;
 mod history;
 mod journey;
+mod left_out;
 mod progress;
 mod recorder;
 mod rock;
@@ -29,6 +30,7 @@ pub(crate) use rock::Rock;
 pub(crate) use water::Pond;
 
 pub use flow::Coupling;
+pub use left_out::LeftOut;
 pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};

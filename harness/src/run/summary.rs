@@ -2,6 +2,7 @@
 
 use super::{
     flow::Coupling,
+    left_out::LeftOut,
     progress::clock,
     recorder::Notes,
     rock::{Rocks, Safety},
@@ -85,6 +86,9 @@ pub struct Summary {
     /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
+    /// What was not done because nothing needed it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<LeftOut>,
     /// How safely blocks stand whose probes ask.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
@@ -115,6 +119,16 @@ impl Summary {
             self.checkpoint = Some(path.clone());
             self.checkpoint_step = Some(*step);
         }
+    }
+
+    /// Adds what blocks and particles did without to what the fluid does.
+    pub fn tell_left_out(&mut self) {
+        let (coupling, rocks, pool) = (&self.coupling, &self.rocks, &self.pool);
+        self.left_out
+            .extend(coupling.iter().flat_map(LeftOut::of_coupling));
+        self.left_out
+            .extend(rocks.iter().flat_map(LeftOut::of_rocks));
+        self.left_out.extend(pool.iter().flat_map(LeftOut::of_pool));
     }
 
     /// Writes `summary.json` into `folder`, itself among the files.
@@ -205,6 +219,9 @@ impl fmt::Display for Summary {
         }
         for safety in &self.safety {
             writeln!(f, "  {safety}")?;
+        }
+        for left_out in &self.left_out {
+            writeln!(f, "  only {left_out}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

@@ -11,6 +11,7 @@ mod watch;
 
 use super::{
     engine::{Engine, Recorders},
+    left_out::LeftOut,
     recorder::Notes,
     rock::{self, BlockFiles, Rock, Rocks},
     slices::Pictures,
@@ -231,6 +232,7 @@ impl Engine for Flow {
                 .collect(),
             rocks: Rocks::of(self),
             coupling: Coupling::of(simulation, 0),
+            left_out: LeftOut::of_lattice(lattice),
             ..Summary::default()
         })
     }

@@ -15,6 +15,10 @@ pub struct Rocks {
     pub contacts: usize,
     /// Pairs at the end that may touch.
     pub pairs: usize,
+    /// Pairs tested for contact in this run.
+    pub tests: u64,
+    /// Linear programs that this took.
+    pub programs: u64,
     /// Longest sub-step at the end, s.
     pub sub_step: f64,
     /// Largest speed of a centroid at the end, m/s.
@@ -65,6 +69,8 @@ impl Rocks {
             awake: rock.awake(),
             contacts: blocks.contacts().count(),
             pairs: blocks.candidates(),
+            tests: blocks.counts().pairs,
+            programs: blocks.counts().programs,
             sub_step: blocks.time_step().min(engine.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),

@@ -21,6 +21,10 @@ pub struct Pool {
     pub sound_speed: f64,
     /// Acoustic steps that the water has taken, those before a restart included.
     pub acoustic_steps: u64,
+    /// Those of this run.
+    pub steps_here: u64,
+    /// Those of this run that sorted the particles.
+    pub sorts: u64,
     /// How often water and blocks met in this run.
     pub exchanges: u64,
     /// Largest speed that was seen, m/s.
@@ -44,6 +48,8 @@ impl Pool {
             particle_mass: setup.particle_mass(),
             sound_speed: setup.sound_speed,
             acoustic_steps: particles.steps(),
+            steps_here: 0,
+            sorts: pond.simulation.sorts(),
             exchanges: pond.simulation.exchanges(),
             max_speed: pond.fastest,
             max_mach: pond.fastest / setup.sound_speed,
@@ -56,6 +62,7 @@ impl Pool {
         let steps = self.acoustic_steps - first.map_or(0, |first| first.acoustic_steps);
         let updates = steps as f64 * f64::from(self.particles - self.escaped);
         Self {
+            steps_here: steps,
             updates_a_second: updates / time.as_secs_f64().max(1e-9),
             ..self
         }

@@ -126,6 +126,11 @@ fn read(path: &Path) -> Result<()> {
     Ok(())
 }
 
+#[expect(clippy::ptr_arg, reason = "as the inputs are")]
+fn bytes(input: &Vec<u8>) -> &[u8] {
+    input
+}
+
 fn spoilt(extension: &'static str, right: &[Vec<u8>]) {
     let path: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("spoilt.{extension}"));
     for bytes in right {
@@ -141,13 +146,10 @@ fn spoilt(extension: &'static str, right: &[Vec<u8>]) {
         }
         bytes
     });
-    let file = path.clone();
-    judge(
-        &path,
-        inputs,
-        |bytes| bytes.as_slice(),
-        move |_| read(&file),
-    );
+    judge(inputs, bytes, move |bytes| {
+        std::fs::write(&path, bytes).unwrap();
+        read(&path)
+    });
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::{dice::Dice, judge::judge};
 use riprap::{
     Result,
+    particles::particle_setup,
     scene::Scene,
     simulation::{block_setup, lattice_setup},
     units::Units,
@@ -12,6 +13,8 @@ use std::path::{Path, PathBuf};
 const COUNT: usize = 10_000;
 /// Cells of a lattice that is set up on the host.
 const MOST_CELLS: f64 = 1e5;
+/// Particles that are laid.
+const MOST_PARTICLES: f64 = 2e4;
 /// Blocks in rows that are made.
 const MOST_COPIES: f64 = 1e3;
 
@@ -187,8 +190,16 @@ fn read(name: &str, text: &str, deep: bool) -> Result<()> {
                 .product::<f64>()
         })
         .sum();
-    if scene.rock_masses.is_empty() && copies < MOST_COPIES {
-        block_setup(&scene)?;
+    if !scene.rock_masses.is_empty() || copies >= MOST_COPIES {
+        return Ok(());
+    }
+    let blocks = block_setup(&scene)?;
+    if let Some(particles) = &scene.particles {
+        let [x, y, z] = scene.domain.size.map(|size| size / particles.spacing);
+        let count = if particles.plane { x * z } else { x * y * z };
+        if count < MOST_PARTICLES {
+            particle_setup(&scene, &blocks)?;
+        }
     }
     if scene.has_fluid() && !scene.has_particles() {
         let units = Units::of(&scene)?;
@@ -198,6 +209,11 @@ fn read(name: &str, text: &str, deep: bool) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The text of an input.
+fn bytes(input: &(String, String, bool)) -> &[u8] {
+    input.1.as_bytes()
 }
 
 #[test]
@@ -217,9 +233,5 @@ fn spoilt_scenes_are_read_or_refused_with_a_place() {
         }
         (name.clone(), text, number % 4 == 0)
     });
-    let spoilt = Path::new(env!("CARGO_TARGET_TMPDIR")).join("spoilt.toml");
-    let bytes = |input: &(String, String, bool)| input.1.as_bytes();
-    judge(&spoilt, inputs, bytes, |(name, text, deep)| {
-        read(name, text, *deep)
-    });
+    judge(inputs, bytes, |(name, text, deep)| read(name, text, *deep));
 }

@@ -126,7 +126,6 @@ fn read(path: &Path) -> Result<()> {
     Ok(())
 }
 
-#[expect(clippy::ptr_arg, reason = "as the inputs are")]
 fn bytes(input: &Vec<u8>) -> &[u8] {
     input
 }

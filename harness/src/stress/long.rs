@@ -13,7 +13,7 @@ use std::time::Instant;
 pub const MAP: Map = Map {
     name: "long",
     title: "Blocks fill 0.3 of a periodic box, τ = 0.55, density 2.65",
-    x: "",
+    x: "step",
     y: "",
     short: "27 blocks in 30³ cells, 400 steps",
     full: "100 blocks in 50 × 50 × 40 cells, 10 000 steps",
@@ -30,7 +30,7 @@ const SPACING: u32 = 10;
 const MOMENTUM: f64 = 1e-2;
 /// Of the mass: round-off of f32 in random directions.
 const MASS: f64 = 1e-6;
-/// Growth of the process while nothing is added to what runs, of its size after the first part.
+/// Growth of the process in the second half, while nothing is added to what runs.
 const GROWTH: f64 = 0.05;
 
 fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
@@ -38,8 +38,9 @@ fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
     scene.numerics.velocity_scale = Some(2.0 * SPEED);
     scene.initial.velocity = numbers([0.0, 0.0, SPEED]);
     scene.materials[0].density = RATIO;
-    // Blocks that meet at twice their speed sink in by a thousandth of their edge.
-    scene.materials[0].normal_stiffness = 1.0;
+    // Blocks that meet corner first at twice their speed sink in by 2 % of their edge.
+    scene.materials[0].normal_stiffness = 10.0;
+    scene.rock.corner_area = 0.25;
     let edge = f64::from(SPACING) * FRACTION.cbrt();
     let [nx, ny, nz] = rows;
     for n in 0..nx * ny * nz {
@@ -57,109 +58,102 @@ fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
 }
 
 fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let (rows, steps) = match stand.full {
-        true => ([5, 5, 4], 10_000),
-        false => ([3; 3], 400),
+    let (rows, parts, steps) = match stand.full {
+        true => ([5, 5, 4], 10, 1000),
+        false => ([3; 3], 4, 100),
     };
-    let begin = Instant::now();
     let scene = scene(rows)?;
     let mut tank = Tank::fill(stand, &scene)?;
-    let warned = super::warned(&tank);
     let before = Tally::of(&mut tank, RATIO)?;
-    // The first part warms up: what grows after it grows without end.
-    let part = steps / 10;
-    let report = |quantity: &str, value: Option<f64>, limit: f64, at: u64, detail: String| Cell {
-        map: MAP.name.into(),
-        panel: String::new(),
-        y: quantity.into(),
-        x: "value".into(),
-        outcome: match value {
-            // NaN is beyond any limit.
-            Some(value) if value <= limit => Outcome::Ended,
-            None => Outcome::Ended,
-            Some(_) => Outcome::OverLimit,
-        },
-        value,
-        quantity: "as named".into(),
-        steps: at,
-        warned: warned.clone(),
-        agrees: None,
-        seconds: begin.elapsed().as_secs_f64(),
-        detail,
-    };
-    let ended = |tank: &Tank<'_>, error: anyhow::Error| -> anyhow::Result<Cell> {
-        if !error.is::<riprap::Error>() {
-            return Err(error);
+    // Pools of the driver and of the allocator fill in the first half: what grows after it grows without end.
+    let mut warm = (None, 0);
+    for part in 1..=parts {
+        let begin = Instant::now();
+        if let Err(error) = tank.advance(steps - 1) {
+            let mut cell = cell(&tank, "run", begin);
+            cell.end(Err(error))?;
+            return sink.add(cell);
         }
-        let mut cell = report("run", None, 0.0, tank.simulation.step(), error.to_string());
-        cell.outcome = Outcome::of(&error);
-        Ok(cell)
-    };
-    if let Err(error) = tank.advance(part) {
-        return sink.add(ended(&tank, error)?);
+        let sizes = (resident(), buffers(&tank));
+        let first = Tally::of(&mut tank, RATIO)?;
+        tank.advance(1)?;
+        let now = Tally::of(&mut tank, RATIO)?;
+        // What cells inside blocks reflect swings with a period of two steps.
+        let drift = 0.5 * (first.momentum + now.momentum) - before.momentum;
+        let lost = drift.length() / before.carried.max(now.carried);
+        let mass = (now.mass / before.mass - 1.0).abs();
+        let energy = now.kinetic / before.kinetic;
+        let mut report = |name: &str, value: f64, limit: f64, detail: String| {
+            sink.add(judged(cell(&tank, name, begin), value, limit, detail))
+        };
+        let text = format!("{drift} of {}", before.momentum);
+        report("momentum lost / carried by blocks", lost, MOMENTUM, text)?;
+        report("drift of the mass", mass, MASS, String::new())?;
+        report("energy / that of the start", energy, 1.0, String::new())?;
+        if 2 * part <= parts {
+            warm = sizes;
+        }
+        let (process, device) = warm;
+        if let (Some(from), Some(to)) = (process, sizes.0) {
+            let growth = to as f64 / from as f64 - 1.0;
+            report(
+                "growth of the process",
+                growth,
+                GROWTH,
+                format!("{from} to {to} bytes"),
+            )?;
+        }
+        let growth = sizes.1 as f64 / device as f64 - 1.0;
+        let text = format!("{device} to {} bytes of the blocks on the device", sizes.1);
+        // Buffers grow by halves as blocks reach more bricks, and there are no more than all.
+        report("growth of the buffers", growth, 0.5, text)?;
     }
-    let (first, process, device) = (bits(&mut tank, stand)?, resident(), buffers(&tank));
-    if let Err(error) = tank.advance(steps - part) {
-        return sink.add(ended(&tank, error)?);
+    repeats(stand, &scene, steps, sink)
+}
+
+fn cell(tank: &Tank<'_>, name: &str, begin: Instant) -> Cell {
+    let steps = tank.simulation.step();
+    Cell {
+        steps,
+        warned: super::warned(tank),
+        seconds: begin.elapsed().as_secs_f64(),
+        ..Cell::new(MAP.name, "", name.into(), steps.to_string(), "as named")
     }
-    let (process_end, device_end) = (resident(), buffers(&tank));
-    let after = Tally::of(&mut tank, RATIO)?;
-    let end = tank.simulation.step();
-    tank.advance(1)?;
-    let last = Tally::of(&mut tank, RATIO)?;
-    // What cells inside blocks reflect swings with a period of two steps.
-    let drift = 0.5 * ((after.momentum - before.momentum) + (last.momentum - before.momentum));
-    let momentum = drift.length() / before.carried.max(after.carried);
-    sink.add(report(
-        "momentum lost / carried by blocks",
-        Some(momentum),
-        MOMENTUM,
-        end,
-        format!("{drift} of {}", before.momentum),
-    ))?;
-    let mass = (after.mass / before.mass - 1.0).abs();
-    sink.add(report(
-        "drift of the mass",
-        Some(mass),
-        MASS,
-        end,
-        String::new(),
-    ))?;
-    let energy = after.kinetic / before.kinetic;
-    sink.add(report(
-        "energy, end / start",
-        Some(energy),
-        1.0,
-        end,
-        String::new(),
-    ))?;
-    let growth = process.zip(process_end);
-    let growth = growth.map(|(from, to)| to as f64 / from as f64 - 1.0);
-    let detail = match (process, process_end) {
-        (Some(from), Some(to)) => format!("{from} to {to} bytes of the process"),
-        _ => "this system does not tell".into(),
-    };
-    sink.add(report("growth of the process", growth, GROWTH, end, detail))?;
-    let ratio = device_end as f64 / device as f64 - 1.0;
-    let detail = format!("{device} to {device_end} bytes of the blocks on the device");
-    // Buffers grow by halves as blocks reach more bricks, and there are no more than all.
-    sink.add(report(
-        "growth of the buffers",
-        Some(ratio),
-        0.5,
-        end,
+}
+
+fn judged(cell: Cell, value: f64, limit: f64, detail: String) -> Cell {
+    Cell {
+        // NaN is beyond any limit.
+        outcome: if value <= limit {
+            Outcome::Ended
+        } else {
+            Outcome::OverLimit
+        },
+        value: Some(value),
         detail,
-    ))?;
-    let mut again = Tank::fill(stand, &scene)?;
-    again.advance(part)?;
-    let second = bits(&mut again, stand)?;
+        ..cell
+    }
+}
+
+/// The first part again, twice.
+fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow::Result<()> {
+    let begin = Instant::now();
+    let once = || -> anyhow::Result<_> {
+        let mut tank = Tank::fill(stand, scene)?;
+        tank.advance(steps)?;
+        let bits = bits(&mut tank, stand)?;
+        Ok((
+            bits,
+            cell(&tank, "bytes that differ in a second run", begin),
+        ))
+    };
+    let ((first, _), (second, cell)) = (once()?, once()?);
     let differ = first.iter().zip(&second).filter(|(a, b)| a != b).count();
     let differ = differ + first.len().abs_diff(second.len());
-    sink.add(report(
-        "bytes that differ in a second run",
-        Some(differ as f64),
+    sink.add(judged(
+        cell,
+        differ as f64,
         0.0,
-        part,
         format!("of {}", first.len()),
     ))
 }

@@ -165,7 +165,7 @@ pub enum Error {
         remedy: String,
     },
     /// The device is gone.
-    #[error("device lost: {0}")]
+    #[error("device lost: {0}; open a device anew, and go on from the last checkpoint")]
     DeviceLost(String),
     /// The device refused an allocation or a command.
     #[error("device: {0}")]

@@ -52,6 +52,7 @@ pub mod checkpoint;
 pub mod contact;
 pub mod coupling;
 pub mod error;
+mod filled;
 pub mod formula;
 pub mod guide;
 pub mod immersed;

@@ -43,7 +43,7 @@ impl Readback {
         let mut encoder = device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, bytes);
         queue.submit([encoder.finish()]);
-        let values = map(&staging, bytes).await?;
+        let values = map(device, &staging, bytes).await?;
         self.staging = Some(staging);
         Ok(values)
     }
@@ -60,9 +60,16 @@ pub(crate) fn staging(device: &wgpu::Device, bytes: u64) -> wgpu::Buffer {
 }
 
 /// The first `bytes` of a staging buffer, after all that was submitted before.
-pub(crate) async fn map<T: bytemuck::Pod>(staging: &wgpu::Buffer, bytes: u64) -> Result<Vec<T>> {
+pub(crate) async fn map<T: bytemuck::Pod>(
+    device: &wgpu::Device,
+    staging: &wgpu::Buffer,
+    bytes: u64,
+) -> Result<Vec<T>> {
     let mapped = Arc::new(Mutex::new(Mapped::default()));
     let done = Arc::clone(&mapped);
+    // A buffer that was made after the device was lost is none: mapping it is an error of validation, for which wgpu
+    // panics outside of a scope.
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
         if let Ok(mut mapped) = done.lock() {
             mapped.result = Some(result);
@@ -71,7 +78,11 @@ pub(crate) async fn map<T: bytemuck::Pod>(staging: &wgpu::Buffer, bytes: u64) ->
             }
         }
     });
+    let refused = scope.pop();
     let lost = |e: &dyn std::fmt::Display| Error::DeviceLost(format!("reading back: {e}"));
+    if let Some(error) = refused.await {
+        return Err(lost(&error));
+    }
     poll_fn(|context| match mapped.lock() {
         Ok(mut mapped) => match mapped.result.take() {
             Some(result) => Poll::Ready(result.map_err(|e| lost(&e))),

@@ -10,5 +10,6 @@ pub mod render;
 pub mod run;
 pub mod schema;
 mod search;
+pub mod stress;
 pub mod threshold;
 pub mod validate;

@@ -5,7 +5,7 @@ use riprap::Error;
 use riprap_harness::{
     adapters, bench, check,
     run::{self, Unfinished},
-    schema, threshold, validate,
+    schema, stress, threshold, validate,
 };
 use std::{
     process::ExitCode,
@@ -27,6 +27,7 @@ enum Command {
     Schema(schema::Args),
     Threshold(threshold::Args),
     Validate(validate::Args),
+    Stress(stress::Args),
     Bench(bench::Args),
 }
 
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Threshold(args) => bisected(&args),
         Command::Validate(args) => validate::run(args).map(passed),
+        Command::Stress(args) => stress::run(&args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {

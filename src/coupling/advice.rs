@@ -34,8 +34,8 @@ impl Ranked {
 }
 
 impl Coupled {
-    /// Warns of blocks that the grid does not resolve, of gaps that it does not, and of blocks lighter
-    /// than the fluid.
+    /// Warns of blocks that the grid does not resolve, of gaps that it does not, of blocks lighter than the
+    /// fluid, and of those that lie where fluid enters.
     pub fn advise(&self, scene: &Scene) -> Advice {
         let mut advice = Advice::new();
         let mut warn = |place: &str, message: String| {
@@ -85,6 +85,7 @@ impl Coupled {
                 ),
             );
         }
+        self.warn_of_inlets(&mut advice);
         advice
     }
 

@@ -1,7 +1,8 @@
 //! The blocks of a scene in its lattice.
 
 use super::{
-    Ambient, Gap, Gathered, InnerFluid, Matter, Reading, faces::asked, gaps::gaps, loads::sum,
+    Ambient, Gap, Gathered, InnerFluid, Matter, Reading, faces::asked, gaps::gaps, inlets::AtInlet,
+    loads::sum,
 };
 use crate::{
     Error, Result,
@@ -55,6 +56,8 @@ pub struct Coupled {
     in_fluid: usize,
     /// Those narrower than a cell at the start.
     gaps: Vec<Gap>,
+    /// Blocks that lie where fluid enters at the start.
+    pub(super) began: Vec<AtInlet>,
     interval: u64,
     average: bool,
     /// Steps for which the blocks are held.
@@ -103,7 +106,7 @@ impl Coupled {
             origin: DVec3::from(scene.domain.origin),
             units: *units,
         };
-        Ok(Self {
+        let mut coupled = Self {
             immersed: Immersed::new(device, lattice, frame, submerged.collect())?,
             reading: Reading::default(),
             face_reading: Reading::default(),
@@ -115,6 +118,7 @@ impl Coupled {
             },
             in_fluid,
             gaps,
+            began: Vec::new(),
             interval: scene.coupling.interval.into(),
             average: scene.coupling.average,
             hold: (scene.coupling.hold / units.time_step).round() as u64,
@@ -127,7 +131,9 @@ impl Coupled {
             setup,
             blocks,
             finder,
-        })
+        };
+        coupled.began = coupled.will_be_at_inlets(scene, units);
+        Ok(coupled)
     }
 
     /// Puts the blocks where they are and records their cells, unless that is done.

@@ -9,6 +9,7 @@ mod coupled;
 mod faces;
 mod gaps;
 mod gathered;
+mod inlets;
 mod inner_fluid;
 mod joints;
 mod loads;

@@ -6,6 +6,8 @@ use crate::{Result, readback};
 #[derive(Debug, Default)]
 pub struct Reading {
     staging: Vec<wgpu::Buffer>,
+    /// Theirs, once there is one.
+    device: Option<wgpu::Device>,
     /// Steps whose numbers are on their way, each in the staging buffer of its place.
     steps: Vec<u64>,
     bytes: u64,
@@ -22,6 +24,7 @@ impl Reading {
         step: u64,
     ) {
         self.bytes = 4 * count as u64;
+        self.device.get_or_insert_with(|| device.clone());
         let place = self.steps.len();
         self.steps.push(step);
         if self.bytes == 0 {
@@ -45,9 +48,11 @@ impl Reading {
     pub async fn finish(&mut self) -> Result<Vec<(u64, Vec<f32>)>> {
         let mut all = Vec::new();
         for (place, step) in std::mem::take(&mut self.steps).into_iter().enumerate() {
-            let numbers = match self.bytes {
-                0 => Vec::new(),
-                bytes => readback::map(&self.staging[place], bytes).await?,
+            let numbers = match (&self.device, self.bytes) {
+                (Some(device), bytes) if bytes > 0 => {
+                    readback::map(device, &self.staging[place], bytes).await?
+                }
+                _ => Vec::new(),
             };
             all.push((step, numbers));
         }

@@ -6,9 +6,8 @@ use super::{
     populations, program,
     streams::Streams,
 };
-use crate::{Error, Result, kernel::Kernel, link::Program};
+use crate::{Error, Result, filled::filled, kernel::Kernel, link::Program};
 use std::collections::HashSet;
-use wgpu::util::DeviceExt;
 
 /// A dispatch that is ready to be recorded.
 #[derive(Debug)]
@@ -314,11 +313,8 @@ impl Lattice {
 
 /// A read-only storage buffer with this content.
 pub(super) fn storage(device: &wgpu::Device, label: &str, contents: &[u8]) -> wgpu::Buffer {
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some(label),
-        contents,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-    })
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+    filled(device, label, contents, usage)
 }
 
 /// A storage buffer that can be read back.
@@ -391,13 +387,10 @@ fn make_buffers(
         flags: list("flags", &geometry.flags),
         force,
         guard: (setup.max_speed > 0.0).then(|| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("guard"),
-                contents: bytemuck::cast_slice(&GUARD_START),
-                usage: wgpu::BufferUsages::STORAGE
-                    | wgpu::BufferUsages::COPY_DST
-                    | wgpu::BufferUsages::COPY_SRC,
-            })
+            let usage = wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_DST
+                | wgpu::BufferUsages::COPY_SRC;
+            filled(device, "guard", bytemuck::cast_slice(&GUARD_START), usage)
         }),
         wall_velocity: (!moving.is_empty())
             .then(|| storage(device, "wall velocity", bytemuck::cast_slice(&moving))),

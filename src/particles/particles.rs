@@ -204,7 +204,7 @@ impl Particles {
             }
             let report = self.report(device, &mut encoder);
             queue.submit([encoder.finish()]);
-            let words: Vec<u32> = readback::map(&report, report.size()).await?;
+            let words: Vec<u32> = readback::map(device, &report, report.size()).await?;
             self.report = Some(report);
             let (clock, loads) = words.split_at(size_of::<Clock>() / 4);
             self.clock = *bytemuck::from_bytes(bytemuck::cast_slice(clock));

@@ -1,12 +1,19 @@
 //! Why a run left the range of the method, and what to change.
 
 use super::Simulation;
-use crate::{Error, lattice::Fault};
+use crate::{
+    Error,
+    lattice::{self, Fault},
+    scene::Face,
+};
 
 impl Simulation {
     /// The error of a fault, with its likely cause in numbers.
     pub(super) fn diverged(&self, fault: Fault) -> Error {
         let setup = self.lattice.setup();
+        if let Some([cause, remedy]) = self.block_at_inlet() {
+            return self.fault(fault, cause, remedy);
+        }
         if let Some((cause, remedy)) = self.fast_block() {
             return self.fault(fault, cause, remedy);
         }
@@ -52,6 +59,29 @@ impl Simulation {
             )
         };
         self.fault(fault, cause, remedy)
+    }
+
+    /// A block that lies where fluid enters.
+    fn block_at_inlet(&self) -> Option<[String; 2]> {
+        let coupled = self.coupled.as_ref()?;
+        let faces = &self.lattice.setup().faces;
+        let through = |face: Face| {
+            let axis = face.axis().index();
+            match &faces[axis][usize::from(face.is_max())] {
+                lattice::Face::Velocity(list) => {
+                    let along = list.iter().map(|u| u[axis].into()).collect();
+                    Some((face, along))
+                }
+                _ => None,
+            }
+        };
+        let through: Vec<_> = Face::ALL.into_iter().filter_map(through).collect();
+        let Some(found) = coupled.at_inlets(&through).first().copied() else {
+            // One that has been pushed away since has left what pushed it.
+            return coupled.began_at_inlet();
+        };
+        let speed = self.units.velocity_from_lattice(found.speed);
+        Some(coupled.inlet_trouble(&found, speed))
     }
 
     /// The fastest block, if no flow can follow it.

@@ -4,7 +4,7 @@ use crate::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variant
 use riprap::lattice::{Equilibrium, Face, Setup, single_cells};
 
 /// Files, entry points and buffers of the kernels for single cells, without flags and force.
-const SINGLE: &[(&str, &[&str], &[&str])] = &[
+pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ("links", &["reflect"], &["links"]),
     (
         "moving_wall",

@@ -1,5 +1,6 @@
 //! Variants, and a linked kernel as drivers see it.
 
+use crate::translate::translate;
 use riprap::{
     kernel::bindings,
     lattice::{Force, Grid, Setup, Storage, constants},
@@ -47,8 +48,8 @@ pub fn bindings_of(variant: &[usize]) -> u32 {
     BINDINGS[variant.iter().sum::<usize>() % BINDINGS.len()]
 }
 
-/// naga's last step before a driver sees a shader: overrides become numbers, and expressions of
-/// them are evaluated and validated.
+/// naga's last steps before a driver sees a shader: overrides become numbers, expressions of them are evaluated and
+/// validated, and the whole is written in the language of the driver.
 pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     let grid = Grid::new(setup).unwrap();
     let mut numbers: HashMap<String, f64> = [
@@ -73,13 +74,7 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     let overrides = linked.module.overrides.iter();
     let declared: BTreeSet<_> = overrides.filter_map(|(_, o)| o.name.clone()).collect();
     numbers.retain(|name, _| declared.contains(name));
-    naga::back::pipeline_constants::process_overrides(
-        &linked.module,
-        &linked.info,
-        Some((naga::ShaderStage::Compute, entry)),
-        &numbers.into_iter().collect(),
-    )
-    .unwrap_or_else(|error| panic!("{entry} {setup:?}: {error}"));
+    translate(linked, entry, &numbers, setup.is_wide());
 }
 
 /// Names of the buffers but those of the populations, and how many those are.

@@ -1,5 +1,5 @@
-//! Pictures of results, as PNG files: a [`Slice`] through the flow, and a [`Chart`] of curves —
-//! the [history](Chart::history) of a probe or the [profile](Chart::profile) of a quantity.
+//! Pictures of results, as PNG files: a [`Slice`] through the flow, a [`ColourGrid`] of runs, and a [`Chart`] of
+//! curves — the [history](Chart::history) of a probe or the [profile](Chart::profile) of a quantity.
 
 pub(crate) mod arrows;
 mod axis;
@@ -10,6 +10,7 @@ pub(crate) mod colour_bar;
 mod curve;
 mod follow;
 pub(crate) mod frame;
+mod grid;
 mod history;
 mod placed;
 pub(crate) mod png_file;
@@ -24,6 +25,7 @@ pub use axis::{Axis, Scale};
 pub use chart::{Chart, Measure, Panel};
 pub use colour::Palette;
 pub use curve::{Curve, Mark};
+pub use grid::{ColourGrid, GridPanel, Square};
 pub use history::Track;
 pub use placed::Placed;
 pub use section::{Plane, Quantity, Section};

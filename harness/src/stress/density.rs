@@ -1,0 +1,112 @@
+//! A block that is thrown into fluid at rest: light ones answer to their own wake, fast ones to sound.
+
+use super::{Cell, Map, Outcome, Sink, tally::Tally};
+use crate::validate::{
+    Stand,
+    solids::tank::{self, Tank, block, numbers, turn},
+};
+use riprap::scene::{BlockShape, Motion};
+use std::time::Instant;
+
+/// The map.
+pub const MAP: Map = Map {
+    name: "density",
+    title: "Cube of 8 cells thrown into fluid at rest, τ = 0.55",
+    x: "Mach number of the block",
+    y: "density / that of the fluid",
+    short: "3 densities and a driven block, 3 Mach numbers, 150 steps",
+    full: "5 densities and a driven block, 4 Mach numbers, 1000 steps",
+    run,
+};
+
+const CELLS: [u32; 3] = [40, 24, 24];
+const EDGE: f64 = 8.0;
+const TAU: f64 = 0.55;
+const RATIO: [f64; 5] = [0.5, 1.0, 2.65, 5.0, 8.0];
+const SHORT_RATIO: [f64; 3] = [0.5, 2.65, 8.0];
+const MACH: [f64; 4] = [0.02, 0.05, 0.1, 0.2];
+const SHORT_MACH: [f64; 3] = [0.02, 0.1, 0.2];
+/// Rise of energy or speed over the start that rounding, sound and the swing of single loads do not explain.
+const RISE: f64 = 1.05;
+/// Looks at the energy in a run.
+const LOOKS: u64 = 10;
+
+fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+    let (ratios, machs): (&[f64], &[f64]) = match stand.full {
+        true => (&RATIO, &MACH),
+        false => (&SHORT_RATIO, &SHORT_MACH),
+    };
+    let steps = if stand.full { 1000 } else { 150 };
+    for &ratio in ratios {
+        for &mach in machs {
+            sink.add(measure(stand, Some(ratio), mach, steps)?)?;
+        }
+    }
+    for &mach in machs {
+        sink.add(measure(stand, None, mach, steps)?)?;
+    }
+    Ok(())
+}
+
+/// A free block of a density, or a driven one.
+fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::Result<Cell> {
+    let begin = Instant::now();
+    let speed = mach / 3f64.sqrt();
+    let mut scene = tank::scene(CELLS, TAU)?;
+    scene.numerics.velocity_scale = Some(speed);
+    let motion = match ratio {
+        Some(ratio) => {
+            scene.materials[0].density = ratio;
+            Motion::Free
+        }
+        None => Motion::Driven,
+    };
+    let shape = BlockShape::Box { size: [EDGE; 3] };
+    let mut cube = block(shape, CELLS.map(|n| 0.5 * f64::from(n)), motion);
+    cube.velocity = numbers([speed, 0.0, 0.0]);
+    cube.rotation = turn(1);
+    scene.blocks.push(cube);
+    let mut cell = Cell::new(
+        MAP.name,
+        "",
+        ratio.map_or("driven".into(), |ratio| format!("{ratio}")),
+        format!("{mach}"),
+        "largest energy / that of the start; driven: largest max|u| / U₀",
+    );
+    let followed = follow(stand, &scene, (ratio, speed), steps, &mut cell);
+    cell.end(followed)?;
+    let well = !matches!(cell.outcome, Outcome::Error(_) | Outcome::Unphysical);
+    cell.agrees = Some(well || !cell.warned.is_empty());
+    cell.seconds = begin.elapsed().as_secs_f64();
+    Ok(cell)
+}
+
+fn follow(
+    stand: &Stand,
+    scene: &riprap::scene::Scene,
+    (ratio, speed): (Option<f64>, f64),
+    steps: u64,
+    cell: &mut Cell,
+) -> anyhow::Result<()> {
+    let mut tank = Tank::fill(stand, scene)?;
+    cell.warned = super::warned(&tank);
+    let density = ratio.unwrap_or(1.0);
+    let start = Tally::of(&mut tank, density)?;
+    let (mut energy, mut block_speed, mut flow_speed) = (0f64, 0f64, 0f64);
+    for _ in 0..LOOKS {
+        let done = tank.advance(steps / LOOKS);
+        cell.steps = tank.simulation.step();
+        done?;
+        let now = Tally::of(&mut tank, density)?;
+        energy = energy.max(now.kinetic / start.kinetic);
+        block_speed = block_speed.max(now.block_speed / speed);
+        flow_speed = flow_speed.max(now.flow_speed / speed);
+    }
+    cell.detail = format!("largest speed / U₀: block {block_speed:.3}, fluid {flow_speed:.3}");
+    // What drives a block gives it energy.
+    cell.value = Some(if ratio.is_some() { energy } else { flow_speed });
+    if ratio.is_some() && (energy > RISE || block_speed > RISE) {
+        cell.outcome = Outcome::Unphysical;
+    }
+    Ok(())
+}

@@ -1,0 +1,231 @@
+//! A hundred blocks that fill three tenths of a periodic box, for a long time: what is conserved, what repeats, and
+//! what memory grows to.
+
+use super::{Cell, Map, Outcome, Sink, tally::Tally};
+use crate::validate::{
+    Stand, fields,
+    solids::tank::{self, Tank, block, numbers, turn},
+};
+use riprap::scene::{BlockShape, Motion, Scene};
+use std::time::Instant;
+
+/// The map.
+pub const MAP: Map = Map {
+    name: "long",
+    title: "Blocks fill 0.3 of a periodic box, τ = 0.55, density 2.65",
+    x: "step",
+    y: "",
+    short: "27 blocks in 30³ cells, 400 steps",
+    full: "100 blocks in 50 × 50 × 40 cells, 10 000 steps",
+    run,
+};
+
+const FRACTION: f64 = 0.3;
+const RATIO: f64 = 2.65;
+/// Speed of the stream and of the blocks, cells a step: Mach 0.1 in all.
+const SPEED: f64 = 0.03;
+/// Cells from a block to the next.
+const SPACING: u32 = 10;
+/// Of the momentum that there is to exchange; that of three blocks over 300 steps.
+const MOMENTUM: f64 = 1e-2;
+/// Of the mass: round-off of f32 in random directions.
+const MASS: f64 = 1e-6;
+/// Growth of the process in the second half, while nothing is added to what runs.
+const GROWTH: f64 = 0.05;
+
+fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
+    let mut scene = tank::scene(rows.map(|n| n * SPACING), 0.55)?;
+    scene.numerics.velocity_scale = Some(2.0 * SPEED);
+    scene.initial.velocity = numbers([0.0, 0.0, SPEED]);
+    scene.materials[0].density = RATIO;
+    // Blocks that meet corner first at twice their speed sink in by 2 % of their edge.
+    scene.materials[0].normal_stiffness = 10.0;
+    scene.rock.corner_area = 0.25;
+    let edge = f64::from(SPACING) * FRACTION.cbrt();
+    let [nx, ny, nz] = rows;
+    for n in 0..nx * ny * nz {
+        let at = [n % nx, n / nx % ny, n / (nx * ny)];
+        let shape = BlockShape::Box { size: [edge; 3] };
+        let place = at.map(|k| f64::from(SPACING) * (f64::from(k) + 0.5));
+        let mut cube = block(shape, place, Motion::Free);
+        cube.velocity = numbers([0, 1, 2].map(|a| SPEED * fields::noise(3 * n + a)));
+        // Turned by less than lets neighbours touch at the start.
+        cube.rotation = turn(n);
+        cube.rotation.angle = 10.0 * fields::noise(n);
+        scene.blocks.push(cube);
+    }
+    Ok(scene)
+}
+
+fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+    let (rows, parts, steps) = match stand.full {
+        true => ([5, 5, 4], 10, 1000),
+        false => ([3; 3], 4, 100),
+    };
+    let scene = scene(rows)?;
+    let mut tank = Tank::fill(stand, &scene)?;
+    let before = Tally::of(&mut tank, RATIO)?;
+    // Pools of the driver and of the allocator fill in the first half: what grows after it grows without end.
+    let mut warm = (None, 0);
+    for part in 1..=parts {
+        let begin = Instant::now();
+        if let Err(error) = tank.advance(steps - 1) {
+            let mut cell = cell(&tank, "run", begin);
+            cell.end(Err(error))?;
+            return sink.add(cell);
+        }
+        let sizes = (resident(), buffers(&tank));
+        let first = Tally::of(&mut tank, RATIO)?;
+        tank.advance(1)?;
+        let now = Tally::of(&mut tank, RATIO)?;
+        // What cells inside blocks reflect swings with a period of two steps.
+        let drift = 0.5 * (first.momentum + now.momentum) - before.momentum;
+        let lost = drift.length() / before.carried.max(now.carried);
+        let mass = (now.mass / before.mass - 1.0).abs();
+        let energy = now.kinetic / before.kinetic;
+        let mut report = |name: &str, value: f64, limit: f64, detail: String| {
+            sink.add(judged(cell(&tank, name, begin), value, limit, detail))
+        };
+        let text = format!("{drift} of {}", before.momentum);
+        report("momentum lost / carried by blocks", lost, MOMENTUM, text)?;
+        report("drift of the mass", mass, MASS, String::new())?;
+        report("energy / that of the start", energy, 1.0, String::new())?;
+        if 2 * part <= parts {
+            warm = sizes;
+        }
+        let (process, device) = warm;
+        if let (Some(from), Some(to)) = (process, sizes.0) {
+            let growth = to as f64 / from as f64 - 1.0;
+            report(
+                "growth of the process",
+                growth,
+                GROWTH,
+                format!("{from} to {to} bytes"),
+            )?;
+        }
+        let growth = sizes.1 as f64 / device as f64 - 1.0;
+        let text = format!("{device} to {} bytes of the blocks on the device", sizes.1);
+        // Buffers grow by halves as blocks reach more bricks, and there are no more than all.
+        report("growth of the buffers", growth, 0.5, text)?;
+    }
+    repeats(stand, &scene, steps, sink)
+}
+
+fn cell(tank: &Tank<'_>, name: &str, begin: Instant) -> Cell {
+    let steps = tank.simulation.step();
+    Cell {
+        steps,
+        warned: super::warned(tank),
+        seconds: begin.elapsed().as_secs_f64(),
+        ..Cell::new(MAP.name, "", name.into(), steps.to_string(), "as named")
+    }
+}
+
+fn judged(cell: Cell, value: f64, limit: f64, detail: String) -> Cell {
+    Cell {
+        // NaN is beyond any limit.
+        outcome: if value <= limit {
+            Outcome::Ended
+        } else {
+            Outcome::OverLimit
+        },
+        value: Some(value),
+        detail,
+        ..cell
+    }
+}
+
+/// The first part again, twice.
+fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow::Result<()> {
+    let begin = Instant::now();
+    let once = || -> anyhow::Result<_> {
+        let mut tank = Tank::fill(stand, scene)?;
+        tank.advance(steps)?;
+        let bits = bits(&mut tank, stand)?;
+        Ok((
+            bits,
+            cell(&tank, "bytes that differ in a second run", begin),
+        ))
+    };
+    let ((first, _), (second, cell)) = (once()?, once()?);
+    let differ = first.iter().zip(&second).filter(|(a, b)| a != b).count();
+    let differ = differ + first.len().abs_diff(second.len());
+    sink.add(judged(
+        cell,
+        differ as f64,
+        0.0,
+        format!("of {}", first.len()),
+    ))
+}
+
+/// Everything that the next steps depend on.
+fn bits(tank: &mut Tank<'_>, stand: &Stand) -> anyhow::Result<Vec<u8>> {
+    let state = tank.simulation.checkpoint();
+    let state = stand.drive("the state", state)??;
+    let fluid = &state.populations;
+    let values = fluid
+        .values
+        .iter()
+        .chain(&fluid.velocity)
+        .chain(&fluid.carried);
+    let mut bytes: Vec<u8> = values.flat_map(|value| value.to_le_bytes()).collect();
+    bytes.extend(
+        state
+            .blocks
+            .map(|blocks| blocks.to_bytes())
+            .unwrap_or_default(),
+    );
+    Ok(bytes)
+}
+
+/// Bytes that blocks take on the device.
+fn buffers(tank: &Tank<'_>) -> u64 {
+    let lattice = tank.simulation.lattice();
+    let saturation = lattice.saturation().map_or(0, riprap::wgpu::Buffer::size);
+    let blocks = tank
+        .simulation
+        .coupled()
+        .map_or(0, |c| c.immersed().bytes());
+    saturation + blocks
+}
+
+/// Bytes of the process in memory, where the system tells.
+fn resident() -> Option<u64> {
+    resident_of(&std::fs::read_to_string("/proc/self/status").ok()?)
+}
+
+fn resident_of(status: &str) -> Option<u64> {
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kib)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_fill_what_they_should_and_start_apart() {
+        for rows in [[3; 3], [5, 5, 4]] {
+            let scene = scene(rows).unwrap();
+            scene.check().unwrap();
+            let count: u32 = rows.iter().product();
+            assert_eq!(scene.blocks.len() as u32, count);
+            let cells: u32 = scene.cells().iter().product();
+            let BlockShape::Box { size } = &scene.blocks[0].shape else {
+                unreachable!()
+            };
+            let share = f64::from(count) * size[0].powi(3) / f64::from(cells);
+            assert!((share - FRACTION).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_size_of_a_process_is_read_from_its_status() {
+        let status = "Name:\triprap\nVmPeak:\t  900 kB\nVmRSS:\t   512 kB\n";
+        assert_eq!(resident_of(status), Some(512 * 1024));
+        assert_eq!(resident_of("Name:\triprap\n"), None);
+    }
+}

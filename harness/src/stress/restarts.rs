@@ -1,0 +1,212 @@
+//! Runs that are cut twenty times and go on from files, beside the same ones uncut.
+
+use super::{Cell, Map, Outcome, Sink};
+use crate::{
+    gpu,
+    validate::{Stand, solids::tank::Tank},
+};
+use riprap::{
+    broadphase::HostBroadphase,
+    checkpoint::{BlockCheckpoint, Checkpoint, WaterCheckpoint},
+    scene::Scene,
+    simulation::{Dry, FreeSurface},
+};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// The map.
+pub const MAP: Map = Map {
+    name: "restarts",
+    title: "Runs cut and continued from files, against the uncut ones",
+    x: "",
+    y: "",
+    short: "20 cuts, 3 or 4 steps apart",
+    full: "20 cuts, 51 steps apart",
+    run,
+};
+
+const CUTS: u64 = 20;
+
+const FLOW: &str = r#"
+[domain]
+size = [24, 16, 16]
+cell = 1
+[fluid]
+density = 1
+viscosity = 0.01
+[numerics]
+time_step = 1
+velocity_scale = 0.08
+eddy_viscosity = "wale"
+[boundaries]
+x_min = { kind = "velocity", velocity = ["0.04*(1 + 0.5*sin(0.1*t))", 0, 0] }
+x_max = { kind = "pressure" }
+y_min = { kind = "wall" }
+y_max = { kind = "wall" }
+[coupling]
+interval = 3
+[rock]
+gravity = [0, -2e-4, 0]
+[run]
+steps = 1
+[[materials]]
+name = "rock"
+density = 2.65
+normal_stiffness = 0.5
+friction = 30
+[[blocks]]
+kind = "box"
+size = [5, 5, 5]
+position = [9, 6, 8]
+rotation = { axis = [1, 2, 3], angle = 30 }
+[[blocks]]
+kind = "sphere"
+radius = 2.5
+position = [15, 4, 6]
+spin = [0, 0, 0.01]
+"#;
+
+const ROCK: &str = r#"
+[run]
+duration = 1
+[[materials]]
+name = "rock"
+density = 2650
+normal_stiffness = 1e8
+friction = 35
+damping = 0.2
+[[blocks]]
+name = "floor"
+kind = "box"
+size = [20, 20, 1]
+position = [0, 0, -0.5]
+motion = "fixed"
+[[blocks]]
+kind = "box"
+size = [1, 1, 1]
+position = [0, 0, 0.6]
+repeat = { count = 6, step = [0.1, 0.03, 1.05] }
+"#;
+
+const WATER: &str = r#"
+[domain]
+size = [1, 0.1, 0.6]
+[fluid]
+acceleration = [0, 0, -9.81]
+[particles]
+spacing = 0.025
+plane = true
+[boundaries]
+x_min = { kind = "wall" }
+x_max = { kind = "wall" }
+z_min = { kind = "wall" }
+z_max = { kind = "open" }
+[[water]]
+kind = "box"
+size = [0.4, 0.1, 0.4]
+position = [0.2, 0.05, 0.2]
+[run]
+duration = 1
+"#;
+
+fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+    // Not a multiple of the exchanges' interval, and odd.
+    let part = |n: u64| if stand.full { 51 } else { 3 + n % 2 };
+    let file = sink.folder().join("restart.state");
+    let runs: [(&str, Run); 3] = [
+        ("blocks in a flow", flow),
+        ("dry blocks", rock),
+        ("free water", water),
+    ];
+    for (name, run) in runs {
+        let begin = Instant::now();
+        let scene = |text: &str| Scene::from_toml(text, Path::new("."), "stress");
+        let steps: u64 = (0..CUTS).map(part).sum();
+        let whole = run(stand, &scene, &file, &[steps])?;
+        let parts: Vec<u64> = (0..CUTS).map(part).collect();
+        let cut = run(stand, &scene, &file, &parts)?;
+        let differ = whole.iter().zip(&cut).filter(|(a, b)| a != b).count();
+        let differ = differ + whole.len().abs_diff(cut.len());
+        sink.add(Cell {
+            map: MAP.name.into(),
+            panel: String::new(),
+            y: name.into(),
+            x: "bytes that differ".into(),
+            outcome: match differ {
+                0 => Outcome::Ended,
+                _ => Outcome::OverLimit,
+            },
+            value: Some(differ as f64),
+            quantity: "bytes of the state that differ at the end".into(),
+            steps,
+            warned: String::new(),
+            agrees: None,
+            seconds: begin.elapsed().as_secs_f64(),
+            detail: format!("{CUTS} cuts, {} bytes", whole.len()),
+        })?;
+    }
+    std::fs::remove_file(&file)?;
+    Ok(())
+}
+
+type Read<'a> = &'a dyn Fn(&str) -> riprap::Result<Scene>;
+/// Makes everything anew for each part, continues from the file, writes the file; its bytes at the end.
+type Run = fn(&Stand, Read<'_>, &Path, &[u64]) -> anyhow::Result<Vec<u8>>;
+
+fn flow(stand: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
+    let scene = scene(FLOW)?;
+    for (n, steps) in parts.iter().enumerate() {
+        let mut tank = Tank::fill(stand, &scene)?;
+        if n > 0 {
+            tank.simulation.restore(&Checkpoint::read(file)?)?;
+        }
+        tank.advance(*steps)?;
+        let state = tank.simulation.checkpoint();
+        stand.drive("the state", state)??.write(file)?;
+    }
+    Ok(std::fs::read(file)?)
+}
+
+fn rock(_: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
+    let scene = scene(ROCK)?;
+    for (n, steps) in parts.iter().enumerate() {
+        let mut dry = pollster::block_on(Dry::new(&scene, HostBroadphase))?;
+        if n > 0 {
+            dry.restore(&BlockCheckpoint::read(file)?)?;
+        }
+        pollster::block_on(dry.advance(*steps))?;
+        dry.checkpoint().write(file)?;
+    }
+    Ok(std::fs::read(file)?)
+}
+
+fn water(stand: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
+    let scene = scene(WATER)?;
+    let patience = Duration::from_secs(300);
+    for (n, steps) in parts.iter().enumerate() {
+        let made = FreeSurface::new(&stand.device, &stand.queue, &scene);
+        let mut water = gpu::drive(&stand.device, patience, "the kernels", made)??;
+        if n > 0 {
+            water.restore(&WaterCheckpoint::read(file)?)?;
+        }
+        gpu::drive(&stand.device, patience, "free water", water.advance(*steps))??;
+        let state = gpu::drive(&stand.device, patience, "the state", water.checkpoint())??;
+        state.write(file)?;
+    }
+    Ok(std::fs::read(file)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_cut_is_a_scene() {
+        for text in [FLOW, ROCK, WATER] {
+            let scene = Scene::from_toml(text, Path::new("."), "stress");
+            assert!(scene.is_ok(), "{}", scene.unwrap_err());
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! The doubly periodic shear layer (Minion & Brown 1997, J. Comput. Phys. 138:734), κ = 80 on 64²: layers thinner
+//! than a cell roll up. A scheme that holds here at a viscosity and a Mach number holds where the grid resolves nothing.
+
+use super::{Cell, Map, Outcome, Sink, advice::Advice};
+use crate::validate::{Flow, Stand, fields};
+use riprap::lattice::{Collision, Equilibrium, Setup, State, Storage};
+use std::{f64::consts::TAU, time::Instant};
+
+/// The map.
+pub const MAP: Map = Map {
+    name: "shear_layer",
+    title: "Doubly periodic shear layer, κ = 80, 64² cells",
+    x: "Mach number",
+    y: "viscosity, lattice units",
+    short: "6 methods, 3 viscosities, 4 Mach numbers, 3000 steps",
+    full: "24 methods, 7 viscosities, 5 Mach numbers, 10 000 steps",
+    run,
+};
+
+/// As thin as lanes of four cells allow.
+const CELLS: [u32; 3] = [64, 64, 4];
+/// Width of the layers, over the box.
+const KAPPA: f64 = 80.0;
+/// Speed across the layers that makes them roll up, over U₀.
+const DELTA: f64 = 0.05;
+/// Speed over U₀ at the end beyond which a run is marked: what viscosity should have slowed down has not.
+const FASTEST: f64 = 1.2;
+/// Steps between looks at the speed.
+const LOOK: u64 = 250;
+
+/// The lowest viscosity stands for none: the library takes no lattice without.
+const NU: [f64; 7] = [1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2];
+const SHORT_NU: [f64; 3] = [1e-6, 1e-3, 1e-2];
+const MACH: [f64; 5] = [0.1, 0.15, 0.2, 0.3, 0.4];
+const SHORT_MACH: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
+
+#[derive(Clone, Copy, PartialEq)]
+struct Method {
+    collision: Collision,
+    equilibrium: Equilibrium,
+    wale: bool,
+    storage: Storage,
+}
+
+impl Method {
+    fn all(full: bool) -> Vec<Self> {
+        let mut all = Vec::new();
+        for collision in [Collision::Bgk, Collision::Suga, Collision::Hermite] {
+            for equilibrium in [Equilibrium::SecondOrder, Equilibrium::Product] {
+                for wale in [false, true] {
+                    for storage in [Storage::F32, Storage::F16] {
+                        let method = Self {
+                            collision,
+                            equilibrium,
+                            wale,
+                            storage,
+                        };
+                        if full || method.is_short() {
+                            all.push(method);
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// Whether the short form has it: each operator as it was published, and the default, also in 16 bits or with
+    /// WALE.
+    fn is_short(&self) -> bool {
+        let plain = !self.wale && self.storage == Storage::F32;
+        match (self.collision, self.equilibrium) {
+            (_, Equilibrium::SecondOrder) => plain,
+            (Collision::Hermite, Equilibrium::Product) => {
+                !self.wale || self.storage == Storage::F32
+            }
+            _ => false,
+        }
+    }
+
+    fn collision(&self) -> &'static str {
+        match self.collision {
+            Collision::Bgk => "bgk",
+            Collision::Suga => "suga",
+            Collision::Hermite => "hermite",
+        }
+    }
+
+    fn name(&self) -> String {
+        let equilibrium = match self.equilibrium {
+            Equilibrium::SecondOrder => "order 2",
+            Equilibrium::Product => "product",
+        };
+        let wale = if self.wale { " wale" } else { "" };
+        let storage = match self.storage {
+            Storage::F32 => "f32",
+            Storage::F16 => "f16",
+        };
+        format!("{} {equilibrium}{wale} {storage}", self.collision())
+    }
+
+    /// As a scene has it.
+    fn numerics(&self) -> String {
+        let eddy = if self.wale { "wale" } else { "none" };
+        let equilibrium = match self.equilibrium {
+            Equilibrium::SecondOrder => "second_order",
+            Equilibrium::Product => "product",
+        };
+        let collision = self.collision();
+        format!(
+            "collision = \"{collision}\"\nequilibrium = \"{equilibrium}\"\neddy_viscosity = \"{eddy}\"\n"
+        )
+    }
+
+    fn setup(&self, stand: &Stand, nu: f64) -> Setup {
+        let mut setup = stand.setup(CELLS, nu);
+        (setup.collision, setup.equilibrium) = (self.collision, self.equilibrium);
+        setup.wale = self.wale.then_some(0.5);
+        setup.storage = self.storage;
+        if self.storage == Storage::F16 {
+            setup.lanes = setup.lanes.max(2);
+        }
+        setup
+    }
+}
+
+/// Layers at a quarter and three quarters of the height.
+fn start(speed: f64) -> State {
+    fields::state(CELLS, |[x, y, _]| {
+        let (x, y) = (x / f64::from(CELLS[0]), y / f64::from(CELLS[1]));
+        let along = if y <= 0.5 { y - 0.25 } else { 0.75 - y };
+        let across = DELTA * (TAU * (x + 0.25)).sin();
+        (0.0, [speed * (KAPPA * along).tanh(), speed * across, 0.0])
+    })
+}
+
+fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+    let (nus, machs): (&[f64], &[f64]) = match stand.full {
+        true => (&NU, &MACH),
+        false => (&SHORT_NU, &SHORT_MACH),
+    };
+    let steps = if stand.full { 10_000 } else { 3000 };
+    for method in Method::all(stand.full) {
+        for &nu in nus {
+            for &mach in machs {
+                let mut cell = measure(stand, &method, nu, mach, steps)?;
+                cell.detail += &against_f32(sink, &method, &cell);
+                sink.add(cell)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What the same run did in 32 bits.
+fn against_f32(sink: &Sink, method: &Method, cell: &Cell) -> String {
+    if method.storage == Storage::F32 {
+        return String::new();
+    }
+    let wide = Method {
+        storage: Storage::F32,
+        ..*method
+    };
+    let name = wide.name();
+    let cells = sink.of(MAP.name);
+    let same = |c: &&&Cell| c.panel == name && c.x == cell.x && c.y == cell.y;
+    cells.iter().find(same).map_or(String::new(), |wide| {
+        let same = match wide.outcome == cell.outcome {
+            true => "as in f32",
+            false => "other than in f32",
+        };
+        format!("; {same}: {} {}", wide.outcome, wide.label())
+    })
+}
+
+fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> anyhow::Result<Cell> {
+    let begin = Instant::now();
+    let speed = mach / 3f64.sqrt();
+    let advice = Advice::of(CELLS, nu, speed, &method.numerics())?;
+    let mut flow = stand.flow(method.setup(stand, nu), &start(speed), true)?;
+    let found = follow(&mut flow, steps, speed)?;
+    // Pressure holds about Ma² of the energy, which may come back; more than that no flow without forces gains.
+    let gains = found.gain > mach * mach;
+    let (outcome, cause) = match found.fault {
+        Some(cell) => (
+            Outcome::Error("Diverged".into()),
+            format!(" in cell {cell:?}"),
+        ),
+        None if gains => (Outcome::Unphysical, ": no force gives it that".into()),
+        None if found.speed > FASTEST => (Outcome::Unphysical, String::new()),
+        None => (Outcome::Ended, String::new()),
+    };
+    let (y, x) = (format!("{nu:e}"), format!("{mach}"));
+    Ok(Cell {
+        // That vortices go on is no fault of the method.
+        agrees: Some(advice.fits(found.fault.is_none() && !gains)),
+        outcome,
+        value: found.fault.is_none().then_some(found.speed),
+        steps: found.steps,
+        warned: advice.words(),
+        seconds: begin.elapsed().as_secs_f64(),
+        detail: format!(
+            "largest max|u| / U₀ {:.3}, largest rise of the kinetic energy {:.4}{cause}",
+            found.peak, found.gain
+        ),
+        ..Cell::new(MAP.name, &method.name(), y, x, "max|u| / U₀ at the end")
+    })
+}
+
+/// What became of a run.
+#[derive(Default)]
+struct Found {
+    /// The cell in which the guard stopped it.
+    fault: Option<[u32; 3]>,
+    steps: u64,
+    /// max|u| / U₀ at the end, and the largest one.
+    speed: f64,
+    peak: f64,
+    /// Largest rise of the kinetic energy over its least value before, as a part of it.
+    gain: f64,
+}
+
+/// Runs to the end, or until the guard stops it.
+fn follow(flow: &mut Flow<'_>, steps: u64, speed: f64) -> anyhow::Result<Found> {
+    let mut found = Found::default();
+    let mut least = flow.sums()?.kinetic_energy;
+    while found.steps < steps {
+        let some = LOOK.min(steps - found.steps);
+        if let Some(fault) = flow.try_advance(some)? {
+            (found.fault, found.steps) = (Some(fault.cell), fault.step);
+            return Ok(found);
+        }
+        found.steps += some;
+        let sums = flow.sums()?;
+        found.speed = sums.max_speed / speed;
+        found.peak = found.peak.max(found.speed);
+        found.gain = found.gain.max(sums.kinetic_energy / least - 1.0);
+        least = least.min(sums.kinetic_energy);
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn methods_have_names_of_their_own_and_are_those_of_scenes() {
+        let all = Method::all(true);
+        assert_eq!(all.len(), 3 * 2 * 2 * 2);
+        for (n, method) in all.iter().enumerate() {
+            assert!(all[..n].iter().all(|other| other.name() != method.name()));
+            // Within what every method takes.
+            let advice = Advice::of(CELLS, 0.01, 0.01, &method.numerics()).unwrap();
+            assert_eq!(advice, Advice::Silent, "{}", method.name());
+        }
+        let short = Method::all(false);
+        assert!(short.iter().all(|method| all.contains(method)));
+        assert_eq!(short.len(), 6);
+    }
+
+    #[test]
+    fn layers_are_antisymmetric_and_as_fast_as_they_should() {
+        let state = start(0.1);
+        let sum: f64 = state.velocity[0].iter().map(|u| f64::from(*u)).sum();
+        assert!(sum.abs() < 1e-4, "{sum}");
+        let fastest = state.velocity[0].iter().fold(0f32, |m, u| m.max(u.abs()));
+        assert!((fastest - 0.1).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,117 @@
+//! Dry cubes that fall onto a floor and slide, over the stiffness of contacts and the length of a step.
+
+use super::{Cell, Map, Outcome, Sink};
+use crate::validate::{
+    Stand,
+    rock::{G, Rock, cuboid, joint, setup},
+};
+use glam::DVec3;
+use riprap::{
+    bodies::{Block, Setup},
+    law::{LARGEST_SHARE, USUAL_SHARE},
+};
+use std::time::Instant;
+
+/// The map.
+pub const MAP: Map = Map {
+    name: "stiffness",
+    title: "Three cubes of 1 m fall 5 cm onto a floor at 0.5 m/s along it",
+    x: "step, s",
+    y: "normal stiffness, Pa/m",
+    short: "all of it, 0.3 s",
+    full: "6 stiffnesses, 10 steps, 5 s",
+    run,
+};
+
+const STIFFNESS: [f64; 6] = [1e6, 1e7, 1e8, 1e9, 1e10, 1e11];
+const STEP: [f64; 10] = [1e-5, 3e-5, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 2e-3, 4e-3, 1e-2];
+/// Height of the fall, m.
+const FALL: f64 = 0.05;
+/// Error of the energy that blocks may make, as a part of what they fell with: that of the ledger of an avalanche.
+const ENERGY: f64 = 0.01;
+
+fn blocks(stiffness: f64) -> anyhow::Result<Setup> {
+    let floor = Block::new("floor", cuboid(10.0, 10.0, 1.0)?, DVec3::Z * -0.5).fixed();
+    let mut list = vec![floor];
+    for n in 0..3 {
+        let k = f64::from(n);
+        // Not quite above each other, so that corners and edges carry too.
+        let at = DVec3::new(0.2 * k, 0.05 * k, 0.5 + FALL + k * (1.0 + FALL));
+        let mut cube = Block::new(format!("cube {n}"), cuboid(1.0, 1.0, 1.0)?, at);
+        cube.velocity = DVec3::new(0.5, 0.0, 0.0);
+        list.push(cube);
+    }
+    Ok(setup(list, joint(stiffness, 30.0)))
+}
+
+fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+    let time = if stand.full { 5.0 } else { 0.3 };
+    for stiffness in STIFFNESS {
+        let usual = shortest(stiffness, time)?;
+        for step in STEP {
+            sink.add(measure(stiffness, step, usual, time)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Shortest step that the library takes by itself, s, a tenth of 2/ω of the stiffest moment; none where blocks of this stiffness sink too deep.
+fn shortest(stiffness: f64, time: f64) -> anyhow::Result<Option<f64>> {
+    const PARTS: u32 = 60;
+    let mut rock = Rock::new(blocks(stiffness)?, "")?;
+    let mut step = f64::INFINITY;
+    for _ in 0..PARTS {
+        match rock.run(time / f64::from(PARTS)) {
+            Ok(()) => step = step.min(rock.blocks.time_step()),
+            Err(error) if error.is::<riprap::Error>() => return Ok(None),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(Some(step))
+}
+
+fn measure(stiffness: f64, step: f64, usual: Option<f64>, time: f64) -> anyhow::Result<Cell> {
+    let begin = Instant::now();
+    let mut setup = blocks(stiffness)?;
+    setup.time_step = Some(step);
+    let mut rock = Rock::new(setup, "")?;
+    let start = rock.blocks.ledger();
+    let ended = rock.run(time);
+    let end = rock.blocks.ledger();
+    let scale = 3.0 * rock.blocks.mass(1) * G * FALL;
+    let error = (end.balance() - start.balance()).abs() / scale;
+    let (outcome, detail) = match ended {
+        Ok(()) if error <= ENERGY => (Outcome::Ended, String::new()),
+        // NaN is no small error.
+        Ok(()) => (
+            Outcome::Unphysical,
+            "the ledger of the energy does not close".into(),
+        ),
+        Err(failed) if failed.is::<riprap::Error>() => (Outcome::of(&failed), failed.to_string()),
+        Err(other) => return Err(other),
+    };
+    let longest = usual.map(|usual| usual * LARGEST_SHARE / USUAL_SHARE);
+    let warned = match (usual, longest) {
+        (Some(_), Some(longest)) if step > longest => {
+            format!("beyond the longest, {longest:.1e} s")
+        }
+        (Some(usual), _) if step > usual => format!("beyond the usual, {usual:.1e} s"),
+        _ => String::new(),
+    };
+    Ok(Cell {
+        map: MAP.name.into(),
+        panel: String::new(),
+        y: format!("{stiffness:e}"),
+        x: format!("{step:e}"),
+        // A step that the library takes must not end in wrong motion; that it is too long for the contacts as they
+        // are, or that blocks sink too deep, it says when that is so.
+        agrees: Some(outcome != Outcome::Unphysical),
+        value: outcome.is_good().then_some(error),
+        outcome,
+        quantity: "error of the energy / that of the fall".into(),
+        steps: rock.blocks.steps(),
+        warned,
+        seconds: begin.elapsed().as_secs_f64(),
+        detail,
+    })
+}

@@ -1,0 +1,55 @@
+//! Energy of fluid and blocks, which without forces cannot grow.
+
+use crate::validate::solids::tank::Tank;
+use anyhow::Context;
+use glam::DVec3;
+
+/// What fluid and blocks have, in the units of the tank.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// Mass of the fluid.
+    pub mass: f64,
+    /// Momentum of fluid and blocks.
+    pub momentum: DVec3,
+    /// Σ |m v| of the blocks: what there is to exchange.
+    pub carried: f64,
+    /// Kinetic energy of fluid and blocks, spins left out.
+    pub kinetic: f64,
+    /// Largest speed of the fluid.
+    pub flow_speed: f64,
+    /// Largest speed of a block.
+    pub block_speed: f64,
+}
+
+impl Tally {
+    /// Of a tank whose fluid has the density 1 and whose free blocks have `ratio`.
+    ///
+    /// The water inside a block goes where the block goes and is no load on it, so it counts once, in the fluid.
+    ///
+    /// # Errors
+    /// If the device is lost, or the tank has no blocks.
+    pub fn of(tank: &mut Tank<'_>, ratio: f64) -> anyhow::Result<Self> {
+        let totals = tank.totals()?;
+        let coupled = tank.simulation.coupled();
+        let blocks = coupled.context("the tank has no blocks")?.blocks();
+        let mut tally = Self {
+            mass: totals.mass,
+            momentum: DVec3::from(totals.momentum),
+            kinetic: totals.kinetic_energy,
+            flow_speed: totals.max_speed,
+            ..Self::default()
+        };
+        for (block, pose) in blocks.poses().iter().enumerate() {
+            let speed = pose.velocity.length();
+            tally.block_speed = tally.block_speed.max(speed);
+            if !blocks.moves(block) {
+                continue;
+            }
+            let mass = blocks.mass(block) * (1.0 - 1.0 / ratio);
+            tally.momentum += mass * pose.velocity;
+            tally.carried += mass.abs() * speed;
+            tally.kinetic += 0.5 * mass * speed * speed;
+        }
+        Ok(tally)
+    }
+}

@@ -6,6 +6,7 @@ use super::{
     books::{All, Books},
     bound, check,
     deforming::{DeformingBlocks, pose},
+    films::Films,
     make,
     narrow::Joints,
     pairs::{self, Mark},
@@ -62,6 +63,8 @@ pub struct Blocks {
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
     pub(super) corner_area: f64,
+    /// Fluid in thin gaps.
+    pub(super) film: Option<law::Film>,
     pub(super) resolvers: Resolvers,
 
     pub(super) time: f64,
@@ -80,6 +83,9 @@ pub struct Blocks {
     pub(super) parts: Parts,
     pub(super) flights: Vec<Flight>,
     pub(super) sums: Vec<Sum>,
+    pub(super) films: Films,
+    /// What they have taken in this step, J.
+    pub(super) filmed: f64,
     pub(super) next_states: Vec<State>,
     pub(super) next_pairs: Vec<Pair>,
     pub(super) next_touches: Touches,
@@ -116,6 +122,7 @@ impl Blocks {
             start_overlap: setup.start_overlap,
             largest_overlap: setup.largest_overlap,
             corner_area: setup.corner_area,
+            film: setup.film,
             resolvers: Resolvers::new(options),
             time: 0.0,
             steps: 0,
@@ -128,6 +135,8 @@ impl Blocks {
             parts: Parts::new(&bodies),
             flights: vec![Flight::default(); bodies.len()],
             sums: Vec::new(),
+            films: Films::default(),
+            filmed: 0.0,
             next_states: states.clone(),
             next_pairs: Vec::new(),
             next_touches: Touches::default(),
@@ -212,6 +221,15 @@ impl Blocks {
         self.states.iter().map(|state| state.torque)
     }
 
+    /// Force of films of fluid on each block over the last half of the last step, N.
+    pub fn film_forces(&self) -> Vec<DVec3> {
+        let mut forces = vec![DVec3::ZERO; self.len()];
+        for (block, force) in self.films.forces() {
+            forces[block] = force;
+        }
+        forces
+    }
+
     /// External force, N, and torque about the centroid, N m, on each block.
     pub fn loads(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
         let each = self.states.iter();
@@ -268,9 +286,12 @@ impl Blocks {
         self.pairs.len()
     }
 
-    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more.
+    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more, and by
+    /// half the range of the films.
     pub fn items(&self) -> Vec<Item> {
-        self.parts.items(&self.bodies, |block| self.room(block))
+        let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.range);
+        self.parts
+            .items(&self.bodies, |block| self.room(block) + thin)
     }
 
     /// Whether a step needs a new list of pairs first: a block has moved, or will in this step, by half

@@ -19,6 +19,7 @@ const FEW: usize = 8;
 pub(super) struct Books {
     pub friction: f64,
     pub lost: f64,
+    pub film: f64,
     /// Of the dashpots, the mass damping, the drives and the loads.
     pub work: [f64; 4],
     pub power: [f64; 4],
@@ -116,6 +117,7 @@ impl Books {
             friction: self.friction,
             dashpot,
             mass_damping,
+            film: self.film,
             lost: self.lost,
             driven,
             loads,

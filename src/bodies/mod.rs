@@ -13,6 +13,7 @@ mod bytes;
 mod check;
 mod contact_point;
 mod deforming;
+mod films;
 mod ledger;
 mod make;
 mod narrow;

@@ -3,7 +3,8 @@
 use super::{
     Body,
     body::Flight,
-    deforming::DeformingBlocks,
+    deforming::{DeformingBlocks, RIGID},
+    films::Film,
     parts::Parts,
     resolvers::Resolvers,
     touch::{NONE, Pair, TENTHS, Touch},
@@ -11,7 +12,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    contact::{Contact, Resolver, Verdict},
+    contact::{Contact, Resolver, Squeeze, Verdict},
     law::{self, History, Joint},
 };
 use glam::DVec3;
@@ -34,6 +35,8 @@ pub(super) struct Scene<'a> {
     pub largest_overlap: f64,
     /// Least area of a contact's springs, as a share of the square of twice that distance.
     pub corner_area: f64,
+    /// Fluid in thin gaps.
+    pub film: Option<&'a law::Film>,
 }
 
 /// The joint of every two materials.
@@ -88,10 +91,11 @@ impl Scene<'_> {
     ) -> Result<()> {
         found.touches.clear();
         found.ended.clear();
+        found.films.clear();
         for (pair, next) in pairs.iter().zip(next) {
             *next = *pair;
             let before = self.touches.of(pair);
-            let touch = self.pair(resolver, next, before)?;
+            let touch = self.pair(resolver, next, before, &mut found.films)?;
             next.touch = match touch {
                 Some(_) => (n * CHUNK + found.touches.len()) as u32,
                 None => NONE,
@@ -111,6 +115,7 @@ impl Scene<'_> {
         resolver: &mut Resolver,
         pair: &mut Pair,
         before: Option<&Touch>,
+        films: &mut Vec<Film>,
     ) -> Result<Option<Touch>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
         if blocks.iter().all(|&b| self.flights[b as usize].rests) {
@@ -130,6 +135,15 @@ impl Scene<'_> {
                 let [a, b] = blocks.map(|block| self.name(block));
                 Error::scene(format!("{a} and {b}"), error.to_string())
             })?;
+        if let (Some(film), Verdict::Apart | Verdict::Touching) = (self.film, verdict)
+            && blocks
+                .iter()
+                .all(|&b| self.bodies[b as usize].deforming == RIGID)
+            && let Some(squeeze) = Squeeze::between(first, second, film.range)
+        {
+            let centres = blocks.map(|block| self.flights[block as usize].centre);
+            films.extend(Film::of(&squeeze, film, blocks, centres));
+        }
         Ok(match verdict {
             Verdict::Apart => None,
             Verdict::Touching => before.map(|touch| Touch {

@@ -6,6 +6,7 @@ mod corner;
 mod deformable;
 mod deformable_faults;
 mod faults;
+mod film;
 mod free_body;
 mod incline;
 mod law;

@@ -11,6 +11,7 @@ use super::{
     narrow::Joints,
     pairs::{self, Mark},
     parts::Parts,
+    period::{Image, Period, Periods},
     resolvers::Resolvers,
     sums::Sum,
     touch::Pair,
@@ -63,6 +64,8 @@ pub struct Blocks {
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
     pub(super) corner_area: f64,
+    /// Where space repeats.
+    pub(super) periods: Option<Periods>,
     /// Fluid in thin gaps.
     pub(super) film: Option<law::Film>,
     pub(super) resolvers: Resolvers,
@@ -123,6 +126,7 @@ impl Blocks {
             largest_overlap: setup.largest_overlap,
             corner_area: setup.corner_area,
             film: setup.film,
+            periods: None,
             resolvers: Resolvers::new(options),
             time: 0.0,
             steps: 0,
@@ -145,6 +149,9 @@ impl Blocks {
             deforming,
         };
         blocks.place();
+        if let Some(period) = setup.period {
+            blocks.periods = Some(blocks.repeated(period)?);
+        }
         Ok(blocks)
     }
 
@@ -287,11 +294,58 @@ impl Blocks {
     }
 
     /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more, and by
-    /// half the range of the films.
+    /// half the range of the films. Where space repeats, they are in the period, and the images that reach others follow.
     pub fn items(&self) -> Vec<Item> {
-        let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.range);
-        self.parts
-            .items(&self.bodies, |block| self.room(block) + thin)
+        let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.reach());
+        let mut items = self
+            .parts
+            .items(&self.bodies, |block| self.room(block) + thin);
+        if let Some(periods) = &self.periods {
+            periods.images(&self.states, &self.parts.block, &mut items);
+        }
+        items
+    }
+
+    /// The period of the setup with what the blocks fill of it.
+    fn repeated(&self, period: Period) -> Result<Periods> {
+        let boxes = self.parts.items(&self.bodies, |_| 0.0);
+        let filled = self.bodies.iter().enumerate().map(|(block, body)| {
+            let own = boxes[body.parts.clone()].iter();
+            let around = own.fold(
+                [DVec3::INFINITY, DVec3::NEG_INFINITY],
+                |[low, high], item| [low.min(item.min.into()), high.max(item.max.into())],
+            );
+            period.filled(body, around, &self.label(block))
+        });
+        Ok(Periods {
+            period,
+            filled: filled.collect::<Result<_>>()?,
+        })
+    }
+
+    /// Where space repeats.
+    pub fn period(&self) -> Option<Period> {
+        self.periods.as_ref().map(|periods| periods.period)
+    }
+
+    /// Of each of [`Blocks::items`] its part and the way by which it is moved, m.
+    pub(crate) fn images(&self) -> Vec<(usize, DVec3)> {
+        let Some(periods) = &self.periods else {
+            return (0..self.parts.block.len())
+                .map(|part| (part, DVec3::ZERO))
+                .collect();
+        };
+        let seen = self.seen(periods).into_iter();
+        seen.map(|image| (image.part as usize, -periods.period.way(image.turns)))
+            .collect()
+    }
+
+    fn seen(&self, periods: &Periods) -> Vec<Image> {
+        let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.reach());
+        let mut items = self
+            .parts
+            .items(&self.bodies, |block| self.room(block) + thin);
+        periods.images(&self.states, &self.parts.block, &mut items)
     }
 
     /// Whether a step needs a new list of pairs first: a block has moved, or will in this step, by half
@@ -312,8 +366,14 @@ impl Blocks {
     /// # Errors
     /// [`Error::Scene`] if they are not sorted pairs of items.
     pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
-        let pairs = pairs::checked(pairs, &self.parts.block, &self.bodies)?;
-        self.pairs = pairs::merged(&self.pairs, &pairs);
+        let block = &self.parts.block;
+        let images = self.periods.as_ref().map(|periods| self.seen(periods));
+        let pairs = pairs::checked(pairs, images.as_deref(), block, &self.bodies)?;
+        self.pairs = pairs::merged(&self.pairs, &pairs, |parts, turns| {
+            let blocks = parts.map(|part| block[part as usize]);
+            let periods = self.periods.as_ref();
+            periods.map_or(turns, |periods| periods.lasting(blocks, turns))
+        });
         let mark = |(i, state): (usize, &State)| Mark {
             centre: state.centre,
             rotation: state.rotation,

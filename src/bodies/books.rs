@@ -131,7 +131,7 @@ fn work(chunk: &mut Chunk, all: &All<'_>, dt: f64) {
     for touch in &mut chunk.touches {
         let force = touch.force;
         let [first, second] = touch.blocks.map(|block| block as usize);
-        let velocity = all.velocity(second, touch.pressure_centre)
+        let velocity = all.velocity(second, touch.pressure_centre - touch.way)
             - all.velocity(first, touch.pressure_centre);
         let spin = all.states[second].spin - all.states[first].spin;
         let spring = -force.spring.dot(velocity);

@@ -19,6 +19,7 @@ mod make;
 mod narrow;
 mod pairs;
 mod parts;
+mod period;
 mod pose;
 mod relax;
 mod resolvers;
@@ -34,6 +35,7 @@ mod touches;
 pub use blocks::Blocks;
 pub use contact_point::ContactPoint;
 pub use ledger::Ledger;
+pub use period::Period;
 pub(crate) use pose::outer;
 pub use pose::{Load, Pose, skew};
 pub use setup::{

@@ -6,13 +6,14 @@ use super::{
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     parts::Parts,
+    period::Periods,
     resolvers::Resolvers,
     touch::{NONE, Pair, TENTHS, Touch},
     touches::{CHUNK, Chunk, Touches},
 };
 use crate::{
     Error, Result,
-    contact::{Contact, Resolver, Squeeze, Verdict},
+    contact::{Contact, Placed, Resolver, Squeeze, Verdict},
     law::{self, History, Joint},
 };
 use glam::DVec3;
@@ -37,6 +38,7 @@ pub(super) struct Scene<'a> {
     pub corner_area: f64,
     /// Fluid in thin gaps.
     pub film: Option<&'a law::Film>,
+    pub periods: Option<&'a Periods>,
 }
 
 /// The joint of every two materials.
@@ -65,7 +67,7 @@ pub(super) fn resolve(
 ) -> Result<()> {
     resolvers.prepare(rayon::current_num_threads());
     let resolvers = &*resolvers;
-    next.resize(pairs.len(), Pair::new([0; 2]));
+    next.resize(pairs.len(), Pair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
     let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
     let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
@@ -95,7 +97,8 @@ impl Scene<'_> {
         for (pair, next) in pairs.iter().zip(next) {
             *next = *pair;
             let before = self.touches.of(pair);
-            let touch = self.pair(resolver, next, before, &mut found.films)?;
+            let room = (&mut found.films, &mut found.image);
+            let touch = self.pair(resolver, next, before, room)?;
             next.touch = match touch {
                 Some(_) => (n * CHUNK + found.touches.len()) as u32,
                 None => NONE,
@@ -115,7 +118,7 @@ impl Scene<'_> {
         resolver: &mut Resolver,
         pair: &mut Pair,
         before: Option<&Touch>,
-        films: &mut Vec<Film>,
+        (films, image): (&mut Vec<Film>, &mut Placed),
     ) -> Result<Option<Touch>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
         if blocks.iter().all(|&b| self.flights[b as usize].rests) {
@@ -129,6 +132,16 @@ impl Scene<'_> {
             }));
         }
         let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
+        let way = self
+            .periods
+            .map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
+        let second = match pair.turns {
+            [0, 0, 0] => second,
+            _ => {
+                image.copy_moved(second, way);
+                image
+            }
+        };
         let verdict = resolver
             .resolve(first, second, &mut pair.cache)
             .map_err(|error| {
@@ -139,9 +152,10 @@ impl Scene<'_> {
             && blocks
                 .iter()
                 .all(|&b| self.bodies[b as usize].deforming == RIGID)
-            && let Some(squeeze) = Squeeze::between(first, second, film.range)
+            && let Some(squeeze) = Squeeze::between(first, second, film.reach())
         {
-            let centres = blocks.map(|block| self.flights[block as usize].centre);
+            let [a, b] = blocks.map(|block| self.flights[block as usize].centre);
+            let centres = [a, b + way];
             films.extend(Film::of(&squeeze, film, blocks, centres));
         }
         Ok(match verdict {
@@ -168,21 +182,22 @@ impl Scene<'_> {
                         .into(),
                 });
             }
-            Verdict::Contact(contact) => Some(self.touch(pair.parts, blocks, &contact, before)),
+            Verdict::Contact(contact) => {
+                Some(self.touch((pair.parts, blocks, way), &contact, before))
+            }
         })
     }
 
     fn touch(
         &self,
-        parts: [u32; 2],
-        blocks: [u32; 2],
+        (parts, blocks, way): ([u32; 2], [u32; 2], DVec3),
         contact: &Contact,
         before: Option<&Touch>,
     ) -> Touch {
         let [a, b] = blocks.map(|block| &self.flights[block as usize]);
         let joint = self.joints.of(a.material, b.material);
         let at = contact.pressure_centre;
-        let [ra, rb] = [a, b].map(|block| at - block.centre);
+        let [ra, rb] = [at - a.centre, at - way - b.centre];
         let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
         let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
         if !self.deforming.is_empty() {
@@ -212,6 +227,7 @@ impl Scene<'_> {
         Touch {
             parts,
             blocks,
+            way,
             point: contact.point,
             pressure_centre: at,
             normal: contact.normal,

@@ -1,5 +1,6 @@
 //! What blocks there are, and how they are computed.
 
+use super::Period;
 use crate::{
     block::Shape,
     formula::Formula,
@@ -46,6 +47,8 @@ pub struct Setup {
     /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and nobody else computes
     /// what it does there.
     pub film: Option<Film>,
+    /// The box after which space repeats, if it does: blocks then meet the images of others, too.
+    pub period: Option<Period>,
 }
 
 impl Default for Setup {
@@ -65,6 +68,7 @@ impl Default for Setup {
             largest_overlap: 0.1,
             corner_area: 0.0,
             film: None,
+            period: None,
         }
     }
 }

@@ -193,6 +193,7 @@ fields!(Mark {
 });
 fields!(Pair {
     parts,
+    turns,
     cache,
     touch
 });
@@ -205,6 +206,7 @@ fields!(Cache {
 fields!(Touch {
     parts,
     blocks,
+    way,
     point,
     pressure_centre,
     normal,

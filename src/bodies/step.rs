@@ -278,6 +278,7 @@ impl Blocks {
             },
             corner_area: self.corner_area,
             film: self.film.as_ref(),
+            periods: self.periods.as_ref(),
         };
         narrow::resolve(
             &scene,

@@ -1,5 +1,7 @@
 //! The contacts of all pairs, in the order of the pairs.
 
+use crate::contact::Placed;
+
 use super::{
     films::Film,
     touch::{NONE, Pair, Touch},
@@ -24,6 +26,8 @@ pub(super) struct Chunk {
     pub films: Vec<Film>,
     /// What the springs held whose contact has ended in this step, J.
     pub ended: Vec<f64>,
+    /// Room for the image of a part.
+    pub image: Placed,
     /// Power that the dashpots of each contact take, W.
     pub dashpots: Vec<f64>,
 }

@@ -1,5 +1,5 @@
 //! The resistance of a film of fluid that is squeezed out of a thin gap, beyond what a grid gives that resolves
-//! nothing narrower than `range`: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
+//! nothing narrower than h₀: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
 //! less its value at that gap (Nguyen & Ladd 2002, Phys. Rev. E 66:046708).
 
 use crate::{
@@ -13,8 +13,10 @@ use std::f64::consts::PI;
 pub struct Film {
     /// Dynamic viscosity μ, Pa s.
     pub viscosity: f64,
-    /// Gap h₀ from which on the flow is resolved, m.
-    pub range: f64,
+    /// Gap h₀ from which on the flow is resolved where one side is a sphere, m.
+    pub round: f64,
+    /// The same between faces, m.
+    pub flat: f64,
     /// Gap below which the resistance no longer grows, the roughness of the faces, m.
     pub roughness: f64,
     /// Blocks along which the fluid slips, ascending: between one of them and another the resistance is a quarter.
@@ -29,7 +31,8 @@ impl Film {
     pub fn check(&self) -> Result<()> {
         for (name, value, unit) in [
             ("viscosity", self.viscosity, "Pa s"),
-            ("range", self.range, "m"),
+            ("round", self.round, "m"),
+            ("flat", self.flat, "m"),
             ("roughness", self.roughness, "m"),
         ] {
             if !(value > 0.0 && value.is_finite()) {
@@ -40,16 +43,25 @@ impl Film {
         Ok(())
     }
 
+    /// Widest gap that is looked at, m.
+    pub fn reach(&self) -> f64 {
+        self.round.max(self.flat)
+    }
+
     /// Normal force over the velocity at which the gap closes, N s/m: 6πμR²(1/h − 1/h₀) of spheres,
     /// 3μJ(1/h³ − 1/h₀³) of faces, which is 3πμR⁴/2 (1/h³ − 1/h₀³) for discs.
     pub fn resistance(&self, squeeze: &Squeeze) -> f64 {
         match &squeeze.shape {
             Facing::Round { radius } => {
-                6.0 * PI * self.viscosity * radius * radius * self.excess(squeeze.gap, 1)
+                6.0 * PI
+                    * self.viscosity
+                    * radius
+                    * radius
+                    * self.excess(squeeze.gap, self.round, 1)
             }
             Facing::Flat {
                 torsion, flatness, ..
-            } => 3.0 * self.viscosity * torsion * flatness * self.excess(squeeze.gap, 3),
+            } => 3.0 * self.viscosity * torsion * flatness * self.excess(squeeze.gap, self.flat, 3),
         }
     }
 
@@ -59,14 +71,16 @@ impl Film {
             Facing::Round { .. } => [0.0; 2],
             Facing::Flat {
                 tilts, flatness, ..
-            } => tilts.map(|tilt| self.viscosity * tilt * flatness * self.excess(squeeze.gap, 3)),
+            } => tilts.map(|tilt| {
+                self.viscosity * tilt * flatness * self.excess(squeeze.gap, self.flat, 3)
+            }),
         }
     }
 
     /// 1/hⁿ − 1/h₀ⁿ, 0 from h₀ on.
-    fn excess(&self, gap: f64, n: i32) -> f64 {
+    fn excess(&self, gap: f64, range: f64, n: i32) -> f64 {
         let h = gap.max(self.roughness);
-        (h.powi(-n) - self.range.powi(-n)).max(0.0)
+        (h.powi(-n) - range.powi(-n)).max(0.0)
     }
 }
 
@@ -78,7 +92,8 @@ mod tests {
     fn film() -> Film {
         Film {
             viscosity: 0.1,
-            range: 1.0,
+            round: 1.0,
+            flat: 1.0,
             roughness: 1e-3,
             slip: Vec::new(),
         }
@@ -113,11 +128,11 @@ mod tests {
         let stokes = 6.0 * PI * film.viscosity * r;
         let rise = |h: f64| film.resistance(&squeeze(h, Facing::Round { radius: r })) / stokes;
         for h in [0.5, 0.2, 0.1, 0.05, 0.01] {
-            let exact = brenner(h / r) - brenner(film.range / r);
+            let exact = brenner(h / r) - brenner(film.round / r);
             // What is left out, ⅕ ln(h₀/h), is small beside R/h.
             let error = (rise(h) - exact).abs();
             assert!(
-                error < 0.21 * (film.range / h).ln(),
+                error < 0.21 * (film.round / h).ln(),
                 "{h}: {} of {exact}",
                 rise(h)
             );

@@ -12,7 +12,8 @@ use std::f64::consts::PI;
 fn film(viscosity: f64) -> Film {
     Film {
         viscosity,
-        range: 0.1,
+        round: 0.1,
+        flat: 0.1,
         roughness: 1e-4,
         slip: Vec::new(),
     }

@@ -11,6 +11,7 @@ mod free_body;
 mod incline;
 mod law;
 mod ledger;
+mod periodic;
 mod rebound;
 mod repeat;
 mod rest;

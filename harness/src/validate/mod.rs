@@ -133,6 +133,8 @@ pub const CASES: &[Case] = &[
     short("solids/neutral", solids::buoyancy::neutral),
     short("solids/crossing", solids::crossing::run),
     short("solids/momentum", solids::momentum::run),
+    short("solids/lubrication", solids::lubrication::run),
+    short("solids/landing", solids::lubrication::landing),
     short("solids/settling", solids::settling::short),
     long("solids/settling-whole", solids::settling::whole),
     long("solids/sphere", solids::obstacle::sphere),

@@ -6,6 +6,7 @@ pub mod array;
 pub mod buoyancy;
 pub mod crossing;
 pub mod incline_flow;
+pub mod lubrication;
 pub mod momentum;
 pub mod obstacle;
 pub mod release;

@@ -12,4 +12,5 @@ pub mod obstacle;
 pub mod release;
 pub mod rotation;
 pub mod settling;
+pub mod spike;
 pub mod volume;

@@ -14,6 +14,7 @@ mod check;
 mod contact_point;
 mod deforming;
 mod films;
+mod items;
 mod ledger;
 mod make;
 mod narrow;

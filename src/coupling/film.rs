@@ -20,15 +20,15 @@ const FLAT: f64 = 0.8;
 
 /// The film in the gaps of a scene that the grid does not resolve, if the scene wants it and the fluid is viscous.
 pub(super) fn film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Film> {
-    let free_slip = scene.boundaries.iter().filter_map(|(face, boundary)| {
-        matches!(boundary, Boundary::FreeSlip).then(|| format!("wall_{}", face.name()))
-    });
+    let faces = scene.boundaries.iter();
+    let free_slip = faces.filter(|(_, boundary)| matches!(boundary, Boundary::FreeSlip));
     let mut slip: Vec<usize> = free_slip
+        .map(|(face, _)| format!("wall_{}", face.name()))
         .filter_map(|name| blocks.iter().position(|block| block.name == name))
         .collect();
     slip.sort_unstable();
     let viscous = scene.fluid.viscosity > 0.0;
-    (scene.coupling.lubrication && viscous).then(|| Film {
+    (scene.coupling.lubrication && viscous).then_some(Film {
         viscosity: scene.fluid.density * scene.fluid.viscosity,
         round: ROUND * units.cell,
         flat: FLAT * units.cell,

@@ -22,8 +22,10 @@ use std::{fmt, sync::Arc, time::Duration, time::Instant};
 
 /// Cells an axis.
 const GRIDS: [u32; 5] = [128, 192, 256, 384, 512];
-/// Seconds that a row may take, making the lattice included: thirty rows in eight minutes.
+/// Seconds that a row may take, making the lattice included.
 const BUDGET: f64 = 15.0;
+/// Seconds that the whole table may take.
+const WHOLE: f64 = 480.0;
 /// Seconds of steps that are timed.
 const LONG: f64 = 1.5;
 /// Most steps of a row.
@@ -107,6 +109,7 @@ pub fn measure(
     println!("\nkind     store   grid |     MLUPS      GB/s  steps       s");
     let mut clock = Clock::new(device, queue, machine.software);
     let mut rows: Vec<Row> = Vec::new();
+    let whole = Instant::now();
     for storage in [Storage::F32, Storage::F16] {
         for kind in [Kind::Plain, Kind::Wale, Kind::Coupled] {
             for grid in GRIDS {
@@ -129,7 +132,11 @@ pub fn measure(
                 let begin = Instant::now();
                 let setup = setup(grid, storage, kind, machine, device);
                 let held = holds(&setup, device, budget);
-                row.left_out = held.err().or_else(|| too_long(&rows, &row));
+                let over = whole.elapsed().as_secs_f64() > WHOLE - BUDGET;
+                row.left_out = held
+                    .err()
+                    .or_else(|| too_long(&rows, &row))
+                    .or_else(|| over.then(|| format!("the {WHOLE:.0} s of the table are over")));
                 if row.left_out.is_none() {
                     match run(&mut clock, setup.clone(), kind) {
                         Ok((spent, steps)) => {

@@ -6,7 +6,9 @@ use std::path::Path;
 /// Speed of what moves: a cell in fifty steps.
 const SPEED: f64 = 0.02;
 /// Edge of the blocks of a stack, cells.
-const BRICK: u32 = 6;
+const BRICK: u32 = 3;
+/// What parts them where they have no weight, cells.
+const APART: f64 = 0.01;
 
 /// A scene, and its simulation once it is made.
 pub struct World {
@@ -46,14 +48,14 @@ impl World {
         Self::of(n, "rock = { gravity = [0, 0, 0] }", blocks)
     }
 
-    /// Stacks of four cubes on a floor; without weight they float a cell apart.
+    /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference.
     ///
     /// # Errors
     /// If the scene is none.
     pub fn stacks(n: u32, weight: bool) -> riprap::Result<Self> {
-        let gap = if weight { 0.0 } else { 1.0 };
-        let (edge, pitch) = (f64::from(BRICK), f64::from(2 * BRICK));
-        let row = (n / (2 * BRICK)).min(8);
+        let gap = if weight { 0.0 } else { APART };
+        let (edge, pitch) = (f64::from(BRICK), f64::from(BRICK + 1));
+        let row = (n / (BRICK + 1)).min(16);
         let gravity = if weight { -1e-4 } else { 0.0 };
         let mut blocks = String::new();
         for k in 0..4u32 {
@@ -68,7 +70,9 @@ impl World {
                 }
             }
         }
-        let rock = format!("rock = {{ gravity = [0, 0, {gravity:e}] }}");
+        let rock = format!(
+            "rock = {{ gravity = [0, 0, {gravity:e}] }}\ncoupling = {{ lubrication = false }}"
+        );
         let floor = "[boundaries]\nz_min = { kind = \"wall\" }\nz_max = { kind = \"wall\" }\n";
         Self::of(n, &rock, format!("{floor}{blocks}"))
     }

@@ -104,8 +104,10 @@ impl Blocks {
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
+        let way = |turns| self.period().map(|period| period.way(turns));
         let known = |pair: &Pair| {
             pair.parts.iter().all(|&part| part < parts)
+                && (pair.turns == [0; 3] || way(pair.turns).is_some_and(|way| way.is_finite()))
                 && (pair.touch == super::touch::NONE
                     || (pair.touch as usize) < snapshot.touches.len())
         };

@@ -218,3 +218,21 @@ fn a_block_longer_than_the_period_is_refused_and_may_be_fixed() {
     );
     refused(plank.fixed()).expect("it is fixed");
 }
+
+#[test]
+fn a_snapshot_of_another_space_is_refused() {
+    let mut apart = strike(DVec3::ZERO, along_x(6.5));
+    apart.blocks[1].centre.x += 6.5;
+    let mut across = blocks(apart);
+    let far = |blocks: &Blocks| blocks.contacts().any(|contact| contact.way != DVec3::ZERO);
+    for n in 1..=100 {
+        run(&mut across, 0.006 * f64::from(n));
+        if far(&across) {
+            break;
+        }
+    }
+    assert!(far(&across), "they meet across the border");
+    let mut middle = blocks(strike(DVec3::ZERO, None));
+    assert!(middle.restore(&across.snapshot()).is_err());
+    across.restore(&across.snapshot()).expect("its own");
+}

@@ -6,10 +6,12 @@ use super::{
     books::{All, Books},
     bound, check,
     deforming::{DeformingBlocks, pose},
+    films::Films,
     make,
     narrow::Joints,
-    pairs::{self, Mark},
+    pairs::Mark,
     parts::Parts,
+    period::Periods,
     resolvers::Resolvers,
     sums::Sum,
     touch::Pair,
@@ -17,7 +19,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    broadphase::{Broadphase, Item},
+    broadphase::Broadphase,
     contact::{Counts, Options},
     law::{self, Joint},
 };
@@ -62,6 +64,10 @@ pub struct Blocks {
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
     pub(super) corner_area: f64,
+    /// Where space repeats.
+    pub(super) periods: Option<Periods>,
+    /// Fluid in thin gaps.
+    pub(super) film: Option<law::Film>,
     pub(super) resolvers: Resolvers,
 
     pub(super) time: f64,
@@ -80,6 +86,9 @@ pub struct Blocks {
     pub(super) parts: Parts,
     pub(super) flights: Vec<Flight>,
     pub(super) sums: Vec<Sum>,
+    pub(super) films: Films,
+    /// What they have taken in this step, J.
+    pub(super) filmed: f64,
     pub(super) next_states: Vec<State>,
     pub(super) next_pairs: Vec<Pair>,
     pub(super) next_touches: Touches,
@@ -116,6 +125,8 @@ impl Blocks {
             start_overlap: setup.start_overlap,
             largest_overlap: setup.largest_overlap,
             corner_area: setup.corner_area,
+            film: setup.film,
+            periods: None,
             resolvers: Resolvers::new(options),
             time: 0.0,
             steps: 0,
@@ -128,6 +139,8 @@ impl Blocks {
             parts: Parts::new(&bodies),
             flights: vec![Flight::default(); bodies.len()],
             sums: Vec::new(),
+            films: Films::default(),
+            filmed: 0.0,
             next_states: states.clone(),
             next_pairs: Vec::new(),
             next_touches: Touches::default(),
@@ -136,6 +149,9 @@ impl Blocks {
             deforming,
         };
         blocks.place();
+        if let Some(period) = setup.period {
+            blocks.periods = Some(blocks.repeated(period)?);
+        }
         Ok(blocks)
     }
 
@@ -212,6 +228,15 @@ impl Blocks {
         self.states.iter().map(|state| state.torque)
     }
 
+    /// Force of films of fluid on each block over the last half of the last step, N.
+    pub fn film_forces(&self) -> Vec<DVec3> {
+        let mut forces = vec![DVec3::ZERO; self.len()];
+        for (block, force) in self.films.forces() {
+            forces[block] = force;
+        }
+        forces
+    }
+
     /// External force, N, and torque about the centroid, N m, on each block.
     pub fn loads(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
         let each = self.states.iter();
@@ -268,41 +293,6 @@ impl Blocks {
         self.pairs.len()
     }
 
-    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more.
-    pub fn items(&self) -> Vec<Item> {
-        self.parts.items(&self.bodies, |block| self.room(block))
-    }
-
-    /// Whether a step needs a new list of pairs first: a block has moved, or will in this step, by half
-    /// the skin.
-    pub fn wants_pairs(&self) -> bool {
-        self.marks.len() < self.bodies.len()
-            || pairs::outlived(
-                &self.bodies,
-                &self.states,
-                &self.deforming,
-                &self.marks,
-                self.ahead(),
-            )
-    }
-
-    /// The pairs of [`Blocks::items`] that may touch. What the pairs remember of each other stays.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] if they are not sorted pairs of items.
-    pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
-        let pairs = pairs::checked(pairs, &self.parts.block, &self.bodies)?;
-        self.pairs = pairs::merged(&self.pairs, &pairs);
-        let mark = |(i, state): (usize, &State)| Mark {
-            centre: state.centre,
-            rotation: state.rotation,
-            room: self.room(i),
-        };
-        self.marks = self.states.iter().enumerate().map(mark).collect();
-        self.deforming.mark();
-        Ok(())
-    }
-
     /// External loads of all blocks, which act until they are set anew.
     ///
     /// # Errors
@@ -354,22 +344,6 @@ impl Blocks {
     /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
     pub fn wait(&mut self, until: f64) {
         self.time = self.time.max(until);
-    }
-
-    /// By how much the boxes of a block are grown, m.
-    fn room(&self, block: usize) -> f64 {
-        let (body, state) = (&self.bodies[block], &self.states[block]);
-        pairs::room(body, state, &self.deforming, self.skin, self.ahead())
-    }
-
-    /// Time for which pairs must be known ahead, s.
-    fn ahead(&self) -> f64 {
-        // Without free blocks no step is too long, and there are no pairs.
-        if self.time_step.is_finite() {
-            self.time_step
-        } else {
-            0.0
-        }
     }
 
     /// All of them, with their state.

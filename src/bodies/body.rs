@@ -4,6 +4,7 @@ use super::{
     Block, Motion, Pose,
     acting::{self, Acting},
     deforming::{RIGID, Under},
+    films::Push,
     sums::Sum,
 };
 use crate::{
@@ -198,22 +199,31 @@ impl Flight {
     }
 }
 
-/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
-/// goes with its like.
-pub(super) fn fly(body: &Body, state: &mut State, under: Under) -> Flight {
+/// Velocity and angular momentum of a free rigid block in the middle of a step.
+pub(super) fn first_half(body: &Body, state: &State, under: Under) -> (DVec3, DVec3) {
     let Under {
         gravity,
         damping,
         time,
         dt,
     } = under;
+    let [rate, torque] = body.pulls(state, gravity, time);
+    (
+        integrate::first_kick(state.velocity, rate, damping, dt),
+        integrate::first_kick(state.momentum, torque, damping, dt),
+    )
+}
+
+/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
+/// goes with its like. `push`: what films of fluid do to it on the way.
+pub(super) fn fly(body: &Body, state: &mut State, push: Push, under: Under) -> Flight {
+    let Under { time, dt, .. } = under;
     match &body.drive {
         Drive::Nothing => Flight::still(body, state),
         Drive::Forces(_) if state.asleep || body.deforming != RIGID => Flight::still(body, state),
         Drive::Forces(_) => {
-            let [rate, torque] = body.pulls(state, gravity, time);
-            let velocity = integrate::first_kick(state.velocity, rate, damping, dt);
-            let momentum = integrate::first_kick(state.momentum, torque, damping, dt);
+            let (velocity, momentum) = first_half(body, state, under);
+            let (velocity, momentum) = (velocity + push.velocity, momentum + push.momentum);
             // The dashpots want the velocity at the end of the step, which the force there is part of:
             // the last acceleration gives it to second order.
             let end_velocity = 2.0 * velocity - state.velocity;

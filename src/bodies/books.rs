@@ -19,6 +19,7 @@ const FEW: usize = 8;
 pub(super) struct Books {
     pub friction: f64,
     pub lost: f64,
+    pub film: f64,
     /// Of the dashpots, the mass damping, the drives and the loads.
     pub work: [f64; 4],
     pub power: [f64; 4],
@@ -116,6 +117,7 @@ impl Books {
             friction: self.friction,
             dashpot,
             mass_damping,
+            film: self.film,
             lost: self.lost,
             driven,
             loads,
@@ -129,7 +131,7 @@ fn work(chunk: &mut Chunk, all: &All<'_>, dt: f64) {
     for touch in &mut chunk.touches {
         let force = touch.force;
         let [first, second] = touch.blocks.map(|block| block as usize);
-        let velocity = all.velocity(second, touch.pressure_centre)
+        let velocity = all.velocity(second, touch.pressure_centre - touch.way)
             - all.velocity(first, touch.pressure_centre);
         let spin = all.states[second].spin - all.states[first].spin;
         let spring = -force.spring.dot(velocity);

@@ -32,7 +32,7 @@ macro_rules! number {
         }
     )*};
 }
-number!(f64, u32, u64);
+number!(f64, u32, i32, u64);
 
 impl Plain for bool {
     fn write(&self, bytes: &mut Vec<u8>) {

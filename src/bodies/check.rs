@@ -35,6 +35,12 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let message = format!("{} must be between 0 and 1", setup.corner_area);
         return Err(Error::scene("corner_area", message));
     }
+    if let Some(period) = &setup.period {
+        period.check()?;
+    }
+    if let Some(film) = &setup.film {
+        film.check()?;
+    }
     if let Some(Sleep {
         speed,
         after,

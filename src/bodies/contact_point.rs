@@ -10,8 +10,10 @@ pub struct ContactPoint {
     pub blocks: [usize; 2],
     /// First and second part, among the parts of all blocks.
     pub parts: [usize; 2],
-    /// Where the force acts, m.
+    /// Where the force acts, m, beside the first block.
     pub point: DVec3,
+    /// Way by which the second block is moved to be beside the first, m: none, or that of whole periods.
+    pub way: DVec3,
     /// Unit normal from the first block to the second.
     pub normal: DVec3,
     /// Force on the second block, N; the first gets the opposite.
@@ -30,6 +32,7 @@ impl ContactPoint {
             blocks: touch.blocks.map(|block| block as usize),
             parts: touch.parts.map(|part| part as usize),
             point: touch.pressure_centre,
+            way: touch.way,
             normal: touch.normal,
             force: touch.force.total(),
             overlap: touch.overlap,

@@ -260,12 +260,14 @@ impl DeformingBlocks {
             strain.moment = DMat3::ZERO;
         }
         for touch in touches.iter() {
-            for (block, sign) in touch.blocks.into_iter().zip([-1.0, 1.0]) {
+            let places = [touch.pressure_centre, touch.pressure_centre - touch.way];
+            let ends = touch.blocks.into_iter().zip(places);
+            for ((block, at), sign) in ends.zip([-1.0, 1.0]) {
                 let k = bodies[block as usize].deforming;
                 if k == RIGID {
                     continue;
                 }
-                let arm = touch.pressure_centre - states[block as usize].centre;
+                let arm = at - states[block as usize].centre;
                 // A torque is the skew part of a moment.
                 let moment = outer(touch.force.total(), arm) + couple(touch.force.moment);
                 self.strains[k as usize].moment += moment * sign;

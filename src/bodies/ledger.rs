@@ -22,6 +22,8 @@ pub struct Ledger {
     pub dashpot: f64,
     /// Taken by the mass damping α.
     pub mass_damping: f64,
+    /// Taken by films of fluid between blocks that nearly touch.
+    pub film: f64,
     /// Held by springs whose contact ended.
     pub lost: f64,
     /// Done on the blocks by what moves the driven ones.
@@ -41,6 +43,6 @@ impl Ledger {
 
     /// Taken for good.
     pub fn taken(&self) -> f64 {
-        self.friction + self.dashpot + self.mass_damping + self.lost
+        self.friction + self.dashpot + self.mass_damping + self.film + self.lost
     }
 }

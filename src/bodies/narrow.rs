@@ -3,15 +3,17 @@
 use super::{
     Body,
     body::Flight,
-    deforming::DeformingBlocks,
+    deforming::{DeformingBlocks, RIGID},
+    films::Film,
     parts::Parts,
+    period::Periods,
     resolvers::Resolvers,
     touch::{NONE, Pair, TENTHS, Touch},
     touches::{CHUNK, Chunk, Touches},
 };
 use crate::{
     Error, Result,
-    contact::{Contact, Resolver, Verdict},
+    contact::{Contact, Placed, Resolver, Squeeze, Verdict},
     law::{self, History, Joint},
 };
 use glam::DVec3;
@@ -34,6 +36,9 @@ pub(super) struct Scene<'a> {
     pub largest_overlap: f64,
     /// Least area of a contact's springs, as a share of the square of twice that distance.
     pub corner_area: f64,
+    /// Fluid in thin gaps.
+    pub film: Option<&'a law::Film>,
+    pub periods: Option<&'a Periods>,
 }
 
 /// The joint of every two materials.
@@ -62,7 +67,7 @@ pub(super) fn resolve(
 ) -> Result<()> {
     resolvers.prepare(rayon::current_num_threads());
     let resolvers = &*resolvers;
-    next.resize(pairs.len(), Pair::new([0; 2]));
+    next.resize(pairs.len(), Pair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
     let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
     let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
@@ -88,10 +93,12 @@ impl Scene<'_> {
     ) -> Result<()> {
         found.touches.clear();
         found.ended.clear();
+        found.films.clear();
         for (pair, next) in pairs.iter().zip(next) {
             *next = *pair;
             let before = self.touches.of(pair);
-            let touch = self.pair(resolver, next, before)?;
+            let room = (&mut found.films, &mut found.image);
+            let touch = self.pair(resolver, next, before, room)?;
             next.touch = match touch {
                 Some(_) => (n * CHUNK + found.touches.len()) as u32,
                 None => NONE,
@@ -111,6 +118,7 @@ impl Scene<'_> {
         resolver: &mut Resolver,
         pair: &mut Pair,
         before: Option<&Touch>,
+        (films, image): (&mut Vec<Film>, &mut Placed),
     ) -> Result<Option<Touch>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
         if blocks.iter().all(|&b| self.flights[b as usize].rests) {
@@ -124,12 +132,32 @@ impl Scene<'_> {
             }));
         }
         let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
+        let way = self
+            .periods
+            .map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
+        let second = match pair.turns {
+            [0, 0, 0] => second,
+            _ => {
+                image.copy_moved(second, way);
+                image
+            }
+        };
         let verdict = resolver
             .resolve(first, second, &mut pair.cache)
             .map_err(|error| {
                 let [a, b] = blocks.map(|block| self.name(block));
                 Error::scene(format!("{a} and {b}"), error.to_string())
             })?;
+        if let (Some(film), Verdict::Apart | Verdict::Touching) = (self.film, verdict)
+            && blocks
+                .iter()
+                .all(|&b| self.bodies[b as usize].deforming == RIGID)
+            && let Some(squeeze) = Squeeze::between(first, second, film.reach())
+        {
+            let [a, b] = blocks.map(|block| self.flights[block as usize].centre);
+            let centres = [a, b + way];
+            films.extend(Film::of(&squeeze, film, blocks, centres));
+        }
         Ok(match verdict {
             Verdict::Apart => None,
             Verdict::Touching => before.map(|touch| Touch {
@@ -154,21 +182,22 @@ impl Scene<'_> {
                         .into(),
                 });
             }
-            Verdict::Contact(contact) => Some(self.touch(pair.parts, blocks, &contact, before)),
+            Verdict::Contact(contact) => {
+                Some(self.touch((pair.parts, blocks, way), &contact, before))
+            }
         })
     }
 
     fn touch(
         &self,
-        parts: [u32; 2],
-        blocks: [u32; 2],
+        (parts, blocks, way): ([u32; 2], [u32; 2], DVec3),
         contact: &Contact,
         before: Option<&Touch>,
     ) -> Touch {
         let [a, b] = blocks.map(|block| &self.flights[block as usize]);
         let joint = self.joints.of(a.material, b.material);
         let at = contact.pressure_centre;
-        let [ra, rb] = [a, b].map(|block| at - block.centre);
+        let [ra, rb] = [at - a.centre, at - way - b.centre];
         let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
         let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
         if !self.deforming.is_empty() {
@@ -198,6 +227,7 @@ impl Scene<'_> {
         Touch {
             parts,
             blocks,
+            way,
             point: contact.point,
             pressure_centre: at,
             normal: contact.normal,

@@ -4,6 +4,7 @@ use super::{
     Body,
     body::State,
     deforming::DeformingBlocks,
+    period::Image,
     step::FEW,
     touch::{NONE, Pair},
 };
@@ -70,44 +71,72 @@ pub(super) fn outlived(
 
 /// A new list that keeps what the pairs of the old one remember. A contact whose pair is not in `new` is
 /// kept all the same: its history ends only where the resolver says so.
-pub(super) fn merged(old: &[Pair], new: &[[u32; 2]]) -> Vec<Pair> {
+///
+/// `lasting`: what of the periods between the parts of a pair tells it from another pair of theirs.
+pub(super) fn merged(
+    old: &[Pair],
+    new: &[Near],
+    lasting: impl Fn([u32; 2], [i32; 3]) -> [i32; 3],
+) -> Vec<Pair> {
     let mut list = Vec::with_capacity(new.len());
     let mut rest = old.iter().copied().peekable();
-    for &parts in new {
-        while let Some(pair) = rest.next_if(|pair| pair.parts < parts) {
+    let key = |parts: [u32; 2], turns: [i32; 3]| (parts, lasting(parts, turns));
+    for &(parts, turns) in new {
+        let wanted = key(parts, turns);
+        while let Some(pair) = rest.next_if(|pair| key(pair.parts, pair.turns) < wanted) {
             list.extend((pair.touch != NONE).then_some(pair));
         }
-        let kept = rest.next_if(|pair| pair.parts == parts);
-        list.push(kept.unwrap_or_else(|| Pair::new(parts)));
+        let kept = rest.next_if(|pair| key(pair.parts, pair.turns) == wanted);
+        list.push(kept.map_or_else(|| Pair::new(parts, turns), |pair| Pair { turns, ..pair }));
     }
     list.extend(rest.filter(|pair| pair.touch != NONE));
     list
 }
 
-/// Drops what is never computed: pairs of one block, and of two that forces do not move.
+/// Two parts that may touch, and the periods by which the second is then moved.
+pub(super) type Near = ([u32; 2], [i32; 3]);
+
+/// From pairs of items to pairs of parts, without what is never computed: pairs of one block, and of two that forces
+/// do not move. `images`: which parts the items are; without them each is its own.
 ///
 /// # Errors
-/// If the list is not sorted, names a part that does not exist, or names a pair twice.
+/// If the list is not sorted, names an item that does not exist, or names a pair twice.
 pub(super) fn checked(
-    mut pairs: Vec<[u32; 2]>,
+    pairs: Vec<[u32; 2]>,
+    images: Option<&[Image]>,
     block: &[u32],
     bodies: &[Body],
-) -> Result<Vec<[u32; 2]>> {
-    let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < block.len();
+) -> Result<Vec<Near>> {
+    let items = images.map_or(block.len(), <[Image]>::len);
+    let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < items;
     if let Some(pair) = pairs.iter().find(|pair| !known(pair)) {
-        let parts = block.len();
         return Err(Error::scene(
             "pairs",
-            format!("{pair:?} must be two of the {parts} items in ascending order"),
+            format!("{pair:?} must be two of the {items} items in ascending order"),
         ));
     }
     if !pairs.is_sorted_by(|a, b| a < b) {
         let message = "the finder must return the pairs sorted, each once";
         return Err(Error::scene("pairs", message));
     }
-    pairs.retain(|pair| {
-        let [a, b] = pair.map(|part| block[part as usize]);
+    let matters = |(parts, _): &Near| {
+        let [a, b] = parts.map(|part| block[part as usize]);
         a != b && (bodies[a as usize].is_free() || bodies[b as usize].is_free())
-    });
-    Ok(pairs)
+    };
+    let Some(images) = images else {
+        let own = pairs.into_iter().map(|parts| (parts, [0; 3]));
+        return Ok(own.filter(matters).collect());
+    };
+    let near = |pair: [u32; 2]| {
+        let mut ends = pair.map(|item| images[item as usize]);
+        ends.sort_unstable_by_key(|image| image.part);
+        let [a, b] = ends;
+        let turns = std::array::from_fn(|axis| a.turns[axis] - b.turns[axis]);
+        ([a.part, b.part], turns)
+    };
+    let mut list: Vec<Near> = pairs.into_iter().map(near).filter(matters).collect();
+    // Two parts and two of their images are the same pair.
+    list.sort_unstable();
+    list.dedup();
+    Ok(list)
 }

@@ -4,9 +4,10 @@ use super::{Blocks, deforming::pose, touch::TENTHS};
 use crate::{
     Error, Result,
     broadphase::Broadphase,
-    contact::{Options, Resolver, Verdict},
+    contact::{Options, Placed, Resolver, Verdict},
     error::Overlap,
 };
+use glam::DVec3;
 
 impl Blocks {
     /// Pushes blocks apart along their contact normals, each by its share of the two masses, pair after
@@ -38,6 +39,7 @@ impl Blocks {
     /// One sweep; the pairs that overlapped too much before it.
     fn push_apart(&mut self, resolver: &mut Resolver) -> Result<Vec<Overlap>> {
         let mut found = Vec::new();
+        let mut image = Placed::default();
         for index in 0..self.pairs.len() {
             let pair = &mut self.pairs[index];
             let blocks = pair
@@ -53,7 +55,10 @@ impl Blocks {
                 if held { 0.0 } else { body.inverse_mass() }
             });
             let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
-            let Verdict::Contact(contact) = resolver.resolve(first, second, &mut pair.cache)?
+            let periods = self.periods.as_ref();
+            let way = periods.map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
+            image.copy_moved(second, way);
+            let Verdict::Contact(contact) = resolver.resolve(first, &image, &mut pair.cache)?
             else {
                 continue;
             };

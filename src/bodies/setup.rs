@@ -1,9 +1,10 @@
 //! What blocks there are, and how they are computed.
 
+use super::Period;
 use crate::{
     block::Shape,
     formula::Formula,
-    law::{Elastic, Joint},
+    law::{Elastic, Film, Joint},
 };
 use glam::{DMat3, DQuat, DVec3};
 use std::sync::Arc;
@@ -43,11 +44,16 @@ pub struct Setup {
     /// that part of the face from the first touch on. Contacts of a larger area stay as they are; cohesion
     /// and tensile strength go by the true area.
     pub corner_area: f64,
+    /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and nobody else computes
+    /// what it does there.
+    pub film: Option<Film>,
+    /// The box after which space repeats, if it does: blocks then meet the images of others, too.
+    pub period: Option<Period>,
 }
 
 impl Default for Setup {
     /// No blocks; gravity of 9.81 m/s² along −z, no mass damping, no sleep, overlaps of 1 % at the start
-    /// and of 10 % later; the area of the section for corners, too.
+    /// and of 10 % later; the area of the section for corners, too; no fluid in the gaps.
     fn default() -> Self {
         Self {
             blocks: Vec::new(),
@@ -61,6 +67,8 @@ impl Default for Setup {
             start_overlap: 0.01,
             largest_overlap: 0.1,
             corner_area: 0.0,
+            film: None,
+            period: None,
         }
     }
 }

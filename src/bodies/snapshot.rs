@@ -6,6 +6,7 @@ use super::{
     books::Books,
     bytes::{Plain, fields},
     deforming::Strain,
+    films::Film,
     pairs::Mark,
     touch::{Pair, Touch},
     touches::Touches,
@@ -17,7 +18,7 @@ use crate::{
 };
 
 /// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 2\n";
+const MAGIC: &[u8; 16] = b"riprap blocks 3\n";
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
@@ -32,7 +33,9 @@ pub struct Snapshot {
     marks: Vec<Mark>,
     pairs: Vec<Pair>,
     touches: Vec<Touch>,
+    films: Vec<Film>,
     books: Books,
+    /// Of blocks that deform.
     strains: Vec<Strain>,
 }
 
@@ -87,6 +90,8 @@ impl Blocks {
         snapshot.pairs.clone_from(&self.pairs);
         self.touches
             .list(&mut snapshot.pairs, &mut snapshot.touches);
+        snapshot.films.clear();
+        snapshot.films.extend(self.touches.films());
         snapshot.books = self.books;
         snapshot.strains.clone_from(&self.deforming.strains);
     }
@@ -99,8 +104,10 @@ impl Blocks {
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
+        let way = |turns| self.period().map(|period| period.way(turns));
         let known = |pair: &Pair| {
             pair.parts.iter().all(|&part| part < parts)
+                && (pair.turns == [0; 3] || way(pair.turns).is_some_and(|way| way.is_finite()))
                 && (pair.touch == super::touch::NONE
                     || (pair.touch as usize) < snapshot.touches.len())
         };
@@ -111,7 +118,11 @@ impl Blocks {
             && snapshot
                 .touches
                 .iter()
-                .all(|touch| touch.blocks.iter().all(|&block| block < blocks));
+                .all(|touch| touch.blocks.iter().all(|&block| block < blocks))
+            && snapshot
+                .films
+                .iter()
+                .all(|film| film.blocks.iter().all(|&block| block < blocks));
         if !fits {
             let message = format!(
                 "it holds {} blocks, {} of them deformable, these are {} and {} of another scene",
@@ -129,7 +140,7 @@ impl Blocks {
         self.states.clone_from(&snapshot.states);
         self.marks.clone_from(&snapshot.marks);
         self.pairs.clone_from(&snapshot.pairs);
-        self.touches = Touches::from_list(&snapshot.touches);
+        self.touches = Touches::from_list(&snapshot.touches, &snapshot.films);
         self.books = snapshot.books;
         self.deforming.strains.clone_from(&snapshot.strains);
         self.place();
@@ -146,8 +157,15 @@ fields!(Snapshot {
     marks,
     pairs,
     touches,
+    films,
     books,
     strains
+});
+fields!(Film {
+    blocks,
+    normal,
+    arms,
+    resistance
 });
 fields!(State {
     centre,
@@ -177,6 +195,7 @@ fields!(Mark {
 });
 fields!(Pair {
     parts,
+    turns,
     cache,
     touch
 });
@@ -189,6 +208,7 @@ fields!(Cache {
 fields!(Touch {
     parts,
     blocks,
+    way,
     point,
     pressure_centre,
     normal,
@@ -215,6 +235,7 @@ fields!(History {
 fields!(Books {
     friction,
     lost,
+    film,
     work,
     power
 });

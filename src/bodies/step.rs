@@ -121,12 +121,16 @@ impl Blocks {
     /// Kick, drift and the contacts there.
     fn fly(&mut self, dt: f64) -> Result<()> {
         let under = self.under(dt);
+        self.filmed = self
+            .films
+            .first_half((&self.bodies, &self.states), &self.touches, under);
+        let films = &self.films;
         let all = self.bodies.par_iter().zip(&self.states);
         let ends = self.next_states.par_iter_mut().zip(&mut self.flights);
         let all = all.zip(ends).enumerate().with_min_len(FEW);
         let lost = all.filter_map(|(i, ((body, state), (next, flight)))| {
             *next = *state;
-            *flight = body::fly(body, next, under);
+            *flight = body::fly(body, next, films.push(i), under);
             (!next.is_finite()).then_some(i)
         });
         let lost = lost.min();
@@ -150,6 +154,8 @@ impl Blocks {
     fn land(&mut self, dt: f64) {
         self.take_over();
         let (gravity, sleep, under) = (self.gravity, self.sleep, self.under(dt));
+        self.films
+            .before_second_half((&self.bodies, &self.states), &self.touches);
         let all = self.bodies.par_iter().zip(&self.sums);
         let all = all.zip(&mut self.states).with_min_len(FEW);
         all.for_each(|((body, sum), state)| {
@@ -162,6 +168,9 @@ impl Blocks {
         self.deforming
             .pull(&self.bodies, &self.touches, &self.states);
         self.deforming.land(&self.bodies, under, &mut self.states);
+        self.filmed += self.films.second_half(&self.bodies, &mut self.states);
+        self.stir();
+        self.books.film += self.filmed;
         self.book(under);
         if let Some(sleep) = &sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
@@ -202,6 +211,20 @@ impl Blocks {
             deforming: &self.deforming,
         };
         self.books.step(all, &mut self.touches, under);
+    }
+
+    /// Wakes the sleepers that films push at.
+    fn stir(&mut self) {
+        let Some(sleep) = self.sleep else {
+            return;
+        };
+        for (block, force) in self.films.forces() {
+            let state = &mut self.states[block];
+            let weight = self.bodies[block].mass * self.gravity.length();
+            if state.asleep && force.length() > sleep.change * weight {
+                (state.asleep, state.slow) = (false, 0.0);
+            }
+        }
     }
 
     /// Puts all parts where their blocks are.
@@ -254,6 +277,8 @@ impl Blocks {
                 self.largest_overlap
             },
             corner_area: self.corner_area,
+            film: self.film.as_ref(),
+            periods: self.periods.as_ref(),
         };
         narrow::resolve(
             &scene,

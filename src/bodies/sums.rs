@@ -29,9 +29,12 @@ pub(super) fn of_touches(
         let [a, b] = touch.blocks.map(|block| block as usize);
         let joint = joints.of(flights[a].material, flights[b].material);
         let (force, moment) = (touch.force.total(), touch.force.moment);
-        for (block, force, moment) in [(a, -force, -moment), (b, force, moment)] {
+        let at = touch.pressure_centre;
+        for (block, at, force, moment) in
+            [(a, at, -force, -moment), (b, at - touch.way, force, moment)]
+        {
             let sum = &mut sums[block];
-            let arm = touch.pressure_centre - flights[block].centre;
+            let arm = at - flights[block].centre;
             sum.force += force;
             sum.torque += arm.cross(force) + moment;
             // Among rigid blocks alone nobody looks into the bodies, which are far away in memory.

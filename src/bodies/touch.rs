@@ -15,6 +15,8 @@ pub(super) const TENTHS: f64 = 10.0;
 pub(super) struct Pair {
     /// First and second part, in ascending order.
     pub parts: [u32; 2],
+    /// Periods by which the second is moved to be beside the first.
+    pub turns: [i32; 3],
     /// What the resolver remembers.
     pub cache: Cache,
     /// Its contact among all contacts, or [`NONE`].
@@ -22,9 +24,10 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    pub fn new(parts: [u32; 2]) -> Self {
+    pub fn new(parts: [u32; 2], turns: [i32; 3]) -> Self {
         Self {
             parts,
+            turns,
             cache: Cache::default(),
             touch: NONE,
         }
@@ -36,6 +39,8 @@ impl Pair {
 pub(super) struct Touch {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],
+    /// Way by which the second is moved to be beside the first, m: that of whole periods.
+    pub way: DVec3,
     /// Point of contact, m.
     pub point: DVec3,
     /// Where the force acts, m.

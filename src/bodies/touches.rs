@@ -1,6 +1,11 @@
 //! The contacts of all pairs, in the order of the pairs.
 
-use super::touch::{NONE, Pair, Touch};
+use crate::contact::Placed;
+
+use super::{
+    films::Film,
+    touch::{NONE, Pair, Touch},
+};
 
 /// Pairs that one thread takes at a time: enough to outweigh the handing out.
 pub(super) const CHUNK: usize = 64;
@@ -17,8 +22,12 @@ pub(super) struct Touches {
 pub(super) struct Chunk {
     /// At most [`CHUNK`].
     pub touches: Vec<Touch>,
+    /// Films in the gaps of pairs that nearly touch.
+    pub films: Vec<Film>,
     /// What the springs held whose contact has ended in this step, J.
     pub ended: Vec<f64>,
+    /// Room for the image of a part.
+    pub image: Placed,
     /// Power that the dashpots of each contact take, W.
     pub dashpots: Vec<f64>,
 }
@@ -32,6 +41,11 @@ impl Touches {
 
     pub fn iter(&self) -> impl Iterator<Item = &Touch> {
         self.chunks.iter().flat_map(|chunk| &chunk.touches)
+    }
+
+    /// The films of all pairs, in their order.
+    pub fn films(&self) -> impl Iterator<Item = &Film> {
+        self.chunks.iter().flat_map(|chunk| &chunk.films)
     }
 
     /// The contact that a pair names.
@@ -54,14 +68,17 @@ impl Touches {
         }
     }
 
-    /// The contacts of a list; its places name them.
-    pub fn from_list(list: &[Touch]) -> Self {
+    /// The contacts of a list, whose places name them, and films.
+    pub fn from_list(list: &[Touch], films: &[Film]) -> Self {
         let chunk = |touches: &[Touch]| Chunk {
             touches: touches.to_vec(),
             ..Chunk::default()
         };
-        Self {
-            chunks: list.chunks(CHUNK).map(chunk).collect(),
+        let mut chunks: Vec<Chunk> = list.chunks(CHUNK).map(chunk).collect();
+        if !films.is_empty() {
+            chunks.resize_with(chunks.len().max(1), Chunk::default);
+            chunks[0].films = films.to_vec();
         }
+        Self { chunks }
     }
 }

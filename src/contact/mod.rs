@@ -52,6 +52,7 @@ mod resolver;
 mod section;
 mod separation;
 mod sphere;
+mod squeeze;
 mod verdict;
 
 pub use cache::Cache;
@@ -60,4 +61,5 @@ pub use options::{Normal, Options};
 pub use placed::Placed;
 pub(crate) use placed::clip;
 pub use resolver::Resolver;
+pub use squeeze::{Facing, Squeeze};
 pub use verdict::{Contact, Verdict};

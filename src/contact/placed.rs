@@ -34,6 +34,15 @@ impl Placed {
         placed
     }
 
+    /// Becomes `other` moved by `way` (m), in the memory that it has.
+    pub fn copy_moved(&mut self, other: &Self, way: DVec3) {
+        self.centre = other.centre + way;
+        self.deformation = other.deformation;
+        self.faces.clone_from(&other.faces);
+        self.vertices.clone_from(&other.vertices);
+        (self.radius, self.smallest_distance) = (other.radius, other.smallest_distance);
+    }
+
     /// What lies inside of a plane polygon of these corners (m); nothing of it in a sphere.
     pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
         if self.faces.is_empty() {

@@ -29,6 +29,17 @@ pub(super) struct Moments {
     pub first: DVec2,
 }
 
+/// How an area is spread about its centroid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SecondMoments {
+    pub area: f64,
+    pub centre: DVec2,
+    /// Largest and least ∫ x² dA.
+    pub principal: [f64; 2],
+    /// Along which it is the largest.
+    pub axis: DVec2,
+}
+
 impl Polygon {
     /// A square of half-width `half`.
     pub fn reset(&mut self, half: f64) {
@@ -88,6 +99,44 @@ impl Polygon {
         }
         sums.first += sums.volume * mean;
         sums
+    }
+
+    /// Area, centroid and second moments about it; none of what has no area.
+    pub fn second_moments(&self) -> Option<SecondMoments> {
+        let last = self.corners.last()?;
+        let mean = self.corners.iter().sum::<DVec2>() / self.corners.len() as f64;
+        let (mut area, mut first) = (0.0, DVec2::ZERO);
+        let mut second = [0.0; 3];
+        let mut p = *last - mean;
+        for corner in &self.corners {
+            let q = *corner - mean;
+            // ∫ λ_i λ_j dA = A (1 + δ_ij)/12 on each triangle with the mean.
+            let part = 0.5 * p.perp_dot(q);
+            let sum = p + q;
+            area += part;
+            first += part / 3.0 * sum;
+            let of = |u: f64, v: f64, p2: f64, q2: f64| part / 12.0 * (u * v + p2 + q2);
+            second[0] += of(sum.x, sum.x, p.x * p.x, q.x * q.x);
+            second[1] += of(sum.x, sum.y, p.x * p.y, q.x * q.y);
+            second[2] += of(sum.y, sum.y, p.y * p.y, q.y * q.y);
+            p = q;
+        }
+        if area.is_nan() || area <= 0.0 {
+            return None;
+        }
+        let centre = first / area;
+        let xx = second[0] - area * centre.x * centre.x;
+        let xy = second[1] - area * centre.x * centre.y;
+        let yy = second[2] - area * centre.y * centre.y;
+        let (middle, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let radius = half.hypot(xy);
+        let angle = 0.5 * xy.atan2(half);
+        Some(SecondMoments {
+            area,
+            centre: mean + centre,
+            principal: [middle + radius, middle - radius],
+            axis: DVec2::from_angle(angle),
+        })
     }
 
     /// Largest distance of two corners.

@@ -21,7 +21,7 @@ pub(super) struct Section {
 /// Cosines of the angles between two faces up to which they lie on each other, and from which on one
 /// only rests an edge on the other, 5° and 10°; between them the two sections are mixed, so that
 /// nothing jumps.
-const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
+pub(super) const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
 
 /// The same for the share of Σ 1/t, t the slacks of a block's faces at the analytic centre, that the
 /// tightest face has: almost all where it lies on the other block's, half at a blunt edge, or where two
@@ -186,7 +186,7 @@ impl Plane {
 }
 
 /// From 0 at the first bound to 1 at the second, without a kink.
-fn ramp(x: f64, [low, high]: [f64; 2]) -> f64 {
+pub(super) fn ramp(x: f64, [low, high]: [f64; 2]) -> f64 {
     let s = ((x - low) / (high - low)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }

@@ -8,6 +8,7 @@ use crate::{
     Error, Result,
     bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
     broadphase::AutoBroadphase,
+    coupling::film::film,
     immersed::{FaceLoad, Frame, Immersed, Submerged, Work},
     lattice::Lattice,
     scene::Scene,
@@ -91,6 +92,7 @@ impl Coupled {
             // No contact limits the step of blocks that nothing pushes.
             setup.setup.time_step = Some(units.time_step);
         }
+        setup.setup.film = film(scene, units, &setup.setup.blocks);
         let blocks = simulation::begin(scene, &setup, &mut finder).await?;
         let in_fluid = setup.in_fluid;
         let gaps = gaps(&setup.setup, &blocks, in_fluid, units.cell, &mut finder).await?;

@@ -39,13 +39,19 @@ pub(crate) async fn gaps(
     cell: f64,
     finder: &mut impl Broadphase,
 ) -> Result<Vec<Gap>> {
-    let mut owners = Vec::new();
-    let mut placed = Vec::new();
+    let mut parts = Vec::new();
     for (block, pose) in blocks.poses().iter().enumerate() {
-        for part in setup.blocks[block].shape.parts() {
-            owners.push(block);
-            placed.push(Placed::of(part, pose));
-        }
+        let own = setup.blocks[block].shape.parts().iter();
+        parts.extend(own.map(|part| (block, Placed::of(part, pose))));
+    }
+    let (mut owners, mut placed) = (Vec::new(), Vec::new());
+    for (part, way) in blocks.images() {
+        let (block, at) = &parts[part];
+        owners.push(*block);
+        placed.push(Placed {
+            centre: at.centre + way,
+            ..at.clone()
+        });
     }
     let grown = |(item, &block): (Item, &usize)| Item {
         min: item.min.map(|x| x - 0.5 * cell),
@@ -59,7 +65,9 @@ pub(crate) async fn gaps(
         let [a, b] = pair.map(|part| part as usize);
         let width = gap(&placed[a], &placed[b]);
         if width < cell {
-            let blocks = [owners[a], owners[b]];
+            // Images come after all others.
+            let mut blocks = [owners[a], owners[b]];
+            blocks.sort_unstable();
             let known = narrowest.entry(blocks).or_insert(width);
             *known = known.min(width);
         }

@@ -27,9 +27,16 @@ impl Coupled {
         let mut others = Vec::new();
         for (other, pose) in poses.iter().enumerate().filter(|(n, _)| *n != block) {
             let near = setup[block].shape.radius() + setup[other].shape.radius() + far;
-            if poses[block].centre.distance(pose.centre) <= near {
+            let apart = pose.centre - poses[block].centre;
+            let period = self.blocks().period();
+            let way = period.map_or(DVec3::ZERO, |period| period.nearest(apart));
+            if (apart + way).length() <= near {
                 let parts = setup[other].shape.parts().iter();
-                others.extend(parts.map(|part| Placed::of(part, pose)));
+                let image = Pose {
+                    centre: pose.centre + way,
+                    ..*pose
+                };
+                others.extend(parts.map(|part| Placed::of(part, &image)));
             }
         }
         let parts = setup[block].shape.parts().iter();

@@ -7,6 +7,7 @@
 mod advice;
 mod coupled;
 mod faces;
+mod film;
 mod gaps;
 mod gathered;
 mod inlets;

@@ -1,12 +1,15 @@
-//! The force of a contact (Hart, Cundall & Lemos 1988) and the elasticity of a block (St. Venant & Kirchhoff).
+//! The force of a contact (Hart, Cundall & Lemos 1988), the elasticity of a block (St. Venant & Kirchhoff), and the
+//! resistance of fluid in a thin gap (Reynolds 1886).
 
 mod elastic;
+mod film;
 mod hart;
 mod joint;
 mod stability;
 
 pub use elastic::{Elastic, von_mises};
 pub(crate) use elastic::{inner, trace};
+pub use film::Film;
 pub use hart::{Force, History, Motion, Section, force};
 pub use joint::Joint;
 pub use stability::{LARGEST_SHARE, Stiffness, USUAL_SHARE, longest_step};

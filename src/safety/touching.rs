@@ -46,10 +46,15 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
         let before = &setup.blocks[..block];
         let first: usize = before.iter().map(|block| block.shape.parts().len()).sum();
         let part: &Part = &setup.blocks[block].shape.parts()[contact.parts[side] - first];
-        Placed::of(part, &poses[block])
+        let mut placed = Placed::of(part, &poses[block]);
+        placed.centre += if side == 1 { contact.way } else { DVec3::ZERO };
+        placed
     });
-    // The normal goes from the first block to the second.
+    // The normal goes from the first block to the second, which may be an image.
     let second = contact.blocks[1] == block;
+    let back = if second { contact.way } else { DVec3::ZERO };
+    let mut corners = patch(contact.point, contact.normal, [&a, &b]);
+    corners.iter_mut().for_each(|corner| *corner -= back);
     Touching {
         other: contact.blocks[usize::from(!second)],
         normal: if second {
@@ -58,7 +63,7 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
             -contact.normal
         },
         area: contact.area,
-        corners: patch(contact.point, contact.normal, [&a, &b]),
+        corners,
     }
 }
 

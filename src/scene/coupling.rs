@@ -18,6 +18,11 @@ pub struct Coupling {
     /// Time for which all blocks are held where they start, s, while the flow settles around them and their
     /// loads are recorded; driven ones too. Default 0.
     pub hold: f64,
+    /// Whether rigid blocks less than a cell from each other, from solids and from walls feel what the grid does not
+    /// resolve of the fluid between them: the resistance of a film that is squeezed out, by lubrication theory with
+    /// the viscosity of the fluid, down to gaps of a tenth of a cell. Only on the lattice: particles have none.
+    /// Default true.
+    pub lubrication: bool,
 }
 
 impl Default for Coupling {
@@ -26,6 +31,7 @@ impl Default for Coupling {
             interval: 1,
             average: true,
             hold: 0.0,
+            lubrication: true,
         }
     }
 }

@@ -169,7 +169,7 @@ pub enum Quantity {
     ContactEnergy,
     /// What friction has turned into heat, J.
     FrictionWork,
-    /// What damping, of contacts and of mass, has turned into heat, J.
+    /// What damping, of contacts and of mass, and films of fluid have turned into heat, J.
     DampingWork,
     /// What driven blocks and loads have added, J.
     OutsideWork,

@@ -6,6 +6,7 @@ mod crowd;
 mod density;
 mod faces;
 mod faults;
+mod images;
 mod inlets;
 mod places;
 mod repeat;

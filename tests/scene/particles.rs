@@ -360,3 +360,15 @@ fn loads_on_faces_are_of_cells() {
         &["probes[0].faces", "particles"],
     );
 }
+
+#[test]
+fn blocks_meet_across_periodic_sides_but_not_in_a_plane() {
+    let period = |scene: riprap::Result<Scene>| block_setup(&scene.unwrap()).unwrap().setup.period;
+    let found = period(tank("")).expect("the sides are periodic");
+    assert_eq!(found.origin, glam::DVec3::ZERO);
+    assert_eq!(found.size.to_array(), [f64::INFINITY, 1.0, f64::INFINITY]);
+    let plane = changed("spacing = 0.05", "spacing = 0.05\nplane = true");
+    assert_eq!(period(plane), None);
+    let flow = period(read(CHANNEL)).expect("some faces are periodic");
+    assert!(flow.size.min_element().is_finite());
+}

@@ -87,6 +87,23 @@ impl Clock {
     }
 }
 
+impl Clock {
+    /// Seconds that `work` takes by the clock on the wall, and those that speeds are made from.
+    ///
+    /// # Errors
+    /// Those of `work`.
+    pub fn time(&self, work: impl FnOnce() -> Result<(), Error>) -> Result<[f64; 2], Error> {
+        let (start, cpu) = (Instant::now(), ProcessTime::now());
+        work()?;
+        let wall = start.elapsed().as_secs_f64();
+        let basis = match self.cores {
+            Some(cores) => cpu.elapsed().as_secs_f64() / cores,
+            None => wall,
+        };
+        Ok([wall, basis])
+    }
+}
+
 /// Cores that this process may use.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)

@@ -1,5 +1,5 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
-//! blocks meet and move, and particles of water.
+//! blocks meet and move, particles of water move, and what solids in the fluid cost.
 
 mod clock;
 mod copy;
@@ -7,7 +7,9 @@ mod flow;
 mod group;
 mod report;
 pub mod rock;
+mod solids;
 mod subject;
+mod table;
 mod tank;
 mod targets;
 mod variant;
@@ -44,6 +46,10 @@ pub struct Args {
     /// Cells an axis; may be repeated [default: 64, 96, 128 and, where that takes seconds, 256]
     #[arg(long, value_name = "N")]
     pub grid: Vec<u32>,
+    /// Only the whole table: f32 and 16 bits, plain, with WALE and with moving solids, on 128³ to 512³ cells, as
+    /// far as memory and fifteen seconds a row let it
+    #[arg(long, conflicts_with_all = ["only", "quick", "full", "grid"])]
+    pub all: bool,
     /// GiB that the fluids measured side by side may take together [default: 6, or half of what
     /// is free on a software adapter]
     #[arg(long, value_name = "GIB")]
@@ -59,6 +65,8 @@ pub enum Part {
     Rock,
     /// The particles.
     Water,
+    /// The solids in the fluid.
+    Solids,
 }
 
 /// A result of a part: one object of the file.
@@ -68,6 +76,8 @@ enum Measured {
     Fluid(Row),
     Rock(rock::Row),
     Water(water::Row),
+    Solids(solids::Row),
+    Table(table::Row),
 }
 
 /// Measures, prints a table as it goes, and writes the file.
@@ -94,7 +104,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         None => Machine::host(),
     };
     println!("{machine}");
-    let asked = |part| args.only.is_none_or(|only| only == part);
+    let asked = |part| !args.all && args.only.is_none_or(|only| only == part);
     let mut measured: Vec<Measured> = Vec::new();
     if let Some((_, device, queue)) = &device
         && asked(Part::Fluid)
@@ -115,6 +125,21 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     {
         let rows = water::measure((args.quick, args.full), device, queue, &machine)?;
         measured.extend(rows.into_iter().map(Measured::Water));
+    }
+    if let Some((_, device, queue)) = &device
+        && asked(Part::Solids)
+    {
+        let rows = solids::measure((args.quick, args.full), device, queue, &machine)?;
+        measured.extend(rows.into_iter().map(Measured::Solids));
+    }
+    if let Some((_, device, queue)) = &device
+        && args.all
+    {
+        // A GPU says itself when its memory ends.
+        let limited = machine.software || args.memory.is_some();
+        let most = limited.then(|| budget(args.memory, machine.software));
+        let rows = table::measure(device, queue, &machine, most)?;
+        measured.extend(rows.into_iter().map(Measured::Table));
     }
     if let Some(path) = &args.json {
         let text = serde_json::to_string_pretty(&measured)?;

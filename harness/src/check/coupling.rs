@@ -25,6 +25,8 @@ pub struct Immersion {
     pub narrow_gaps: usize,
     /// Those of them that touch.
     pub closed_gaps: usize,
+    /// Whether lubrication acts in gaps that the grid does not resolve.
+    pub lubrication: bool,
     /// The narrowest of them that do not, at most 20.
     pub narrowest: Vec<Narrow>,
 }
@@ -58,6 +60,7 @@ impl Immersion {
             cells: Coupling::of(simulation, steps)?,
             interval: scene.coupling.interval,
             narrow_gaps: coupled.gaps().len(),
+            lubrication: setup.setup.film.is_some(),
             closed_gaps: coupled.gaps().len() - open.len(),
             narrowest: open
                 .iter()
@@ -85,8 +88,10 @@ impl Immersion {
         line(
             "gaps",
             format!(
-                "{} pairs closer than a cell, {} of them touch",
-                self.narrow_gaps, self.closed_gaps
+                "{} pairs closer than a cell, {} of them touch; {} lubrication",
+                self.narrow_gaps,
+                self.closed_gaps,
+                if self.lubrication { "with" } else { "without" }
             ),
         );
         for gap in &self.narrowest {

@@ -13,8 +13,8 @@ pub(crate) use shapes::{rotation, shape};
 
 use crate::{
     Error, Result,
-    bodies::{Block, Setup, Sleep},
-    scene::{ProbePlace, Scene},
+    bodies::{Block, Period, Setup, Sleep},
+    scene::{Boundary, Face, ProbePlace, Scene},
 };
 use glam::DVec3;
 use std::collections::HashSet;
@@ -66,6 +66,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         }),
         ..Setup::default()
     };
+    setup.period = period(scene);
     let mut left_out = Vec::new();
     for (index, block) in scene.blocks.iter().enumerate() {
         setup.blocks.extend(rows::blocks(scene, index, block)?);
@@ -91,6 +92,25 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         setup,
         left_out,
         in_fluid,
+    })
+}
+
+/// The box after which space repeats, along the axes whose faces are periodic. In a plane nothing varies along y, and
+/// blocks fill the width.
+fn period(scene: &Scene) -> Option<Period> {
+    let faces = [Face::XMin, Face::YMin, Face::ZMin];
+    let plane = scene.particles.as_ref().is_some_and(|p| p.plane);
+    let size = std::array::from_fn(|axis| {
+        let repeats = *scene.boundaries.face(faces[axis]) == Boundary::Periodic;
+        match repeats && !(plane && axis == 1) {
+            true => scene.domain.size[axis],
+            false => f64::INFINITY,
+        }
+    });
+    let size = DVec3::from_array(size);
+    (scene.has_fluid() && size.min_element().is_finite()).then(|| Period {
+        origin: DVec3::from(scene.domain.origin),
+        size,
     })
 }
 

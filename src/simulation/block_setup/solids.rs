@@ -5,7 +5,7 @@ use crate::{
     Result,
     block::{HalfSpace, Polyhedron, Shape},
     bodies::Block,
-    scene::{self, Boundary, Scene, Solid},
+    scene::{self, Scene, Solid},
 };
 use glam::DVec3;
 
@@ -54,19 +54,11 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
     }
 }
 
-/// The box that reaches as far beyond the domain on each side as its longest edge.
-///
-/// Along a periodic axis a hundred times as far: blocks that the flow carries through the border go on in
-/// the coordinates of the world.
+/// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
+/// farther than any block there, and so the same in all periods.
 pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
     let domain = &scene.domain;
     let longest = domain.size.into_iter().fold(0.0, f64::max);
-    let faces = [
-        &scene.boundaries.x_min,
-        &scene.boundaries.y_min,
-        &scene.boundaries.z_min,
-    ];
-    let periodic = faces.map(|face| scene.has_fluid() && *face == Boundary::Periodic);
     let end = domain.end();
     std::array::from_fn(|face| {
         let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
@@ -77,10 +69,9 @@ pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
         } else {
             end[axis]
         };
-        let margin = longest * if periodic[axis] { 100.0 } else { 1.0 };
         HalfSpace {
             normal,
-            distance: sign * at + margin,
+            distance: sign * at + longest,
         }
     })
 }

@@ -50,6 +50,8 @@ pub struct Energies {
     pub dashpot: f64,
     /// Taken by mass damping.
     pub mass_damping: f64,
+    /// Taken by films of fluid between blocks that nearly touch.
+    pub film: f64,
     /// Held by contacts that ended.
     pub lost: f64,
     /// Done by driven blocks.
@@ -83,6 +85,7 @@ impl Rocks {
                 friction: ledger.friction,
                 dashpot: ledger.dashpot,
                 mass_damping: ledger.mass_damping,
+                film: ledger.film,
                 lost: ledger.lost,
                 driven: ledger.driven,
                 loads: ledger.loads,

@@ -30,7 +30,7 @@ fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
         Quantity::StrainEnergy => ledger.strain,
         Quantity::ContactEnergy => ledger.elastic,
         Quantity::FrictionWork => ledger.friction,
-        Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.lost,
+        Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.film + ledger.lost,
         Quantity::OutsideWork => ledger.driven + ledger.loads,
         Quantity::EnergyError => rock.energy_error(ledger),
         Quantity::Contacts => rock.blocks.contacts().count() as f64,
@@ -58,6 +58,7 @@ impl Rock<'_> {
             + now.friction
             + now.dashpot
             + now.mass_damping
+            + now.film
             + now.driven.abs()
             + now.loads.abs();
         if turned > 0.0 { change / turned } else { 0.0 }

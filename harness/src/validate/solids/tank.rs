@@ -1,6 +1,7 @@
 //! Blocks in a tank whose cell is 1 m, step 1 s and fluid 1 kg/m³: SI and lattice units are the same.
 
 use super::super::{Stand, Trial, record::describe};
+use anyhow::Context;
 use riprap::{
     bodies::Pose,
     coupling::Felt,
@@ -67,6 +68,23 @@ pub fn block(shape: BlockShape, position: [f64; 3], motion: Motion) -> Block {
         acceleration: None,
         repeat: Vec::new(),
     }
+}
+
+/// A table of numbers with the heads of its columns, as CSV.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_table<const N: usize>(
+    path: &Path,
+    heads: [&str; N],
+    rows: &[[f64; N]],
+) -> anyhow::Result<()> {
+    let mut text = heads.join(",") + "\n";
+    for row in rows {
+        let numbers = row.map(|number| format!("{number:.6}"));
+        text += &(numbers.join(",") + "\n");
+    }
+    std::fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// The `n`th of a sequence of turns that fill all turns evenly: multiples of irrational numbers.

@@ -1,0 +1,142 @@
+//! Boxes of fluid with blocks in them, in lattice units: cell, step and density are 1.
+
+use riprap::{scene::Scene, simulation::Simulation};
+use std::path::Path;
+
+/// Speed of what moves: a cell in fifty steps.
+const SPEED: f64 = 0.02;
+/// Edge of the blocks of a stack, cells.
+const BRICK: u32 = 3;
+/// What parts them where they have no weight, cells.
+const APART: f64 = 0.01;
+
+/// A scene, and its simulation once it is made.
+pub struct World {
+    pub scene: Scene,
+    pub simulation: Option<Simulation>,
+}
+
+impl World {
+    /// A periodic box of n³ cells whose fluid moves in every cell: at rest, denormal numbers would slow a CPU down.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn empty(n: u32) -> riprap::Result<Self> {
+        Self::of(n, "", String::new())
+    }
+
+    /// The same with spheres that move, or stand.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn spheres(n: u32, across: f64, places: &[[f64; 3]], moving: bool) -> riprap::Result<Self> {
+        let mut blocks = String::new();
+        for (k, place) in places.iter().enumerate() {
+            let motion = match moving {
+                true => {
+                    // All the same way, so that none meets another, and each by itself.
+                    let aside = 1e-4 * (k % 7) as f64;
+                    format!("velocity = [{aside:e}, {SPEED:e}, 0]")
+                }
+                false => "motion = \"fixed\"".into(),
+            };
+            blocks += &format!(
+                "[[blocks]]\nkind = \"sphere\"\nradius = {}\nposition = {place:?}\n{motion}\n",
+                0.5 * across
+            );
+        }
+        Self::of(n, "rock = { gravity = [0, 0, 0] }", blocks)
+    }
+
+    /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn stacks(n: u32, weight: bool) -> riprap::Result<Self> {
+        let gap = if weight { 0.0 } else { APART };
+        let (edge, pitch) = (f64::from(BRICK), f64::from(BRICK + 1));
+        let row = (n / (BRICK + 1)).min(16);
+        let gravity = if weight { -1e-4 } else { 0.0 };
+        let mut blocks = String::new();
+        for k in 0..4u32 {
+            for j in 0..row {
+                for i in 0..row {
+                    let at = [i, j].map(|i| pitch * (f64::from(i) + 0.5));
+                    let z = edge * (f64::from(k) + 0.5) + gap * f64::from(k + 1);
+                    blocks += &format!(
+                        "[[blocks]]\nkind = \"box\"\nsize = [{edge}, {edge}, {edge}]\nposition = [{}, {}, {z}]\n",
+                        at[0], at[1]
+                    );
+                }
+            }
+        }
+        let rock = format!(
+            "rock = {{ gravity = [0, 0, {gravity:e}] }}\ncoupling = {{ lubrication = false }}"
+        );
+        let floor = "[boundaries]\nz_min = { kind = \"wall\" }\nz_max = { kind = \"wall\" }\n";
+        Self::of(n, &rock, format!("{floor}{blocks}"))
+    }
+
+    fn of(n: u32, rock: &str, tables: String) -> riprap::Result<Self> {
+        let text = format!(
+            r#"
+            domain = {{ size = [{n}, {n}, {n}], cell = 1 }}
+            fluid = {{ density = 1, viscosity = 0.03 }}
+            numerics = {{ time_step = 1 }}
+            run = {{ steps = 1 }}
+            initial = {{ velocity = ["0.02*sin(2*pi*y/{n})", "0.02*sin(2*pi*z/{n})", "0.02*sin(2*pi*x/{n})"] }}
+            {rock}
+            [[materials]]
+            name = "rock"
+            density = 2
+            normal_stiffness = 0.1
+            friction = 30
+            {tables}
+            "#
+        );
+        Ok(Self {
+            scene: Scene::from_toml(&text, Path::new("."), "bench")?,
+            simulation: None,
+        })
+    }
+
+    /// Cells of the bricks that blocks reach.
+    pub fn touched_cells(&self) -> f64 {
+        let Some(simulation) = &self.simulation else {
+            return 0.0;
+        };
+        let grid = simulation.lattice().grid();
+        let all: u32 = grid.bricks().iter().product();
+        let bricks = simulation
+            .coupled()
+            .map_or(0, |c| c.immersed().bricks().len());
+        grid.cell_count() as f64 * bricks as f64 / f64::from(all)
+    }
+
+    /// Contacts, and sub-steps of the blocks a step.
+    pub fn contacts(&self) -> (f64, f64) {
+        let coupled = self.simulation.as_ref().and_then(Simulation::coupled);
+        coupled.map_or((0.0, 0.0), |coupled| {
+            let blocks = coupled.blocks();
+            let sub_steps = (1.0 / blocks.time_step()).ceil();
+            (blocks.contacts().count() as f64, sub_steps)
+        })
+    }
+}
+
+/// Places of spheres that fill `share` of a box of n³ cells, on a lattice of their own, not on that of the cells.
+pub fn crowd(n: u32, across: f64, share: f64) -> Vec<[f64; 3]> {
+    let edge = f64::from(n);
+    let volume = std::f64::consts::PI / 6.0 * across.powi(3);
+    let count = (share * edge.powi(3) / volume).round() as usize;
+    let mut rows = [1usize; 3];
+    while rows.iter().product::<usize>() < count {
+        let least = (0..3).min_by_key(|&axis| rows[axis]).unwrap_or(0);
+        rows[least] += 1;
+    }
+    let place = |k: usize| {
+        let at = [k % rows[0], k / rows[0] % rows[1], k / (rows[0] * rows[1])];
+        std::array::from_fn(|axis| edge * (at[axis] as f64 + 0.5) / rows[axis] as f64 + 0.3)
+    };
+    (0..count).map(place).collect()
+}

@@ -1,0 +1,338 @@
+//! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
+
+use super::{
+    clock::{Clock, Spent},
+    report::Machine,
+    solids::crowd,
+    subject::Subject,
+};
+use crate::gpu;
+use glam::{DQuat, DVec3};
+use riprap::{
+    Error, Result,
+    block::Shape,
+    bodies::Pose,
+    immersed::{Frame, Immersed, Submerged},
+    lattice::{Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_a_cell, memory},
+    units::Units,
+    wgpu,
+};
+use serde::Serialize;
+use std::{fmt, sync::Arc, time::Duration, time::Instant};
+
+/// Cells an axis.
+const GRIDS: [u32; 5] = [128, 192, 256, 384, 512];
+/// Seconds that a row may take, making the lattice included.
+const BUDGET: f64 = 15.0;
+/// Seconds that the whole table may take.
+const WHOLE: f64 = 480.0;
+/// Seconds of steps that are timed.
+const LONG: f64 = 1.5;
+/// Most steps of a row.
+const MOST: u32 = 500;
+/// Longest silence of a device that is not taken for a hang.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Cells across the spheres of the coupled rows, which fill a tenth of the volume.
+const ACROSS: f64 = 16.0;
+
+/// What a step does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Collide and stream.
+    Plain,
+    /// With eddy viscosity.
+    Wale,
+    /// With a tenth of the volume moving spheres, whose loads the host reads in every step.
+    Coupled,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// What: `table`.
+    pub part: &'static str,
+    /// What the step does.
+    pub kind: Kind,
+    /// Cells an axis.
+    pub grid: u32,
+    /// Storage of the populations.
+    pub storage: &'static str,
+    /// Million cells a second: by CPU time on a software adapter, by GPU time elsewhere, coupled by the clock on the
+    /// wall.
+    pub mlups: Option<f64>,
+    /// Bytes of populations a second, at that speed.
+    pub bandwidth: Option<f64>,
+    /// Steps that were timed.
+    pub steps: u32,
+    /// Seconds that the row took.
+    pub seconds: f64,
+    /// Why it was left out.
+    pub left_out: Option<String>,
+    /// Where and when.
+    #[serde(flatten)]
+    pub machine: Machine,
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let head = format!(
+            "{:<8} {:>5} {:>5}³",
+            format!("{:?}", self.kind),
+            self.storage,
+            self.grid
+        );
+        match (&self.left_out, self.mlups, self.bandwidth) {
+            (Some(why), ..) => write!(f, "{head} | left out: {why}"),
+            (None, Some(mlups), Some(bandwidth)) => write!(
+                f,
+                "{head} | {mlups:>9.1} {:>9.1} {:>6} {:>7.1}",
+                bandwidth / 1e9,
+                self.steps,
+                self.seconds
+            ),
+            _ => write!(f, "{head} | not measured"),
+        }
+    }
+}
+
+/// Measures all rows and prints them as they are done.
+///
+/// # Errors
+/// If the device is lost or silent.
+pub fn measure(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    machine: &Machine,
+    budget: Option<u64>,
+) -> Result<Vec<Row>> {
+    println!("\nkind     store   grid |     MLUPS      GB/s  steps       s");
+    let mut clock = Clock::new(device, queue, machine.software);
+    let mut rows: Vec<Row> = Vec::new();
+    let whole = Instant::now();
+    for storage in [Storage::F32, Storage::F16] {
+        for kind in [Kind::Plain, Kind::Wale, Kind::Coupled] {
+            for grid in GRIDS {
+                let mut row = Row {
+                    part: "table",
+                    kind,
+                    grid,
+                    storage: if storage == Storage::F32 {
+                        "f32"
+                    } else {
+                        "f16"
+                    },
+                    mlups: None,
+                    bandwidth: None,
+                    steps: 0,
+                    seconds: 0.0,
+                    left_out: None,
+                    machine: machine.clone(),
+                };
+                let begin = Instant::now();
+                let setup = setup(grid, storage, kind, machine, device);
+                let held = holds(&setup, device, budget);
+                let over = whole.elapsed().as_secs_f64() > WHOLE - BUDGET;
+                row.left_out = held
+                    .err()
+                    .or_else(|| too_long(&rows, &row))
+                    .or_else(|| over.then(|| format!("the {WHOLE:.0} s of the table are over")));
+                if row.left_out.is_none() {
+                    match run(&mut clock, setup.clone(), kind) {
+                        Ok((spent, steps)) => {
+                            let speed = f64::from(grid).powi(3) / spent;
+                            row.mlups = Some(speed / 1e6);
+                            row.bandwidth = Some(speed * bytes_a_cell(&setup) as f64);
+                            row.steps = steps;
+                        }
+                        Err(error @ (Error::Device(_) | Error::Limit { .. })) => {
+                            row.left_out = Some(error.to_string());
+                        }
+                        Err(error) => return Err(error),
+                    }
+                }
+                row.seconds = begin.elapsed().as_secs_f64();
+                println!("{row}");
+                rows.push(row);
+            }
+        }
+    }
+    Ok(rows)
+}
+
+fn setup(
+    grid: u32,
+    storage: Storage,
+    kind: Kind,
+    machine: &Machine,
+    device: &wgpu::Device,
+) -> Setup {
+    let mut setup = Setup::periodic([grid; 3], 0.01);
+    setup.storage = storage;
+    (setup.lanes, setup.max_speed) = match (machine.software, storage) {
+        (true, _) => (4, 0.0),
+        (false, Storage::F32) => (1, 0.0),
+        (false, Storage::F16) => (2, 0.0),
+    };
+    if machine.software {
+        setup.suit_cpu(device.features());
+    }
+    match kind {
+        Kind::Plain => {}
+        Kind::Wale => setup.wale = Some(0.5),
+        Kind::Coupled => setup.solid_operator = Some(SolidOperator::Holdych),
+    }
+    setup
+}
+
+/// Whether the adapter's limits, and the memory that may be taken, let the lattice be.
+fn holds(setup: &Setup, device: &wgpu::Device, budget: Option<u64>) -> Result<(), String> {
+    let limits = device.limits();
+    let need = Grid::new(setup).and_then(|grid| memory(setup, &grid, &limits));
+    let Memory {
+        populations,
+        others,
+        ..
+    } = need.map_err(|error| error.to_string())?;
+    let gib = |bytes: u64| bytes as f64 / 2f64.powi(30);
+    match budget {
+        Some(most) if populations + others > most => Err(format!(
+            "takes {:.1} GiB of the {:.1} allowed; use --memory",
+            gib(populations + others),
+            gib(most)
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Whether the row before, with as many more cells, would have been too long.
+fn too_long(rows: &[Row], row: &Row) -> Option<String> {
+    let alike = |other: &&Row| other.kind == row.kind && other.storage == row.storage;
+    let last = rows.iter().rev().find(alike)?;
+    if last.left_out.is_some() {
+        return Some(format!("{}³ was", last.grid));
+    }
+    let cells = |grid: u32| f64::from(grid).powi(3);
+    // What does not grow with the cells is counted, too: a bound.
+    let seconds = (last.seconds - LONG).max(0.0) * cells(row.grid) / cells(last.grid) + LONG;
+    (seconds > BUDGET).then(|| format!("would take {seconds:.0} s of the {BUDGET:.0} of a row"))
+}
+
+/// Seconds of a step, and how many were timed.
+fn run(clock: &mut Clock, setup: Setup, kind: Kind) -> Result<(f64, u32)> {
+    let (device, queue) = (clock.device.clone(), clock.queue.clone());
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let made = make(&device, &queue, setup);
+    let refused = gpu::drive(&device, PATIENCE, "the memory", async {
+        let validity = validity.pop().await;
+        validity.or(memory.pop().await)
+    })?;
+    let lattice = made?;
+    if let Some(error) = refused {
+        return Err(Error::Device(format!("out of memory: {error}")));
+    }
+    if kind == Kind::Coupled {
+        return coupled(clock, lattice);
+    }
+    let mut subject = Subject::Steps(Box::new(lattice));
+    clock.run(&mut subject, 2)?;
+    let first: Spent = clock.run(&mut subject, 2)?;
+    let steps = number(first.wall);
+    Ok((clock.run(&mut subject, steps)?.basis, steps))
+}
+
+/// Steps that fill the time; an even number, since a lattice steps in pairs.
+fn number(seconds: f64) -> u32 {
+    ((LONG / seconds) as u32).clamp(2, MOST).next_multiple_of(2)
+}
+
+fn make(device: &wgpu::Device, queue: &wgpu::Queue, setup: Setup) -> Result<Lattice> {
+    let grid = Grid::new(&setup)?;
+    let mut state = State::rest(grid.cell_count());
+    // A flow in every cell, quickly made: at rest denormal numbers would slow a CPU down.
+    for (n, (u, v)) in state.velocity[0]
+        .iter_mut()
+        .zip(&mut state.excess)
+        .enumerate()
+    {
+        (*u, *v) = (0.02 + 1e-3 * (n % 7) as f32, 1e-4 * (n % 5) as f32);
+    }
+    for n in 0..2 {
+        let other = &mut state.velocity[1 + n];
+        other
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, u)| *u = 1e-3 * (k % (9 + n)) as f32);
+    }
+    let mut lattice = Lattice::new(device, setup)?;
+    lattice.start(device, queue, &state, true)?;
+    Ok(lattice)
+}
+
+/// The loop of a caller who moves bodies: poses in, a step, loads out.
+fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
+    let (device, queue) = (clock.device.clone(), clock.queue.clone());
+    let cells = lattice.grid().cells[0];
+    let places = crowd(cells, ACROSS, 0.1);
+    let shape: Arc<Shape> = Arc::new(Shape::sphere(0.5 * ACROSS)?);
+    let submerged = places.iter().map(|_| Submerged {
+        shape: shape.clone(),
+        loaded: true,
+        faces: false,
+    });
+    let frame = Frame {
+        origin: DVec3::ZERO,
+        units: Units {
+            cell: 1.0,
+            time_step: 1.0,
+            density: 1.0,
+        },
+    };
+    let mut immersed = Immersed::new(&device, &lattice, frame, submerged.collect())?;
+    let velocity = DVec3::new(0.0, 0.02, 0.0);
+    let mut step = 0.0;
+    let mut steps = |count: u32| -> Result<()> {
+        for _ in 0..count {
+            step += 1.0;
+            let pose = |place: &[f64; 3]| {
+                let centre = DVec3::from(*place) + step * velocity;
+                Pose::rigid(centre, DQuat::IDENTITY, velocity, DVec3::ZERO)
+            };
+            let poses: Vec<_> = places.iter().map(pose).collect();
+            immersed.place(&device, &queue, &mut lattice, &poses)?;
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                immersed.record_cells(&mut pass);
+                lattice.record_saturated(&mut pass);
+                immersed.record_loads(&mut pass);
+            }
+            queue.submit([encoder.finish()]);
+            let mut encoder = device.create_command_encoder(&Default::default());
+            lattice.record_rest(&mut encoder.begin_compute_pass(&Default::default()));
+            queue.submit([encoder.finish()]);
+            let sums = immersed.wrenches();
+            let read = floats(&device, &queue, sums, immersed.wrench_count())?;
+            immersed.loads(&read)?;
+        }
+        Ok(())
+    };
+    steps(2)?;
+    let [wall, _] = clock.time(|| steps(2))?;
+    let count = number(0.5 * wall);
+    let [_, basis] = clock.time(|| steps(count))?;
+    Ok((basis / f64::from(count), count))
+}
+
+/// Reads floats back.
+fn floats(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    buffer: &wgpu::Buffer,
+    count: usize,
+) -> Result<Vec<f32>> {
+    let mut readback = riprap::readback::Readback::default();
+    let read = readback.read(device, queue, buffer, count);
+    gpu::drive(device, PATIENCE, "the loads", read)?
+}

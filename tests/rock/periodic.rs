@@ -1,0 +1,238 @@
+//! Space that repeats: blocks meet the images of others.
+
+use crate::rig::{blocks, cuboid, joint, setup};
+use glam::{DQuat, DVec3};
+use riprap::{
+    block::Shape,
+    bodies::{Block, Blocks, Period, Setup, Snapshot},
+    broadphase::{Broadphase, HostBroadphase},
+    law::Film,
+};
+
+fn run(blocks: &mut Blocks, until: f64) {
+    pollster::block_on(blocks.advance(&mut HostBroadphase, until)).expect("no step fails");
+}
+
+/// Along x, from 0 to `length`.
+fn along_x(length: f64) -> Option<Period> {
+    Some(Period {
+        origin: DVec3::ZERO,
+        size: DVec3::new(length, f64::INFINITY, f64::INFINITY),
+    })
+}
+
+/// Two blocks that strike each other obliquely, and a ball between them and a wall that a film slows.
+fn strike(at: DVec3, period: Option<Period>) -> Setup {
+    let turn = DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, 0.5));
+    let mut left = Block::new("left", cuboid(0.8, 0.7, 0.6), at - DVec3::X * 0.6).turned(turn);
+    left.velocity = DVec3::X;
+    let mut right = Block::new("right", cuboid(0.7, 0.7, 0.7), at + DVec3::X * 0.55);
+    right.spin = DVec3::new(1.0, -2.0, 0.5);
+    let ball = Shape::sphere(0.2).expect("a radius");
+    let mut ball = Block::new("ball", ball, at + DVec3::new(1.2, 0.0, 0.05));
+    ball.velocity = DVec3::X * -0.5;
+    Setup {
+        gravity: DVec3::ZERO,
+        period,
+        time_step: Some(1e-4),
+        largest_overlap: 0.3,
+        film: Some(Film {
+            viscosity: 50.0,
+            round: 0.05,
+            flat: 0.05,
+            roughness: 1e-3,
+            slip: Vec::new(),
+        }),
+        ..setup(vec![left, right, ball], joint(3e7, 30.0))
+    }
+}
+
+/// Across the border, wherever it is, as in the middle.
+#[test]
+fn blocks_that_meet_across_the_border_do_as_those_in_the_middle() {
+    let away = DVec3::new(3.0, 1.0, -2.0);
+    let mut middle = blocks(strike(away, None));
+    run(&mut middle, 0.6);
+    let ledger = middle.ledger();
+    assert!(ledger.friction > 0.0 && ledger.film > 0.0, "{ledger:?}");
+    // The border between the two centres, inside of each block, and periods away.
+    for at in [0.0, -0.6, 0.5, 1.2, 13.0, -26.2] {
+        let at = DVec3::new(at, 1.0, -2.0);
+        // On the near side of the border each block starts in the period.
+        let mut setup = strike(at, along_x(6.5));
+        for (k, block) in setup.blocks.iter_mut().enumerate() {
+            block.centre.x += [0.0, 6.5, -13.0][k];
+        }
+        let mut across = blocks(setup);
+        run(&mut across, 0.6);
+        for (k, (found, expected)) in across.poses().iter().zip(middle.poses()).enumerate() {
+            let way = found.centre - expected.centre - at + away;
+            let way = way - DVec3::X * [0.0, 6.5, -13.0][k];
+            assert!(way.length() < 1e-9, "{at}: block {k} is off by {way}");
+            assert!((found.velocity - expected.velocity).length() < 1e-8);
+            assert!(
+                (found.deformation - expected.deformation).abs_diff_eq(glam::DMat3::ZERO, 1e-8)
+            );
+        }
+        let found = across.ledger();
+        assert!((found.taken() - ledger.taken()).abs() < 1e-8 * ledger.taken());
+    }
+}
+
+/// A train that fills a ring but for a gap: a blow goes round it and comes back.
+#[test]
+fn a_blow_goes_round_a_ring() {
+    let mut list = Vec::new();
+    for k in 0..8 {
+        let at = DVec3::X * (0.5 + 1.001 * f64::from(k));
+        list.push(Block::new(format!("{k}"), cuboid(1.0, 1.0, 1.0), at));
+    }
+    // It goes backwards, over the border, into the last one.
+    list[0].velocity = DVec3::X * -0.5;
+    let mut setup = Setup {
+        gravity: DVec3::ZERO,
+        period: along_x(8.2),
+        ..setup(list, joint(1e8, 30.0))
+    };
+    setup.materials[0].joint.damping = 0.0;
+    let mut blocks = blocks(setup.clone());
+    let start = blocks.ledger();
+    let bytes = {
+        run(&mut blocks, 0.8);
+        blocks.snapshot().to_bytes()
+    };
+    run(&mut blocks, 3.6);
+    let momentum: DVec3 = (0..8)
+        .map(|k| blocks.mass(k) * blocks.poses()[k].velocity)
+        .sum();
+    let expected = -0.5 * blocks.mass(0);
+    assert!((momentum.x / expected - 1.0).abs() < 1e-12 && momentum.y.abs() < 1e-9);
+    let end = blocks.ledger();
+    assert!(
+        (end.balance() / start.balance() - 1.0).abs() < 1e-3,
+        "{end:?}"
+    );
+    // Each has been struck: nothing stays where it was for good.
+    for (k, pose) in blocks.poses().iter().enumerate() {
+        let way = pose.centre.x - (0.5 + 1.001 * k as f64);
+        assert!(way < -0.05, "block {k} moved by {way}");
+    }
+    let mut again = self::blocks(setup);
+    again
+        .restore(&Snapshot::from_bytes(&bytes).expect("a snapshot"))
+        .expect("of the same blocks");
+    run(&mut again, 3.6);
+    assert_eq!(again.snapshot(), blocks.snapshot());
+}
+
+/// Over the border of a floor as long as the period, and over that of one that goes on beyond it, without a jolt.
+#[test]
+fn a_block_slides_over_the_border_of_its_floor() {
+    for length in [4.0, 12.0] {
+        let floor = Block::new(
+            "floor",
+            cuboid(length, 4.0, 1.0),
+            DVec3::new(2.0, 0.0, -0.5),
+        );
+        let mut slider = Block::new(
+            "slider",
+            cuboid(1.0, 1.0, 0.5),
+            DVec3::new(3.0, 0.0, 0.2499),
+        );
+        slider.velocity = DVec3::X * 4.0;
+        let setup = Setup {
+            period: along_x(4.0),
+            ..setup(vec![floor.fixed(), slider], joint(1e8, 20.0))
+        };
+        let mut blocks = blocks(setup);
+        let mut before = 4.0;
+        for n in 1..=20 {
+            run(&mut blocks, 0.05 * f64::from(n));
+            let pose = blocks.poses()[1];
+            let expected = 9.81 * 20f64.to_radians().tan() * 0.05;
+            let lost = before - pose.velocity.x;
+            assert!(
+                (lost / expected - 1.0).abs() < 0.05,
+                "{length}, {n}: {lost} of {expected}"
+            );
+            assert!(
+                (pose.centre.z - 0.25).abs() < 2e-4,
+                "{length}, {n}: {}",
+                pose.centre
+            );
+            before = pose.velocity.x;
+        }
+        assert!(before > 0.0 && blocks.poses()[1].centre.x > 5.0);
+    }
+}
+
+#[test]
+fn all_finders_see_the_same_pairs_of_images() {
+    let mut list = Vec::new();
+    for k in 0..200u32 {
+        let place = |step: f64| 5.0 * (0.5 + step * f64::from(k)).fract();
+        let at = DVec3::new(place(0.819_172_5), place(0.671_043_6), place(0.549_700_5));
+        list.push(Block::new(format!("{k}"), cuboid(0.6, 0.5, 0.4), at));
+    }
+    let period = Some(Period {
+        origin: DVec3::ZERO,
+        size: DVec3::splat(5.0),
+    });
+    let blocks = blocks(Setup {
+        period,
+        time_step: Some(1e-4),
+        ..setup(list.clone(), joint(1e7, 30.0))
+    });
+    let items = blocks.items();
+    let found = pollster::block_on(HostBroadphase.pairs(&items)).expect("pairs");
+    let mut counted = blocks;
+    counted.set_pairs(found).expect("the pairs of its items");
+    // Every two blocks, nearest images.
+    let half = 0.5 * counted.skin();
+    let reach = DVec3::new(0.6, 0.5, 0.4) + 2.0 * half;
+    let mut expected = 0;
+    for i in 0..list.len() {
+        for j in i + 1..list.len() {
+            let apart = list[j].centre - list[i].centre;
+            let apart = apart - 5.0 * (apart / 5.0).round();
+            expected += usize::from(apart.abs().cmple(reach).all());
+        }
+    }
+    assert!(expected > 20);
+    assert_eq!(counted.candidates(), expected);
+}
+
+#[test]
+fn a_block_longer_than_the_period_is_refused_and_may_be_fixed() {
+    let plank = Block::new("plank", cuboid(5.0, 1.0, 0.5), DVec3::X);
+    let refused = |block: Block| {
+        Blocks::new(Setup {
+            period: along_x(4.0),
+            ..setup(vec![block], joint(1e7, 30.0))
+        })
+    };
+    let message = refused(plank.clone()).expect_err("too long").to_string();
+    assert!(
+        message.contains("plank") && message.contains("5") && message.contains("along x"),
+        "{message}"
+    );
+    refused(plank.fixed()).expect("it is fixed");
+}
+
+#[test]
+fn a_snapshot_of_another_space_is_refused() {
+    let mut apart = strike(DVec3::ZERO, along_x(6.5));
+    apart.blocks[1].centre.x += 6.5;
+    let mut across = blocks(apart);
+    let far = |blocks: &Blocks| blocks.contacts().any(|contact| contact.way != DVec3::ZERO);
+    for n in 1..=100 {
+        run(&mut across, 0.006 * f64::from(n));
+        if far(&across) {
+            break;
+        }
+    }
+    assert!(far(&across), "they meet across the border");
+    let mut middle = blocks(strike(DVec3::ZERO, None));
+    assert!(middle.restore(&across.snapshot()).is_err());
+    across.restore(&across.snapshot()).expect("its own");
+}

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check,
+    adapters, bench, check, report,
     run::{self, Unfinished},
     schema, threshold, validate,
 };
@@ -28,6 +28,7 @@ enum Command {
     Threshold(threshold::Args),
     Validate(validate::Args),
     Bench(bench::Args),
+    Report(report::Args),
 }
 
 const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged, or a case did not pass; 2 the input is wrong.";
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         Command::Threshold(args) => bisected(&args),
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
         eprintln!("error: {error:#}");

@@ -7,19 +7,21 @@
 //! run on the host.
 
 pub mod fields;
+pub mod method;
 pub mod record;
 pub mod stand;
+pub mod stopwatch;
 
-mod cavity;
+pub(crate) mod cavity;
 mod conservation;
 mod dda;
-mod decay;
+pub(crate) mod decay;
 mod golden;
 mod null_models;
 mod offset_joint;
 mod open_channel;
 mod outlet;
-mod plane_walls;
+pub(crate) mod plane_walls;
 mod repeatability;
 mod rock;
 mod rock_broadphase;
@@ -32,13 +34,14 @@ mod rock_toppling;
 mod rock_wedge;
 mod shear_wave;
 mod slots;
-mod solids;
+pub(crate) mod solids;
 mod stability;
 mod turbulent_channel;
 mod wake;
 mod wale;
-mod water;
+pub(crate) mod water;
 
+pub use method::Method;
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
 

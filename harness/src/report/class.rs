@@ -15,6 +15,9 @@ pub struct Found {
     pub y_plus: Option<f64>,
 }
 
+/// Computes a point.
+pub type Run = Box<dyn Fn(&Stand) -> anyhow::Result<Found>>;
+
 /// One point of a diagram: a setting on a grid.
 pub struct Point {
     /// Name of the setting: that of the curve.
@@ -24,7 +27,7 @@ pub struct Point {
     /// How fine the grid is, in the measure of the class.
     pub resolution: f64,
     /// Computes it.
-    pub run: Box<dyn Fn(&Stand) -> anyhow::Result<Found>>,
+    pub run: Run,
 }
 
 /// What the value of a class is compared with.

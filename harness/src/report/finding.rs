@@ -1,6 +1,6 @@
 //! What the rows say: the cheapest setting that reaches an error, and what the default costs beside it.
 
-use super::row::Row;
+use super::row::{Cost, Row};
 use serde::Serialize;
 
 /// Errors that are asked for.
@@ -38,12 +38,7 @@ pub struct Finding {
 
 impl Finding {
     /// Looks among the rows of a class.
-    pub fn of(
-        class: &str,
-        rows: &[&Row],
-        target: f64,
-        (name, cost): (&'static str, &dyn Fn(&Row) -> f64),
-    ) -> Self {
+    pub fn of(class: &str, rows: &[&Row], target: f64, (name, cost): (&'static str, Cost)) -> Self {
         let reaching: Vec<&Row> = rows
             .iter()
             .copied()
@@ -106,7 +101,7 @@ mod tests {
 
     fn find(rows: &[Row], target: f64) -> Finding {
         let rows: Vec<&Row> = rows.iter().collect();
-        Finding::of("", &rows, target, ("s", &|row| row.cpu_seconds))
+        Finding::of("", &rows, target, ("s", |row| row.cpu_seconds))
     }
 
     #[test]

@@ -16,12 +16,13 @@ mod svg;
 mod water;
 
 pub use finding::{Choice, Finding, TARGETS};
-pub use page::percent;
+use row::Cost;
 pub use row::{Row, Table};
 
 use crate::{
     bench::Machine,
     picture::{Chart, Curve, Mark, Measure},
+    print::percent,
     validate::Stand,
 };
 use anyhow::Context;
@@ -61,7 +62,7 @@ pub enum Time {
 }
 
 impl Time {
-    fn of(self) -> fn(&Row) -> f64 {
+    fn of(self) -> Cost {
         match self {
             Self::Cpu => |row| row.cpu_seconds,
             Self::Wall => |row| row.wall_seconds,
@@ -78,11 +79,11 @@ impl Time {
     fn says(self) -> &'static str {
         match self {
             Self::Cpu => {
-                "the CPU time of the steps, of all threads together, without read-outs and without the first step, at which \
+                "the CPU time of the steps, of all threads together, without read-outs and without the first four, at which \
                  the driver compiles"
             }
             Self::Wall => {
-                "the time of the steps by the clock on the wall, without read-outs and without the first step, at which the \
+                "the time of the steps by the clock on the wall, without read-outs and without the first four, at which the \
                  driver compiles"
             }
         }
@@ -292,10 +293,8 @@ impl Report {
     /// Finds the cheapest settings.
     fn conclude(&mut self, classes: &[Class]) {
         let [time, updates] = self.costs();
-        let costs: [(&'static str, &dyn Fn(&Row) -> f64); 2] = [
-            (time, &self.time.of()),
-            (updates, &|row| row.updates as f64),
-        ];
+        let all: [Cost; 2] = [self.time.of(), |row| row.updates as f64];
+        let costs = [(time, all[0]), (updates, all[1])];
         let findings = classes.iter().flat_map(|class| {
             let rows = self.of(class.name);
             let asked = TARGETS
@@ -344,7 +343,7 @@ impl Report {
         let time = self.time.of();
         let mut curves: Vec<Curve> = Vec::new();
         for row in self.of(class.name) {
-            let Some(error) = row.error.filter(|error| *error > 0.0) else {
+            let Some(error) = row.certain_error().filter(|error| *error > 0.0) else {
                 continue;
             };
             let at = curves.iter().position(|curve| curve.name == row.setting);

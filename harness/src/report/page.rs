@@ -8,6 +8,7 @@ use super::{
     row::Row,
     svg::escape,
 };
+use crate::print::percent;
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:16px/1.45 sans-serif;color:#222;max-width:1240px;margin:2em auto;padding:0 1em}\
@@ -117,7 +118,7 @@ fn reference(class: &Class, rows: &[&Row]) -> String {
     let uncertainty = rows.iter().map(|row| row.uncertainty).fold(0.0, f64::max);
     match class.reference {
         Reference::Limit => format!(
-            " The limit may be off by {}: smaller errors say nothing more, and count as that below.",
+            " That may be off by {}: smaller errors say no more, and are drawn and counted as that.",
             percent(uncertainty)
         ),
         Reference::Known(..) if uncertainty > 0.0 => {
@@ -206,35 +207,8 @@ fn number(value: Option<f64>, digits: usize) -> String {
     })
 }
 
-/// A part as a percentage with two or three digits that count.
-pub fn percent(part: f64) -> String {
-    let value = 100.0 * part;
-    match value {
-        v if v >= 1e4 => format!("{v:.1e} %"),
-        v if v >= 9.95 => format!("{v:.0} %"),
-        v if v >= 0.995 => format!("{v:.1} %").replace(".0 %", " %"),
-        v if v >= 0.0995 => format!("{v:.2} %").replace("0 %", " %"),
-        v => format!("{v:.2e} %"),
-    }
-}
-
 fn capital(text: &str) -> String {
     let mut chars = text.chars();
     let first = chars.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + chars.as_str()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::percent;
-
-    #[test]
-    fn percentages_have_the_digits_that_count() {
-        assert_eq!(percent(0.05), "5 %");
-        assert_eq!(percent(0.001), "0.1 %");
-        assert_eq!(percent(0.0123), "1.2 %");
-        assert_eq!(percent(0.1234), "12 %");
-        assert_eq!(percent(3e-5), "3.00e-3 %");
-        assert_eq!(percent(0.0), "0.00e0 %");
-    }
 }

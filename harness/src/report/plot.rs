@@ -3,7 +3,7 @@
 use super::{
     class::Class,
     finding::TARGETS,
-    row::Row,
+    row::{Cost, Row},
     svg::{Anchor, Stroke, Svg},
 };
 
@@ -104,7 +104,7 @@ fn curves<'a>(rows: &[&'a Row]) -> Vec<Curve<'a>> {
 }
 
 /// The diagram of a class: error against `time` (of this name), and against updates.
-pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, fn(&Row) -> f64)) -> String {
+pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, Cost)) -> String {
     let curves = curves(rows);
     // Far beyond the method's range nothing is to be read off.
     let errors = rows
@@ -117,7 +117,7 @@ pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, fn(&Row) -> f6
     let width = 2.0 * (SIDE + FRAME[0]) + LEGEND;
     let mut svg = Svg::new([width, height.max(legend)]);
     let updates = format!("{} updates", class.update);
-    let costs: [(&str, fn(&Row) -> f64); 2] = [(name, time), (&updates, |row| row.updates as f64)];
+    let costs: [(&str, Cost); 2] = [(name, time), (&updates, |row| row.updates as f64)];
     for (n, (name, cost)) in costs.into_iter().enumerate() {
         let left = SIDE + n as f64 * (SIDE + FRAME[0]);
         let known = rows.iter().filter(|row| row.error.is_some());
@@ -128,7 +128,7 @@ pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, fn(&Row) -> f6
                 .rows
                 .iter()
                 .map(|row| {
-                    let error = row.error.unwrap_or_default();
+                    let error = row.certain_error().unwrap_or_default();
                     [
                         left + FRAME[0] * x.place(cost(row)),
                         TOP + FRAME[1] * (1.0 - y.place(error)),

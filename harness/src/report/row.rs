@@ -46,6 +46,9 @@ pub struct Row {
     pub note: String,
 }
 
+/// A cost of a row.
+pub type Cost = fn(&Row) -> f64;
+
 /// Heads of the columns.
 pub const HEAD: &str = "class,setting,default,resolution,tau,y_plus,value,reference,error,uncertainty,cells,steps,\
     updates,cpu_seconds,wall_seconds,note";
@@ -67,7 +70,7 @@ impl Row {
                 }
             }
             // One field of the table: without what ends it.
-            Err(error) => self.note = format!("{error:#}").replace([',', '\n', '"'], ";"),
+            Err(error) => self.note = format!("{error:#}").replace([',', '\n'], ";"),
         }
     }
 

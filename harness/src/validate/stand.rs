@@ -2,7 +2,7 @@
 
 use super::{
     record::{Trial, describe},
-    stopwatch::{Spent, Stopwatch},
+    stopwatch::{Spent, Stopwatch, WARM_UP},
 };
 use crate::gpu;
 use riprap::{
@@ -148,11 +148,9 @@ impl Flow<'_> {
         let end = self.lattice.step() + steps;
         let mut fault = None;
         while fault.is_none() && self.lattice.step() < end {
-            let first = self.lattice.step() == 0;
-            let some = match first {
-                true => 1,
-                false => chunk.min(end - self.lattice.step()),
-            };
+            let warm = self.lattice.step() >= WARM_UP;
+            let most = if warm { chunk } else { WARM_UP };
+            let some = most.min(end - self.lattice.step());
             let watch = Stopwatch::start();
             let mut encoder = device.create_command_encoder(&Default::default());
             {
@@ -163,7 +161,7 @@ impl Flow<'_> {
             }
             queue.submit([encoder.finish()]);
             fault = self.fault()?;
-            if !first {
+            if warm {
                 watch.stop(&mut self.stepping);
             }
         }

@@ -3,7 +3,11 @@
 use cpu_time::ProcessTime;
 use std::time::Instant;
 
-/// Time of steps alone: without read-outs, and without the first step, at which drivers compile.
+/// Steps at the start of a run that are not timed: drivers compile at the first dispatch, boundaries begin with the
+/// second step, and even and odd ones have kernels of their own.
+pub const WARM_UP: u64 = 4;
+
+/// Time of steps alone: without read-outs and the warm-up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spent {
     /// By the clock on the wall, s.

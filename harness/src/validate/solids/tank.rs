@@ -3,7 +3,7 @@
 use super::super::{
     Stand, Trial,
     record::describe,
-    stopwatch::{Spent, Stopwatch},
+    stopwatch::{Spent, Stopwatch, WARM_UP},
 };
 use riprap::{
     bodies::Pose,
@@ -123,15 +123,13 @@ impl<'a> Tank<'a> {
         let most = (SUBMISSION / cells).max(1);
         let end = self.simulation.step() + steps;
         while self.simulation.step() < end {
-            let first = self.simulation.step() == 0;
-            let some = match first {
-                true => 1,
-                false => most.min(end - self.simulation.step()),
-            };
+            let warm = self.simulation.step() >= WARM_UP;
+            let some = if warm { most } else { WARM_UP };
+            let some = some.min(end - self.simulation.step());
             let watch = Stopwatch::start();
             let done = self.simulation.advance(some);
             self.stand.drive("blocks in a fluid", done)??;
-            if !first {
+            if warm {
                 watch.stop(&mut self.stepping);
             }
         }

@@ -1,6 +1,6 @@
 //! What a scene will run.
 
-use super::Immersion;
+use super::{Accuracy, Immersion};
 use crate::adapters::Adapter;
 use anyhow::Result;
 use riprap::{
@@ -27,6 +27,9 @@ pub struct Report {
     /// The blocks, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Immersion>,
+    /// How far forces may be off, as `riprap report` has measured it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub accuracy: Vec<Accuracy>,
     /// What may disappoint.
     pub warnings: Vec<String>,
     /// How long it takes.
@@ -132,6 +135,7 @@ impl Report {
         let lattice = simulation.lattice();
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
+        let numerics = Numerics::of(simulation, simulation.units())?;
         Ok(Self {
             title: scene.title.clone(),
             adapter,
@@ -142,7 +146,8 @@ impl Report {
                 .chain(immersed.into_iter().flat_map(Immersed::kernels))
                 .map(Kernel::of)
                 .collect(),
-            numerics: Numerics::of(simulation, simulation.units())?,
+            accuracy: Accuracy::all(simulation, numerics.speed),
+            numerics,
             warnings: warnings.collect(),
             blocks: Immersion::of(simulation, simulation.step()),
             time,

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Errors that are asked for.
 pub const TARGETS: [f64; 3] = [0.05, 0.01, 0.001];
-/// Costs up to this ratio count as the same: load of the machine and the steps between grids make as much.
+/// Costs up to this ratio count as the same, where noise is not larger: what a grid finer by 6 % costs.
 pub const SAME: f64 = 1.25;
 
 /// A row that reaches an error.
@@ -30,6 +30,8 @@ pub struct Finding {
     pub target: f64,
     /// What the cost is.
     pub cost: &'static str,
+    /// Ratio of costs up to which they count as the same.
+    pub same: f64,
     /// The cheapest setting, if one reaches it.
     pub cheapest: Option<Choice>,
     /// The cheapest with the defaults, if one reaches it.
@@ -38,7 +40,12 @@ pub struct Finding {
 
 impl Finding {
     /// Looks among the rows of a class.
-    pub fn of(class: &str, rows: &[&Row], target: f64, (name, cost): (&'static str, Cost)) -> Self {
+    pub fn of(
+        class: &str,
+        rows: &[&Row],
+        target: f64,
+        (name, cost, same): (&'static str, Cost, f64),
+    ) -> Self {
         let reaching: Vec<&Row> = rows
             .iter()
             .copied()
@@ -58,6 +65,7 @@ impl Finding {
             class: class.into(),
             target,
             cost: name,
+            same,
             cheapest: least(&|_| true),
             default: least(&|row| row.default),
         }
@@ -71,7 +79,7 @@ impl Finding {
     /// Whether the defaults follow from it; none where nothing reaches the error.
     pub fn follows(&self) -> Option<bool> {
         self.cheapest.as_ref()?;
-        Some(self.ratio().is_some_and(|ratio| ratio <= SAME))
+        Some(self.ratio().is_some_and(|ratio| ratio <= self.same))
     }
 }
 
@@ -101,7 +109,7 @@ mod tests {
 
     fn find(rows: &[Row], target: f64) -> Finding {
         let rows: Vec<&Row> = rows.iter().collect();
-        Finding::of("", &rows, target, ("s", |row| row.cpu_seconds))
+        Finding::of("", &rows, target, ("s", |row| row.cpu_seconds, SAME))
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod blocks;
 mod class;
+mod document;
 mod finding;
 mod flows;
 mod limit;
@@ -15,24 +16,14 @@ mod row;
 mod svg;
 mod water;
 
+pub use document::{Repeat, Report, Time};
 pub use finding::{Choice, Finding, TARGETS};
-use row::Cost;
 pub use row::{Row, Table};
 
-use crate::{
-    bench::Machine,
-    picture::{Chart, Curve, Mark, Measure},
-    print::percent,
-    validate::Stand,
-};
+use crate::{bench::Machine, print::percent, validate::Stand};
 use anyhow::Context;
 use class::{Class, Point, Reference, classes};
-use riprap::output::replace;
-use serde::Serialize;
-use std::{
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::{path::PathBuf, time::Instant};
 
 /// Draws error against run time and updates for every setting, and says which is the cheapest.
 #[derive(clap::Args, Clone, Debug, Default)]
@@ -49,74 +40,6 @@ pub struct Args {
     /// Part of the name of the adapter to use
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-}
-
-/// What counts as run time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Time {
-    /// CPU time of all threads: a busy machine distorts it least.
-    Cpu,
-    /// By the clock on the wall.
-    Wall,
-}
-
-impl Time {
-    fn of(self) -> Cost {
-        match self {
-            Self::Cpu => |row| row.cpu_seconds,
-            Self::Wall => |row| row.wall_seconds,
-        }
-    }
-
-    fn axis(self) -> &'static str {
-        match self {
-            Self::Cpu => "CPU time, all threads, s",
-            Self::Wall => "run time, s",
-        }
-    }
-
-    fn says(self) -> &'static str {
-        match self {
-            Self::Cpu => {
-                "the CPU time of the steps, of all threads together, without read-outs and without the first four, at which \
-                 the driver compiles"
-            }
-            Self::Wall => {
-                "the time of the steps by the clock on the wall, without read-outs and without the first four, at which the \
-                 driver compiles"
-            }
-        }
-    }
-}
-
-/// A run that was done twice.
-#[derive(Clone, Debug, Serialize)]
-pub struct Repeat {
-    /// Class of scenes.
-    pub class: String,
-    /// Resolution.
-    pub resolution: f64,
-    /// Its run time both times, s.
-    pub seconds: [f64; 2],
-}
-
-/// All that was measured.
-#[derive(Clone, Debug, Serialize)]
-pub struct Report {
-    /// Where and when.
-    #[serde(flatten)]
-    pub machine: Machine,
-    /// Whether in the full form.
-    pub full: bool,
-    /// What counts as run time.
-    pub time: Time,
-    /// Runs that were done twice.
-    pub repeats: Vec<Repeat>,
-    /// The rows.
-    pub rows: Vec<Row>,
-    /// What follows from them.
-    pub findings: Vec<Finding>,
 }
 
 /// Measures and writes.
@@ -239,146 +162,4 @@ fn told(row: &Row) -> String {
         row.wall_seconds,
         row.note
     )
-}
-
-impl Report {
-    /// The rows of a class.
-    fn of(&self, class: &str) -> Vec<&Row> {
-        self.rows.iter().filter(|row| row.class == class).collect()
-    }
-
-    /// Runs the longest short run with the defaults of a class again.
-    fn repeat(&self, stand: &Stand, class: &Class) -> Option<Repeat> {
-        /// Longest run that is done twice, s.
-        const SHORT: f64 = 4.0;
-        let time = self.time.of();
-        let rows = self.of(class.name);
-        let (row, point) = rows
-            .iter()
-            .zip(&class.points)
-            .filter(|(row, point)| point.default && row.error.is_some() && time(row) < SHORT)
-            .max_by(|(a, _), (b, _)| time(a).total_cmp(&time(b)))?;
-        let again = computed(stand, class, point);
-        Some(Repeat {
-            class: class.name.into(),
-            resolution: row.resolution,
-            seconds: [time(row), time(&again)],
-        })
-    }
-
-    /// How far run times differ from run to run.
-    fn noise_says(&self) -> String {
-        let apart = |repeat: &Repeat| {
-            let [a, b] = repeat.seconds;
-            (a - b).abs() / a.min(b)
-        };
-        let mut all: Vec<f64> = self.repeats.iter().map(apart).collect();
-        all.sort_by(f64::total_cmp);
-        match (all.get(all.len() / 2), all.last()) {
-            (Some(middle), Some(most)) => format!(
-                "Noise: of {} runs that were done twice, one a class, the times differ by {} (median), at most {}.",
-                all.len(),
-                percent(*middle),
-                percent(*most)
-            ),
-            _ => "Noise: no run was done twice.".into(),
-        }
-    }
-
-    /// Names of the costs.
-    fn costs(&self) -> [&'static str; 2] {
-        ["run time", "updates"]
-    }
-
-    /// Finds the cheapest settings.
-    fn conclude(&mut self, classes: &[Class]) {
-        let [time, updates] = self.costs();
-        let all: [Cost; 2] = [self.time.of(), |row| row.updates as f64];
-        let costs = [(time, all[0]), (updates, all[1])];
-        let findings = classes.iter().flat_map(|class| {
-            let rows = self.of(class.name);
-            let asked = TARGETS
-                .iter()
-                .flat_map(|target| costs.map(|cost| (*target, cost)));
-            let asked = asked.filter(|_| !rows.is_empty());
-            let found = asked.map(|(target, cost)| Finding::of(class.name, &rows, target, cost));
-            found.collect::<Vec<_>>()
-        });
-        self.findings = findings.collect();
-    }
-
-    /// Whether the defaults follow from the findings, in words.
-    fn verdict(&self) -> String {
-        let reached: Vec<_> = self
-            .findings
-            .iter()
-            .filter(|f| f.cheapest.is_some())
-            .collect();
-        let others: Vec<String> = reached
-            .iter()
-            .filter(|finding| finding.follows() == Some(false))
-            .map(|finding| {
-                let by = finding.cheapest.as_ref().map_or("", |c| c.setting.as_str());
-                let cost = match finding.ratio() {
-                    Some(ratio) => format!("{ratio:.1} times the {} of {by}", finding.cost),
-                    None => format!("{by} reaches it, the default does not"),
-                };
-                format!("{} at {} ({cost})", finding.class, percent(finding.target))
-            })
-            .collect();
-        let mut text = format!(
-            "The defaults are the cheapest, or cost at most {} times the least, in {} of {} questions",
-            finding::SAME,
-            reached.len() - others.len(),
-            reached.len()
-        );
-        if !others.is_empty() {
-            text += &format!("; not for {}", others.join("; "));
-        }
-        text + "."
-    }
-
-    /// The diagram of a class over run time, as a picture.
-    fn chart(&self, class: &Class) -> Chart {
-        let time = self.time.of();
-        let mut curves: Vec<Curve> = Vec::new();
-        for row in self.of(class.name) {
-            let Some(error) = row.certain_error().filter(|error| *error > 0.0) else {
-                continue;
-            };
-            let at = curves.iter().position(|curve| curve.name == row.setting);
-            let at = at.unwrap_or_else(|| {
-                curves.push(Curve {
-                    name: row.setting.clone(),
-                    points: Vec::new(),
-                    mark: Mark::LinePoints,
-                });
-                curves.len() - 1
-            });
-            curves[at].points.push([time(row), 100.0 * error]);
-        }
-        for curve in &mut curves {
-            curve.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        }
-        let (name, unit) = match self.time {
-            Time::Cpu => ("CPU time of all threads", "s"),
-            Time::Wall => ("run time", "s"),
-        };
-        Chart::profile(
-            class.title,
-            Measure::logarithmic(name, unit),
-            Measure::logarithmic("error", "%"),
-            curves,
-        )
-    }
-
-    /// Writes the page and the JSON.
-    fn write(&self, folder: &Path, classes: &[Class]) -> anyhow::Result<()> {
-        let json = serde_json::to_string_pretty(self)? + "\n";
-        let html = page::page(self, classes);
-        for (name, text) in [("report.json", json), ("report.html", html)] {
-            replace(&folder.join(name), |file| file.write_all(text.as_bytes()))?;
-        }
-        Ok(())
-    }
 }

@@ -3,7 +3,7 @@
 use super::{
     Report,
     class::{Class, Reference},
-    finding::{Choice, Finding, SAME},
+    finding::{Choice, Finding},
     plot,
     row::Row,
     svg::escape,
@@ -129,11 +129,18 @@ fn reference(class: &Class, rows: &[&Row]) -> String {
 }
 
 fn findings(report: &Report, classes: &[Class]) -> String {
+    let same: Vec<String> = report
+        .costs()
+        .iter()
+        .filter_map(|cost| report.findings.iter().find(|finding| finding.cost == *cost))
+        .map(|finding| format!("{:.2} times the least {}", finding.same, finding.cost))
+        .collect();
     let mut html = format!(
         "<h2 id=\"findings\">What the data say</h2>\n<p>The cheapest setting that reaches an error, on its coarsest grid \
          from which on every finer one reaches it too, and what the default costs beside it. The default follows from \
-         the data where it costs at most {SAME} times the least. “Not reached”: by none of the runs above; finer grids \
-         may.</p>\n<table><tr><th class=\"l\">class</th><th>error</th>"
+         the data where it costs at most {}, which is within noise. “Not reached”: by none of the runs above; finer \
+         grids may.</p>\n<table><tr><th class=\"l\">class</th><th>error</th>",
+        same.join(" and ")
     );
     for cost in report.costs() {
         let _ = write!(

@@ -36,7 +36,7 @@ fn both(
 pub fn still(full: bool) -> Class {
     let layers: &[u32] = match full {
         true => &[10, 20, 40, 80],
-        false => &[5, 10, 20],
+        false => &[5, 10, 16],
     };
     Class {
         name: "still-tank",
@@ -56,7 +56,7 @@ pub fn still(full: bool) -> Class {
 pub fn wave(full: bool) -> Class {
     let layers: &[u32] = match full {
         true => &[10, 25, 50],
-        false => &[8, 12, 18],
+        false => &[8, 12],
     };
     Class {
         name: "standing-wave",
@@ -76,7 +76,7 @@ pub fn wave(full: bool) -> Class {
 pub fn dam(full: bool) -> Class {
     let columns: &[u32] = match full {
         true => &[10, 20, 40, 80],
-        false => &[8, 12, 20],
+        false => &[8, 12, 16],
     };
     Class {
         name: "dam-break",

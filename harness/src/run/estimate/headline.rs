@@ -76,7 +76,9 @@ pub fn of(
     for folder in folders {
         read.push(Table::read(folder.join(format!("{name}.csv")))?);
     }
-    let mut found: Vec<((String, &'static str), Vec<f64>, Vec<f64>)> = Vec::new();
+    // Quantity and unit, and the values of both.
+    type Found = ((String, &'static str), Vec<f64>, Vec<f64>);
+    let mut found: Vec<Found> = Vec::new();
     for (column, values) in &read[0].columns {
         let asked = quantities.iter().find(|known| known.name() == column);
         let known = asked.map(|asked| (column.clone(), history::about(*asked).1));

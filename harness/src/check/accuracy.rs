@@ -188,7 +188,7 @@ impl Accuracy {
         if asked.tau < low - 0.01 || asked.tau > high + 0.01 {
             beyond.push(format!("at τ = {low:.3} to {high:.3}"));
         }
-        (!near.is_empty()).then(|| Self {
+        (!near.is_empty()).then_some(Self {
             of,
             across: asked.across,
             tau: asked.tau,

@@ -95,7 +95,7 @@ pub fn cavity(full: bool) -> Class {
     };
     let (grids, finest): (&[u32], u32) = match full {
         true => (&[16, 32, 64], 128),
-        false => (&[8, 16], 32),
+        false => (&[16, 24], 32),
     };
     // In 16 bits the flow does not become steady, and takes the longest time.
     let best = &METHODS[..5];

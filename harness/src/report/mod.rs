@@ -37,6 +37,9 @@ pub struct Args {
     /// Classes of scenes, such as `cube-*`; all without it
     #[arg(long, value_name = "GLOB")]
     pub case: Option<String>,
+    /// Go on with the report.csv in the folder, which this adapter began: what it holds does not run again
+    #[arg(long)]
+    pub resume: bool,
     /// Part of the name of the adapter to use
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
@@ -51,7 +54,11 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     let stand = Stand::open(args.adapter.as_deref(), args.full)?;
     let folder = &args.out;
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    let mut table = Table::create(&folder.join("report.csv"))?;
+    let path = folder.join("report.csv");
+    let mut table = match args.resume {
+        true => Table::resume(&path)?,
+        false => Table::create(&path)?,
+    };
     let mut report = Report {
         machine: Machine::of(&stand.device.adapter_info()),
         full: args.full,
@@ -103,33 +110,37 @@ fn select(args: &Args) -> anyhow::Result<Vec<Class>> {
     Ok(found)
 }
 
-/// Computes a class; its rows are on disk as they come.
+/// Computes what the table lacks of a class; its rows are on disk as they come.
 fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()> {
-    let first = table.rows.len();
     let mut reference = match class.reference {
         Reference::None => Some((None, 0.0)),
         Reference::Known(value, uncertainty) => Some((Some(value), uncertainty)),
         Reference::Limit => None,
     };
     for (n, point) in class.points.iter().enumerate() {
-        let mut row = computed(stand, class, point);
-        if let Some((reference, uncertainty)) = reference {
-            row.compare(reference, uncertainty);
+        if table.find(class.name, point).is_none() {
+            let mut row = computed(stand, class, point);
+            if let Some((reference, uncertainty)) = reference {
+                row.compare(reference, uncertainty);
+            }
+            println!("{}", told(&row));
+            table.push(row)?;
         }
-        println!("{}", told(&row));
-        table.push(row)?;
         if reference.is_none() && n == 2 {
-            let values: Vec<f64> = table.rows[first..].iter().filter_map(|r| r.value).collect();
+            let three = class.points[..3]
+                .iter()
+                .map(|point| table.find(class.name, point)?.value);
             // Without its three grids a class has values, and no errors.
-            if let Some(values) = values.first_chunk::<3>() {
+            if let Some(values) = three.collect::<Option<Vec<f64>>>()
+                && let Some(values) = values.first_chunk::<3>()
+            {
                 let (limit, uncertainty) = limit::limit(*values);
                 println!(
                     "     limit {limit:.6}, off by at most {}",
                     percent(uncertainty)
                 );
-                for row in &mut table.rows[first..] {
-                    row.compare(Some(limit), uncertainty);
-                }
+                let all = table.rows.iter_mut().filter(|row| row.class == class.name);
+                all.for_each(|row| row.compare(Some(limit), uncertainty));
                 table.write()?;
                 reference = Some((Some(limit), uncertainty));
             }

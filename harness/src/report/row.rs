@@ -1,6 +1,6 @@
 //! A point of a diagram in numbers, and the table of them: `report.csv`.
 
-use super::class::Found;
+use super::class::{Found, Point};
 use riprap::{Error, output::replace};
 use serde::Serialize;
 use std::{
@@ -54,6 +54,12 @@ pub const HEAD: &str = "class,setting,default,resolution,tau,y_plus,value,refere
     updates,cpu_seconds,wall_seconds,note";
 
 impl Row {
+    /// Whether it is that of a point of its class.
+    pub fn is_of(&self, point: &Point) -> bool {
+        // Decimals give the very number back.
+        self.setting == point.setting && self.resolution == point.resolution
+    }
+
     /// Takes what a run found, or why it found nothing.
     pub fn take(&mut self, found: anyhow::Result<Found>) {
         match found {
@@ -168,6 +174,30 @@ impl Table {
         Ok(table)
     }
 
+    /// The table that an earlier report has left.
+    ///
+    /// # Errors
+    /// If it cannot be read, or a line is no row.
+    pub fn resume(path: &Path) -> riprap::Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        let lines = text.lines().enumerate().skip(1);
+        let rows = lines.map(|(n, line)| {
+            let wrong = || format!("line {} is no row of a report; remove it", n + 1);
+            Row::parse(line).ok_or_else(|| Error::file(path, wrong()))
+        });
+        Ok(Self {
+            rows: rows.collect::<riprap::Result<_>>()?,
+            path: path.to_owned(),
+        })
+    }
+
+    /// The row of a point, if it is there.
+    pub fn find(&self, class: &str, point: &Point) -> Option<&Row> {
+        self.rows
+            .iter()
+            .find(|row| row.class == class && row.is_of(point))
+    }
+
     /// Adds a row.
     ///
     /// # Errors
@@ -219,6 +249,19 @@ mod tests {
         let mut row = row();
         row.compare(Some(1.0), 1e-4);
         assert_eq!(Row::parse(&row.line()), Some(row));
+    }
+
+    #[test]
+    fn a_report_goes_on_from_its_table() {
+        let path = std::env::temp_dir().join(format!("riprap_report_{}.csv", std::process::id()));
+        let mut table = Table::create(&path).unwrap();
+        table.push(row()).unwrap();
+        let read = Table::resume(&path).unwrap();
+        assert_eq!(read.rows, [row()]);
+        std::fs::write(&path, format!("{HEAD}\nsphere-array,half a row")).unwrap();
+        let error = Table::resume(&path).err().unwrap().to_string();
+        std::fs::remove_file(&path).unwrap();
+        assert!(error.contains("line 2"), "{error}");
     }
 
     #[test]

@@ -54,6 +54,8 @@ pub fn percent(part: f64) -> String {
         v if v >= 9.95 => format!("{v:.0} %"),
         v if v >= 0.995 => format!("{v:.1} %").replace(".0 %", " %"),
         v if v >= 0.0995 => format!("{v:.2} %").replace("0 %", " %"),
+        v if v >= 0.000_995 => format!("{v:.*} %", (1.0 - v.log10().floor()) as usize),
+        0.0 => "0 %".into(),
         v => format!("{v:.2e} %"),
     }
 }
@@ -68,7 +70,9 @@ mod tests {
         assert_eq!(percent(0.001), "0.1 %");
         assert_eq!(percent(0.0123), "1.2 %");
         assert_eq!(percent(0.1234), "12 %");
-        assert_eq!(percent(3e-5), "3.00e-3 %");
-        assert_eq!(percent(0.0), "0.00e0 %");
+        assert_eq!(percent(6.08e-4), "0.061 %");
+        assert_eq!(percent(3e-5), "0.0030 %");
+        assert_eq!(percent(7.08e-6), "7.08e-4 %");
+        assert_eq!(percent(0.0), "0 %");
     }
 }

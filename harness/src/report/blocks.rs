@@ -62,7 +62,14 @@ pub fn array(full: bool) -> Class {
         };
         points.extend(on(edges, method, tau));
     }
-    for method in [Method::DEFAULT, Method::NOBLE, Method::MAGIC] {
+    let best = [
+        Method::DEFAULT,
+        Method::NOBLE,
+        Method::BGK,
+        Method::ORDER_2,
+        Method::MAGIC,
+    ];
+    for method in best {
         points.extend(on(finest, method, ARRAY_TAU));
     }
     for tau in [0.52, 0.55, 0.8, 1.0, 1.5] {

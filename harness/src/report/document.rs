@@ -195,7 +195,9 @@ impl Report {
     pub(super) fn chart(&self, class: &Class) -> Chart {
         let time = self.time.of();
         let mut curves: Vec<Curve> = Vec::new();
-        for row in self.of(class.name) {
+        // A picture has eight colours: settings at other relaxation times are on the page.
+        let usual = |row: &&Row| !row.setting.contains(" at ");
+        for row in self.of(class.name).into_iter().filter(usual) {
             let Some(error) = row.certain_error().filter(|error| *error > 0.0) else {
                 continue;
             };

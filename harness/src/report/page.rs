@@ -137,7 +137,7 @@ fn findings(report: &Report, classes: &[Class]) -> String {
         .collect();
     let mut html = format!(
         "<h2 id=\"findings\">What the data say</h2>\n<p>The cheapest setting that reaches an error, on its coarsest grid \
-         from which on every finer one reaches it too, and what the default costs beside it. The default follows from \
+         from which on every finer one that it ran on reaches it too, and what the default costs beside it. The default follows from \
          the data where it costs at most {}, which is within noise. “Not reached”: by none of the runs above; finer \
          grids may.</p>\n<table><tr><th class=\"l\">class</th><th>error</th>",
         same.join(" and ")

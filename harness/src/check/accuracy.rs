@@ -36,6 +36,8 @@ pub struct Accuracy {
     pub y_plus: Option<f64>,
     /// Least and largest error of the runs around it.
     pub band: [f64; 2],
+    /// Whether the flow is one of those that were measured, or faster: then the band says little.
+    pub known: bool,
     /// What was measured.
     pub measured: Vec<&'static str>,
     /// In what the scene is beyond that.
@@ -89,6 +91,10 @@ impl Accuracy {
         let y_plus = self
             .y_plus
             .map_or(String::new(), |y| format!(", y⁺ about {y:.1}"));
+        let band = match self.known {
+            true => band,
+            false => format!("not measured at this speed, {band} below it"),
+        };
         let beyond: String = self.beyond.iter().map(|what| format!("; {what}")).collect();
         format!(
             "expected error of {}: {band} ({:.1} cells, τ = {:.3}{y_plus}; measured on {}{beyond})",
@@ -139,7 +145,11 @@ fn of_blocks(rows: &[Row], asked: Asked) -> Option<Accuracy> {
     if y_plus.is_some_and(|y_plus| y_plus > resolved) {
         beyond.push("at this y⁺ friction is not resolved, and comes out too small".into());
     }
-    Accuracy::of("drag on blocks", asked, y_plus, (&near, measured, beyond))
+    let found = Accuracy::of("drag on blocks", asked, y_plus, (&near, measured, beyond))?;
+    Some(Accuracy {
+        known: reynolds.is_none_or(|reynolds| reynolds <= fastest),
+        ..found
+    })
 }
 
 /// The shear at two walls with a given flow between them.
@@ -186,7 +196,10 @@ impl Accuracy {
         }
         let [low, high] = range(&|row| row.tau);
         if asked.tau < low - 0.01 || asked.tau > high + 0.01 {
-            beyond.push(format!("at τ = {low:.3} to {high:.3}"));
+            beyond.push(match low == high {
+                true => format!("τ = {low:.3} there"),
+                false => format!("τ = {low:.3} to {high:.3} there"),
+            });
         }
         (!near.is_empty()).then_some(Self {
             of,
@@ -194,6 +207,7 @@ impl Accuracy {
             tau: asked.tau,
             y_plus,
             band,
+            known: true,
             measured,
             beyond,
         })

@@ -7,6 +7,7 @@ pub mod gpu;
 pub mod picture;
 pub mod print;
 pub mod render;
+pub mod report;
 pub mod run;
 pub mod schema;
 mod search;

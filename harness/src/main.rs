@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check,
+    adapters, bench, check, report,
     run::{self, Unfinished},
     schema, stress, threshold, validate,
 };
@@ -29,6 +29,7 @@ enum Command {
     Validate(validate::Args),
     Stress(stress::Args),
     Bench(bench::Args),
+    Report(report::Args),
 }
 
 const EXIT: &str = "Exit codes: 0 all went well; 1 a run failed or diverged, or a case did not pass; 2 the input is wrong.";
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Stress(args) => stress::run(&args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
         eprintln!("error: {error:#}");

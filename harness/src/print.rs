@@ -45,3 +45,34 @@ pub fn duration(seconds: f64) -> String {
         s => format!("{:.1} days", s / 86_400.0),
     }
 }
+
+/// A part as a percentage with two or three digits that count.
+pub fn percent(part: f64) -> String {
+    let value = 100.0 * part;
+    match value {
+        v if v >= 1e4 => format!("{v:.1e} %"),
+        v if v >= 9.95 => format!("{v:.0} %"),
+        v if v >= 0.995 => format!("{v:.1} %").replace(".0 %", " %"),
+        v if v >= 0.0995 => format!("{v:.2} %").replace("0 %", " %"),
+        v if v >= 0.000_995 => format!("{v:.*} %", (1.0 - v.log10().floor()) as usize),
+        0.0 => "0 %".into(),
+        v => format!("{v:.2e} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn percentages_have_the_digits_that_count() {
+        assert_eq!(percent(0.05), "5 %");
+        assert_eq!(percent(0.001), "0.1 %");
+        assert_eq!(percent(0.0123), "1.2 %");
+        assert_eq!(percent(0.1234), "12 %");
+        assert_eq!(percent(6.08e-4), "0.061 %");
+        assert_eq!(percent(3e-5), "0.0030 %");
+        assert_eq!(percent(7.08e-6), "7.08e-4 %");
+        assert_eq!(percent(0.0), "0 %");
+    }
+}

@@ -123,3 +123,16 @@ fn the_schema_is_that_of_scenes() {
         assert!(properties[key].is_object(), "{key}");
     }
 }
+
+/// A cube of 12 cells an edge: the drag on it is as far off as the report found on bodies of its size.
+#[test]
+fn the_error_of_the_drag_is_that_of_the_report() {
+    let report = json(&["check", &scene("incline_flow"), "--json"]);
+    let accuracy = &report["accuracy"][0];
+    assert_eq!(accuracy["of"], "drag on blocks");
+    let number = |key: &str| accuracy[key].as_f64().unwrap();
+    assert!((number("across") - 12.0).abs() < 1e-9);
+    assert_eq!(number("tau"), report["numerics"]["tau"].as_f64().unwrap());
+    let [low, high] = [0, 1].map(|n| accuracy["band"][n].as_f64().unwrap());
+    assert!(0.0 < low && low <= high && high < 0.5, "{accuracy}");
+}

@@ -40,6 +40,7 @@ fn trial() -> Trial {
         cells: 512,
         steps: 100,
         seconds: 0.5,
+        ..Trial::default()
     }
 }
 

@@ -89,6 +89,15 @@ impl Coupled {
         advice
     }
 
+    /// Width of the narrowest block in the fluid, m: the smallest distance between two parallel planes that hold it,
+    /// one of them along a face. None where there is no block.
+    pub fn narrowest(&self) -> Option<f64> {
+        let blocks = self.setup().setup.blocks[..self.in_fluid()].iter();
+        blocks
+            .map(|block| width(&block.shape))
+            .min_by(f64::total_cmp)
+    }
+
     fn warn_of_gaps(&self, cell: f64, warn: &mut impl FnMut(&str, String)) {
         let (closed, open): (Vec<&Gap>, Vec<&Gap>) =
             self.gaps().iter().partition(|gap| gap.is_closed(cell));

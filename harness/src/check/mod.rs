@@ -1,5 +1,6 @@
 //! `riprap check`: what a scene will run, and how long it will take.
 
+mod accuracy;
 mod blocks;
 mod coupling;
 mod dry;
@@ -8,6 +9,7 @@ mod text;
 mod trial;
 mod water;
 
+pub use accuracy::Accuracy;
 pub use blocks::BlockFacts;
 pub use coupling::{Immersion, Narrow};
 pub use dry::RockReport;

@@ -1,6 +1,6 @@
 //! What a scene will run.
 
-use super::Immersion;
+use super::{Accuracy, Immersion};
 use crate::{
     adapters::Adapter,
     run::{Coupling, LeftOut},
@@ -32,6 +32,9 @@ pub struct Report {
     /// The blocks, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Immersion>,
+    /// How far forces may be off, as `riprap report` has measured it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub accuracy: Vec<Accuracy>,
     /// What may disappoint.
     pub warnings: Vec<String>,
     /// How long it takes.
@@ -138,6 +141,7 @@ impl Report {
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
         let cells = Coupling::of(simulation, simulation.step());
+        let numerics = Numerics::of(simulation, simulation.units())?;
         Ok(Self {
             title: scene.title.clone(),
             adapter,
@@ -152,7 +156,8 @@ impl Report {
                 .into_iter()
                 .chain(cells.as_ref().map(LeftOut::of_places).into_iter().flatten())
                 .collect(),
-            numerics: Numerics::of(simulation, simulation.units())?,
+            accuracy: Accuracy::all(simulation, numerics.speed),
+            numerics,
             warnings: warnings.collect(),
             blocks: Immersion::of(simulation, simulation.step()),
             time,

@@ -39,6 +39,9 @@ impl Report {
         if let Some(blocks) = &self.blocks {
             blocks.lines(&mut line);
         }
+        for accuracy in &self.accuracy {
+            line("accuracy", accuracy.text());
+        }
         for warning in &self.warnings {
             line("warning", warning.clone());
         }

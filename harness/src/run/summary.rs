@@ -1,6 +1,7 @@
 //! What a run was, for people and for programs: `summary.json`.
 
 use super::{
+    estimate::Estimate,
     flow::Coupling,
     left_out::LeftOut,
     progress::clock,
@@ -92,6 +93,9 @@ pub struct Summary {
     /// How safely blocks stand whose probes ask.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
+    /// How far headline numbers are from those at half the resolution, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_estimate: Option<Estimate>,
 }
 
 /// Keys that only a fluid has.
@@ -137,7 +141,9 @@ impl Summary {
     /// If it cannot be written.
     pub fn write(&mut self, folder: &Path) -> anyhow::Result<()> {
         let path = folder.join("summary.json");
-        self.files.push(path.clone());
+        if !self.files.contains(&path) {
+            self.files.push(path.clone());
+        }
         let text = serde_json::to_string_pretty(&self.json()?)? + "\n";
         replace(&path, |file| file.write_all(text.as_bytes()))?;
         Ok(())
@@ -225,6 +231,9 @@ impl fmt::Display for Summary {
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;
+        }
+        if let Some(estimate) = &self.error_estimate {
+            writeln!(f, "{estimate}")?;
         }
         if let Some(divergence) = &self.divergence {
             writeln!(f, "  {divergence}")?;

@@ -7,19 +7,21 @@
 //! run on the host.
 
 pub mod fields;
+pub mod method;
 pub mod record;
 pub mod stand;
+pub mod stopwatch;
 
-mod cavity;
+pub(crate) mod cavity;
 mod conservation;
 mod dda;
-mod decay;
+pub(crate) mod decay;
 mod golden;
 mod null_models;
 mod offset_joint;
 mod open_channel;
 mod outlet;
-mod plane_walls;
+pub(crate) mod plane_walls;
 mod repeatability;
 pub(crate) mod rock;
 mod rock_broadphase;
@@ -37,8 +39,9 @@ mod stability;
 mod turbulent_channel;
 mod wake;
 mod wale;
-mod water;
+pub(crate) mod water;
 
+pub use method::Method;
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
 

@@ -132,6 +132,7 @@ fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
             cells: centres.len() as u64,
             steps: simulation.step(),
             seconds: begin.elapsed().as_secs_f64(),
+            ..Trial::default()
         },
     })
 }

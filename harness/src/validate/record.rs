@@ -1,5 +1,6 @@
 //! What a case found: one number with its reference, its error, its limit and its cost.
 
+use super::stopwatch::Spent;
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, Storage};
 use serde::Serialize;
 
@@ -41,6 +42,8 @@ pub struct Trial {
     pub steps: u64,
     /// Time on the device, s.
     pub seconds: f64,
+    /// Time of steps alone, where it was taken.
+    pub stepping: Spent,
 }
 
 impl Trial {

@@ -70,6 +70,7 @@ impl Rock {
             cells: self.blocks.len() as u64,
             steps: self.blocks.steps(),
             seconds: self.seconds,
+            ..Trial::default()
         }
     }
 }

@@ -72,6 +72,7 @@ pub fn run(stand: &Stand) -> Outcome {
             cells: count.into(),
             steps: repeats.into(),
             seconds: total,
+            ..Trial::default()
         };
         let pairs = found.len() as f64;
         records.push(trial.report("pairs a box", pairs / f64::from(count), None));

@@ -57,6 +57,7 @@ pub fn sign(stand: &Stand) -> Outcome {
         cells: seen[0] + seen[1],
         steps: 1,
         seconds,
+        ..Trial::default()
     };
     Ok(vec![
         trial.at_most("pairs that parry finds otherwise", wrong as f64, 0.0),

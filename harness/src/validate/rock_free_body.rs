@@ -36,6 +36,7 @@ fn spun(steps: u32, dt: f64) -> Spun {
             cells: 1,
             steps: steps.into(),
             seconds: begin.elapsed().as_secs_f64(),
+            ..Trial::default()
         },
         omega: rotation.conjugate() * spin(&body, rotation, momentum),
         energy: worst,

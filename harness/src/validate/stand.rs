@@ -1,6 +1,9 @@
 //! The device of a validation, and a flow that runs on it.
 
-use super::record::{Trial, describe};
+use super::{
+    record::{Trial, describe},
+    stopwatch::{Spent, Stopwatch, WARM_UP},
+};
 use crate::gpu;
 use riprap::{
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
@@ -97,6 +100,7 @@ impl Stand {
             lattice,
             observer: None,
             seconds: 0.0,
+            stepping: Spent::default(),
         })
     }
 
@@ -117,6 +121,7 @@ pub struct Flow<'a> {
     /// Made when first asked for.
     observer: Option<Observer>,
     seconds: f64,
+    stepping: Spent,
 }
 
 impl Flow<'_> {
@@ -127,6 +132,7 @@ impl Flow<'_> {
             cells: self.lattice.grid().cell_count() as u64,
             steps: self.lattice.step(),
             seconds: self.seconds,
+            stepping: self.stepping,
         }
     }
 
@@ -142,15 +148,22 @@ impl Flow<'_> {
         let end = self.lattice.step() + steps;
         let mut fault = None;
         while fault.is_none() && self.lattice.step() < end {
+            let warm = self.lattice.step() >= WARM_UP;
+            let most = if warm { chunk } else { WARM_UP };
+            let some = most.min(end - self.lattice.step());
+            let watch = Stopwatch::start();
             let mut encoder = device.create_command_encoder(&Default::default());
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
-                for _ in 0..chunk.min(end - self.lattice.step()) {
+                for _ in 0..some {
                     self.lattice.record(&mut pass);
                 }
             }
             queue.submit([encoder.finish()]);
             fault = self.fault()?;
+            if warm {
+                watch.stop(&mut self.stepping);
+            }
         }
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(fault)

@@ -24,6 +24,7 @@ fn largest(edges: DVec3, share: f64, steps: u64) -> (f64, Trial) {
         cells: 1,
         steps,
         seconds: begin.elapsed().as_secs_f64(),
+        ..Trial::default()
     };
     (most, trial)
 }

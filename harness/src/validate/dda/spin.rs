@@ -42,6 +42,7 @@ pub fn run(stand: &Stand) -> Outcome {
         cells: 1,
         steps,
         seconds: begin.elapsed().as_secs_f64(),
+        ..Trial::default()
     };
     let second_order = (OMEGA * dt).powi(2);
     Ok(vec![

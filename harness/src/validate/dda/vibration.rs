@@ -37,6 +37,7 @@ pub fn run(_: &Stand) -> Outcome {
             cells: 1,
             steps,
             seconds: begin.elapsed().as_secs_f64(),
+            ..Trial::default()
         };
         // sin(½ω'Δt) = ½ωΔt of the central difference.
         let exact = 2.0 * (0.5 * product).asin() / product;

@@ -2,17 +2,17 @@
 //! the mean velocity over fluid and spheres.
 
 use super::{
-    super::{Outcome, Record, Stand, Trial},
+    super::{Method, Outcome, Record, Stand, Trial},
     tank::{self, Tank, block, numbers, write_table},
 };
 use crate::picture::{Chart, Curve, Mark, Measure};
-use riprap::scene::{BlockShape, Motion, SolidOperator};
+use riprap::scene::{BlockShape, Motion};
 use std::f64::consts::{PI, TAU};
 
 /// Concentrations and K of their table 2.
 const K: [(f64, f64); 3] = [(0.027, 2.008), (0.125, 4.292), (0.343, 15.4)];
 /// The concentration for which there are limits.
-const USUAL: f64 = 0.125;
+pub const USUAL: f64 = 0.125;
 /// U D/ν: the drag of inertia grows with its square and is below 1e-4 of the whole.
 const REYNOLDS: f64 = 0.05;
 /// Part of a cell by which spheres are off its corner.
@@ -20,28 +20,34 @@ const OFFSETS: [[f64; 3]; 3] = [[0.25, 0.0, 0.0], [0.5, 0.5, 0.5], [0.3, 0.1, 0.
 
 /// An array to be computed.
 #[derive(Clone, Copy)]
-struct Array {
+pub struct Array {
     concentration: f64,
     /// Edge of the periodic cube of one sphere, cells.
     edge: u32,
     tau: f64,
-    operator: SolidOperator,
+    method: Method,
     offset: [f64; 3],
 }
 
 impl Array {
-    fn new(concentration: f64, edge: u32, tau: f64) -> Self {
+    /// By the default method, each sphere in the middle of its cube.
+    pub fn new(concentration: f64, edge: u32, tau: f64) -> Self {
         Self {
             concentration,
             edge,
             tau,
-            operator: SolidOperator::default(),
+            method: Method::DEFAULT,
             offset: [0.0; 3],
         }
     }
 
+    /// By another method.
+    pub fn by(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
     /// Cells across a sphere.
-    fn diameter(&self) -> f64 {
+    pub fn diameter(&self) -> f64 {
         f64::from(self.edge) * (6.0 * self.concentration / PI).cbrt()
     }
 
@@ -52,7 +58,10 @@ impl Array {
     }
 
     /// K as computed.
-    fn measure(&self, stand: &Stand) -> anyhow::Result<Drag> {
+    ///
+    /// # Errors
+    /// If the flow does not become steady, or leaves the range of the method.
+    pub fn measure(&self, stand: &Stand) -> anyhow::Result<Drag> {
         let nu = (self.tau - 0.5) / 3.0;
         let volume = f64::from(self.edge).powi(3);
         let stokes = 3.0 * PI * nu * self.diameter();
@@ -61,7 +70,7 @@ impl Array {
         let mut scene = tank::scene([self.edge; 3], self.tau)?;
         scene.fluid.acceleration = numbers([push, 0.0, 0.0]);
         scene.initial.velocity = numbers([speed, 0.0, 0.0]);
-        scene.numerics.solid_operator = self.operator;
+        self.method.choose(&mut scene);
         let shape = BlockShape::Sphere {
             radius: 0.5 * self.diameter(),
         };
@@ -113,12 +122,14 @@ const STEADY: f64 = 1e-4;
 /// Such times after which a flow that is to become steady should be: 8 are usual.
 const MOST_TIMES: u32 = 64;
 
-struct Drag {
+/// What an array shows.
+pub struct Drag {
     /// K over that of the table.
-    ratio: f64,
+    pub ratio: f64,
     /// How far the force is from what pushes the fluid.
     balance: f64,
-    trial: Trial,
+    /// What was run.
+    pub trial: Trial,
 }
 
 impl Drag {
@@ -132,15 +143,11 @@ impl Drag {
 }
 
 fn name(array: &Array) -> String {
-    let operator = match array.operator {
-        SolidOperator::Holdych => "",
-        SolidOperator::Noble => ", noble",
-        SolidOperator::Superposition => ", superposition",
-    };
     format!(
-        "K / K(Z&H), D = {:.1}, τ = {}{operator}",
+        "K / K(Z&H), D = {:.1}, τ = {}, {}",
         array.diameter(),
-        array.tau
+        array.tau,
+        array.method.name
     )
 }
 
@@ -184,20 +191,14 @@ pub fn offset(stand: &Stand) -> Outcome {
 /// Other concentrations and the other operators, for which there are no limits.
 pub fn comparison(stand: &Stand) -> Outcome {
     let mut arrays = vec![Array::new(0.027, 16, 1.0), Array::new(0.343, 12, 1.0)];
-    let operators = [SolidOperator::Noble, SolidOperator::Superposition];
-    arrays.extend(operators.map(|operator| Array {
-        operator,
-        ..Array::new(USUAL, 16, 1.0)
-    }));
+    let operators = [Method::NOBLE, Method::SUPERPOSITION];
+    arrays.extend(operators.map(|operator| Array::new(USUAL, 16, 1.0).by(operator)));
     if stand.full {
         for tau in [0.6, 1.0] {
             arrays.extend([Array::new(0.027, 28, tau), Array::new(0.343, 12, tau)]);
             arrays.push(Array::new(0.343, 24, tau));
         }
-        arrays.extend(operators.map(|operator| Array {
-            operator,
-            ..Array::new(USUAL, 16, 0.6)
-        }));
+        arrays.extend(operators.map(|operator| Array::new(USUAL, 16, 0.6).by(operator)));
     }
     let mut records = Vec::new();
     for array in arrays {

@@ -52,6 +52,7 @@ pub fn run(stand: &Stand) -> Outcome {
             cells: last.cells,
             steps: last.steps,
             seconds: last.seconds,
+            ..super::super::Trial::default()
         };
         let quantity = "difference of the drag histories, r.m.s.";
         records.push(trial.at_most(quantity, difference, 5e-2));

@@ -1,22 +1,17 @@
 //! Drag of a sphere and of a cube in a stream.
 //!
-//! A quarter of each is computed, between planes of symmetry; the other sides slip, ten sizes apart, so that the body
-//! takes up less than 1 % of the section.
+//! A quarter of each is computed, between planes of symmetry; the other sides slip, ten sizes apart where values of an
+//! unbounded stream are the reference, so that the body takes up less than 1 % of the section.
 
 use super::{
-    super::{Outcome, Stand, Trial},
+    super::{Method, Outcome, Stand, Trial},
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Boundary, Motion};
 use std::f64::consts::PI;
 
 const SPEED: f64 = 0.05;
-/// Length before and behind the body, and half the width, in sizes of the body.
-const BEFORE: u32 = 4;
-const BEHIND: u32 = 8;
-const HALF_WIDTH: u32 = 5;
-/// Time until the drag is steady, and over which it is averaged, in sizes over speed.
-const SETTLE: f64 = 20.0;
+/// Time over which the drag is averaged, in sizes over speed.
 const MEAN: f64 = 4.0;
 
 /// Against body-fitted computations of a sphere in an unbounded stream.
@@ -26,10 +21,11 @@ pub fn sphere(stand: &Stand) -> Outcome {
         for (reynolds, published) in [(20.0, 2.71), (100.0, 1.087)] {
             let edge = f64::from(size);
             let shape = BlockShape::Sphere { radius: 0.5 * edge };
-            let (force, trial) = drag(stand, shape, size, edge / reynolds)?;
-            let coefficient = force / (0.5 * SPEED * SPEED * 0.25 * PI * edge * edge);
+            let drag = WIDE.drag(stand, shape, (size, edge / reynolds), Method::DEFAULT)?;
+            let coefficient = drag.coefficient / (0.25 * PI * edge * edge);
             let quantity = format!("C_d / published, sphere, Re {reynolds}, D = {size}");
-            records.push(trial.relative(quantity, coefficient / published, 1.0, limit));
+            let ratio = coefficient / published;
+            records.push(drag.trial.relative(quantity, ratio, 1.0, limit));
         }
     }
     Ok(records)
@@ -52,10 +48,12 @@ pub fn cube(stand: &Stand) -> Outcome {
                 + 0.42 * 10f64.powf(0.4 * (-sphericity.log10()).powf(0.2)) / across;
             let edge = f64::from(size);
             let shape = BlockShape::Box { size: [edge; 3] };
-            let (force, trial) = drag(stand, shape, size, diameter * edge / reynolds)?;
-            let coefficient = force / (0.5 * SPEED * SPEED * across * edge * edge);
+            let scale = diameter * edge / reynolds;
+            let drag = WIDE.drag(stand, shape, (size, scale), Method::DEFAULT)?;
+            let coefficient = drag.coefficient / (across * edge * edge);
             let quantity = format!("C_d / correlation, cube, Re {reynolds}, L = {size}");
-            records.push(trial.relative(quantity, coefficient / published, 1.0, limit));
+            let ratio = coefficient / published;
+            records.push(drag.trial.relative(quantity, ratio, 1.0, limit));
         }
     }
     Ok(records)
@@ -69,36 +67,103 @@ fn grids(stand: &Stand) -> Vec<(u32, f64)> {
     }
 }
 
-/// Drag of the whole body with the viscosity `SPEED` × `scale`.
-fn drag(stand: &Stand, shape: BlockShape, size: u32, scale: f64) -> anyhow::Result<(f64, Trial)> {
-    let tau = 0.5 + 3.0 * SPEED * scale;
-    let side = HALF_WIDTH * size;
-    let mut scene = tank::scene([(BEFORE + BEHIND) * size, side, side], tau)?;
-    let stream = [SPEED, 0.0, 0.0];
-    scene.initial.velocity = numbers(stream);
-    let faces = &mut scene.boundaries;
-    faces.x_min = Boundary::Velocity {
-        velocity: numbers(stream),
-    };
-    faces.x_max = Boundary::Pressure {
-        pressure: 0.0,
-        reflecting: false,
-    };
-    (faces.y_min, faces.y_max) = (Boundary::FreeSlip, Boundary::FreeSlip);
-    (faces.z_min, faces.z_max) = (Boundary::FreeSlip, Boundary::FreeSlip);
-    let at = [f64::from(BEFORE * size), 0.0, 0.0];
-    scene.blocks.push(block(shape, at, Motion::Driven));
-    let steps = |times: f64| (times * f64::from(size) / SPEED) as u64;
-    const READINGS: u64 = 40;
-    let every = steps(MEAN) / READINGS;
-    scene.coupling.interval = every as u32;
-    let mut tank = Tank::fill(stand, &scene)?;
-    tank.advance(steps(SETTLE) / every * every)?;
-    let mut sum = 0.0;
-    for _ in 0..READINGS {
-        tank.advance(every)?;
-        sum += tank.felt(0).flow.force.x;
+/// Room around a body, in sizes of it, and times, in sizes over speed.
+#[derive(Clone, Copy)]
+struct Stream {
+    /// Length before the body.
+    before: u32,
+    /// Length behind its middle.
+    behind: u32,
+    /// Half the width.
+    half_width: u32,
+    /// Until the drag is steady.
+    settle: f64,
+}
+
+/// Far enough for the values of an unbounded stream.
+const WIDE: Stream = Stream {
+    before: 4,
+    behind: 8,
+    half_width: 5,
+    settle: 20.0,
+};
+/// The same flow on every grid, to compare grids with each other: small, so that fine ones are affordable.
+const NARROW: Stream = Stream {
+    before: 3,
+    behind: 5,
+    half_width: 3,
+    settle: 12.0,
+};
+
+/// What a body in a stream feels.
+pub struct Drag {
+    /// Coefficient, of ρU²/2 and the section.
+    pub coefficient: f64,
+    /// Relaxation time.
+    pub tau: f64,
+    /// Largest y⁺ half a cell from the body.
+    pub y_plus: Option<f64>,
+    /// What was run.
+    pub trial: Trial,
+}
+
+/// A cube of `size` cells, face on, in the narrow stream; its Reynolds number is that of its edge.
+///
+/// # Errors
+/// If the flow leaves the range of the method, or the device is lost or silent.
+pub fn cube_on(stand: &Stand, size: u32, reynolds: f64, method: Method) -> anyhow::Result<Drag> {
+    let edge = f64::from(size);
+    let shape = BlockShape::Box { size: [edge; 3] };
+    let mut drag = NARROW.drag(stand, shape, (size, edge / reynolds), method)?;
+    drag.coefficient /= edge * edge;
+    Ok(drag)
+}
+
+impl Stream {
+    /// Drag of the whole body with the viscosity `SPEED` × `scale`, for a section of one cell.
+    fn drag(
+        &self,
+        stand: &Stand,
+        shape: BlockShape,
+        (size, scale): (u32, f64),
+        method: Method,
+    ) -> anyhow::Result<Drag> {
+        let tau = 0.5 + 3.0 * SPEED * scale;
+        let side = self.half_width * size;
+        let mut scene = tank::scene([(self.before + self.behind) * size, side, side], tau)?;
+        let stream = [SPEED, 0.0, 0.0];
+        scene.initial.velocity = numbers(stream);
+        let faces = &mut scene.boundaries;
+        faces.x_min = Boundary::Velocity {
+            velocity: numbers(stream),
+        };
+        faces.x_max = Boundary::Pressure {
+            pressure: 0.0,
+            reflecting: false,
+        };
+        (faces.y_min, faces.y_max) = (Boundary::FreeSlip, Boundary::FreeSlip);
+        (faces.z_min, faces.z_max) = (Boundary::FreeSlip, Boundary::FreeSlip);
+        let at = [f64::from(self.before * size), 0.0, 0.0];
+        scene.blocks.push(block(shape, at, Motion::Driven));
+        let steps = |times: f64| (times * f64::from(size) / SPEED) as u64;
+        const READINGS: u64 = 40;
+        let every = steps(MEAN) / READINGS;
+        scene.coupling.interval = every as u32;
+        method.choose(&mut scene);
+        let mut tank = Tank::fill(stand, &scene)?;
+        tank.advance(steps(self.settle) / every * every)?;
+        let mut sum = 0.0;
+        for _ in 0..READINGS {
+            tank.advance(every)?;
+            sum += tank.felt(0).flow.force.x;
+        }
+        // Four quarters, and ρ = 1.
+        let force = 4.0 * sum / READINGS as f64;
+        Ok(Drag {
+            coefficient: force / (0.5 * SPEED * SPEED),
+            tau,
+            y_plus: tank.y_plus()?,
+            trial: tank.trial("a quarter between planes of symmetry"),
+        })
     }
-    let what = "a quarter between planes of symmetry";
-    Ok((4.0 * sum / READINGS as f64, tank.trial(what)))
 }

@@ -2,7 +2,7 @@
 //! go 0.12 m above the floor of a tank of 0.1 × 0.1 × 0.16 m.
 
 use super::{
-    super::{Outcome, Stand, Trial},
+    super::{Method, Outcome, Stand, Trial},
     tank::Tank,
 };
 use crate::picture::{Chart, Curve, Mark, Measure};
@@ -10,30 +10,36 @@ use anyhow::Context;
 use riprap::scene::Scene;
 use std::path::Path;
 
-const RADIUS: f64 = 7.5e-3;
+pub const RADIUS: f64 = 7.5e-3;
+/// Edge of the tank's floor, m.
+pub const EDGE: f64 = 0.1;
+/// Largest velocity in lattice units, on coarse grids.
+pub const SPEED: f64 = 0.03;
 /// Samples of a trajectory.
 const SAMPLES: f64 = 100.0;
 
 /// One of their experiments.
-struct Oil {
+pub struct Oil {
     name: &'static str,
     /// kg/m³.
     density: f64,
     /// Pa s.
     viscosity: f64,
     /// Largest velocity found, m/s: of the velocity in an infinite tank the given part.
-    fastest: f64,
+    pub fastest: f64,
     /// Until the sphere is near the floor, s.
     time: f64,
 }
 
-const E1: Oil = Oil {
+/// The slow one.
+pub const E1: Oil = Oil {
     name: "E1",
     density: 970.0,
     viscosity: 0.373,
     fastest: 0.947 * 0.038,
     time: 3.2,
 };
+/// The fast one.
 const E4: Oil = Oil {
     name: "E4",
     density: 960.0,
@@ -42,17 +48,33 @@ const E4: Oil = Oil {
     time: 1.0,
 };
 
-struct Fall {
+/// What a fall shows.
+pub struct Fall {
     /// Time, s, and height of the gap below the sphere, m.
     gap: Vec<[f64; 2]>,
-    fastest: f64,
-    trial: Trial,
+    /// Largest velocity, m/s.
+    pub fastest: f64,
+    /// Relaxation time.
+    pub tau: f64,
+    /// Largest y⁺ half a cell from the sphere at the end.
+    pub y_plus: Option<f64>,
+    /// What was run.
+    pub trial: Trial,
 }
 
 impl Oil {
-    /// With `cells` along the edge of 0.1 m and the largest velocity `speed` in lattice units.
-    fn fall(&self, stand: &Stand, cells: u32, speed: f64, time: f64) -> anyhow::Result<Fall> {
-        let cell = 0.1 / f64::from(cells);
+    /// With `cells` along the edge of the floor and the largest velocity `speed` in lattice units, until `time` (s).
+    ///
+    /// # Errors
+    /// If the flow leaves the range of the method, or the device is lost or silent.
+    pub fn fall(
+        &self,
+        stand: &Stand,
+        (cells, speed): (u32, f64),
+        time: f64,
+        method: Method,
+    ) -> anyhow::Result<Fall> {
+        let cell = EDGE / f64::from(cells);
         let time_step = speed * cell / self.fastest;
         let (density, nu) = (self.density, self.viscosity / self.density);
         // The water is weightless and gravity in the rock: it drives no flow, and its weight would compress it.
@@ -80,7 +102,8 @@ impl Oil {
             position = [0.05, 0.05, 0.1275]
             "#
         );
-        let scene = Scene::from_toml(&text, Path::new("."), self.name)?;
+        let mut scene = Scene::from_toml(&text, Path::new("."), self.name)?;
+        method.choose(&mut scene);
         let mut tank = Tank::fill(stand, &scene)?;
         let every = (time / time_step / SAMPLES) as u64;
         let (mut gap, mut fastest) = (Vec::new(), 0.0f64);
@@ -94,15 +117,19 @@ impl Oil {
         Ok(Fall {
             gap,
             fastest,
+            tau: tank.simulation.lattice().setup().tau(),
+            y_plus: tank.y_plus()?,
             trial: tank.trial(&what),
         })
     }
 }
 
+/// From then on the velocity of the slow one changes by less than 0.5 % until the floor is near, s.
+pub const E1_FASTEST: f64 = 1.4;
+
 /// The slow one, until it is fastest, with 6 cells across the sphere.
 pub fn short(stand: &Stand) -> Outcome {
-    // From 1.3 s on the velocity changes by less than 0.5 % until the floor is near.
-    let fall = E1.fall(stand, 40, 0.03, 1.4)?;
+    let fall = E1.fall(stand, (40, SPEED), E1_FASTEST, Method::DEFAULT)?;
     let ratio = fall.fastest / E1.fastest;
     let quantity = "largest velocity / measured, E1, D = 6";
     Ok(vec![fall.trial.relative(quantity, ratio, 1.0, 2e-2)])
@@ -115,7 +142,7 @@ pub fn whole(stand: &Stand) -> Outcome {
     for (oil, speed) in [(E1, 0.02), (E4, 0.03)] {
         let mut before: Option<Fall> = None;
         for cells in grids {
-            let fall = oil.fall(stand, cells, speed, oil.time)?;
+            let fall = oil.fall(stand, (cells, speed), oil.time, Method::DEFAULT)?;
             let name = format!("{}, D = {}", oil.name, f64::from(cells) * 0.15);
             let ratio = fall.fastest / oil.fastest;
             let quantity = format!("largest velocity / measured, {name}");

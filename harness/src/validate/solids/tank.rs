@@ -1,6 +1,10 @@
 //! Blocks in a tank whose cell is 1 m, step 1 s and fluid 1 kg/m³: SI and lattice units are the same.
 
-use super::super::{Stand, Trial, record::describe};
+use super::super::{
+    Stand, Trial,
+    record::describe,
+    stopwatch::{Spent, Stopwatch, WARM_UP},
+};
 use anyhow::Context;
 use riprap::{
     bodies::Pose,
@@ -108,6 +112,7 @@ pub struct Tank<'a> {
     /// What runs.
     pub simulation: Simulation,
     seconds: f64,
+    stepping: Spent,
 }
 
 impl<'a> Tank<'a> {
@@ -122,6 +127,7 @@ impl<'a> Tank<'a> {
             stand,
             simulation: stand.drive("the kernels", made)??,
             seconds: 0.0,
+            stepping: Spent::default(),
         })
     }
 
@@ -135,9 +141,15 @@ impl<'a> Tank<'a> {
         let most = (SUBMISSION / cells).max(1);
         let end = self.simulation.step() + steps;
         while self.simulation.step() < end {
-            let some = most.min(end - self.simulation.step());
+            let warm = self.simulation.step() >= WARM_UP;
+            let some = if warm { most } else { WARM_UP };
+            let some = some.min(end - self.simulation.step());
+            let watch = Stopwatch::start();
             let done = self.simulation.advance(some);
             self.stand.drive("blocks in a fluid", done)??;
+            if warm {
+                watch.stop(&mut self.stepping);
+            }
         }
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(())
@@ -160,6 +172,16 @@ impl<'a> Tank<'a> {
             .ok_or_else(|| anyhow::anyhow!("the scene has no block {block}"))
     }
 
+    /// Largest y⁺ half a cell from a block.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn y_plus(&mut self) -> anyhow::Result<Option<f64>> {
+        let looked = self.simulation.wall_units();
+        let found = self.stand.drive("reading cells beside blocks", looked)??;
+        Ok(found.blocks.map(|cell| cell.y_plus))
+    }
+
     /// Sums over the fluid, that inside blocks too.
     ///
     /// # Errors
@@ -177,6 +199,7 @@ impl<'a> Tank<'a> {
             cells: lattice.grid().cell_count() as u64,
             steps: self.simulation.step(),
             seconds: self.seconds,
+            stepping: self.stepping,
         }
     }
 }

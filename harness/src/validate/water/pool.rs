@@ -1,6 +1,9 @@
 //! Scenes of free water in a plane, in SI.
 
-use super::super::{Stand, Trial};
+use super::super::{
+    Stand, Trial,
+    stopwatch::{Spent, Stopwatch},
+};
 use riprap::{
     bodies::Pose,
     coupling::Felt,
@@ -67,6 +70,7 @@ pub struct Pool<'a> {
     /// What runs.
     pub surface: FreeSurface,
     seconds: f64,
+    stepping: Spent,
 }
 
 impl<'a> Pool<'a> {
@@ -80,6 +84,7 @@ impl<'a> Pool<'a> {
             stand,
             surface: stand.drive("the kernels", made)??,
             seconds: 0.0,
+            stepping: Spent::default(),
         })
     }
 
@@ -90,8 +95,13 @@ impl<'a> Pool<'a> {
     pub fn advance(&mut self, until: f64) -> anyhow::Result<()> {
         let begin = Instant::now();
         while self.surface.time() < until * (1.0 - 1e-9) {
+            let first = self.surface.step() == 0;
+            let watch = Stopwatch::start();
             let done = self.surface.advance(1);
             self.stand.drive("free water", done)??;
+            if !first {
+                watch.stop(&mut self.stepping);
+            }
         }
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(())
@@ -128,6 +138,7 @@ impl<'a> Pool<'a> {
             cells: particles.numbers().water.into(),
             steps: particles.steps(),
             seconds: self.seconds,
+            stepping: self.stepping,
         }
     }
 }

@@ -1,20 +1,24 @@
 //! A standing wave of small amplitude: ω² = g k tanh kH.
 
 use super::{
-    super::{Outcome, Stand},
+    super::{
+        Outcome, Stand, Trial,
+        stopwatch::{Spent, Stopwatch},
+    },
     pool::{self, GRAVITY},
 };
 use glam::DVec3;
 use riprap::{
     bodies::Pose,
     particles::{Neighbours, Particles, particle_setup},
+    scene::Scheme,
     simulation::block_setup,
 };
 use std::{f64::consts::PI, time::Instant};
 
 const DEPTH: f64 = 1.0;
 /// Lengths of the tank, which is half a wave long, m.
-const LENGTHS: [f64; 2] = [2.0, 1.0];
+pub const LENGTHS: [f64; 2] = [2.0, 1.0];
 /// Amplitude of the surface, of the depth.
 const STEEPNESS: f64 = 0.02;
 /// Looks a period.
@@ -40,80 +44,119 @@ pub fn run(stand: &Stand) -> Outcome {
         .iter()
         .flat_map(|n| LENGTHS.map(|length| (*n, length)))
     {
-        let k = PI / length;
-        let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
-        let period = 2.0 * PI / omega;
-        let spacing = DEPTH / f64::from(layers);
-        let scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
-        let blocks = block_setup(&scene)?;
-        let (mut setup, start) = particle_setup(&scene, &blocks)?;
-        if stand.software {
-            setup.neighbours = Neighbours::Lists;
-        }
-        let amplitude = STEEPNESS * DEPTH;
-        let velocities: Vec<DVec3> = start
-            .positions
-            .iter()
-            .map(|x| amplitude * flow(*x, k, omega))
-            .collect();
-        let (device, queue) = (&stand.device, &stand.queue);
-        let positions = &start.positions;
-        let mut water = Particles::new(
-            device,
-            queue,
-            setup,
-            positions,
-            &velocities,
-            &start.pressures,
-        )?;
-        let poses: Vec<Pose> = blocks
-            .setup
-            .blocks
-            .iter()
-            .map(|b| Pose::rigid(b.centre, b.rotation, DVec3::ZERO, DVec3::ZERO))
-            .collect();
-        let begin = Instant::now();
-        // How much of the wave's flow is in the velocities, over time.
-        let mut shares = vec![1.0];
-        for _ in 0..(PERIODS * LOOKS) as usize {
-            let done = water.advance(device, queue, &poses, period / LOOKS);
-            stand.drive("a wave", done)??;
-            let now = stand.drive("reading particles", water.water(device, queue))??;
-            let (mut with, mut of) = (0.0, 0.0);
-            for n in 0..now.len() {
-                let mode = flow(now.positions[n], k, omega);
-                with += now.velocities[n].as_dvec3().dot(mode);
-                of += mode.length_squared();
-            }
-            shares.push(with / of / amplitude);
-        }
-        let trial = super::super::Trial {
-            setup: format!("standing wave, kH = {:.2}, H/Δx = {layers}", k * DEPTH),
-            cells: water.numbers().water.into(),
-            steps: water.steps(),
-            seconds: begin.elapsed().as_secs_f64(),
-        };
-        let crossings = crossings(&shares);
-        let (first, last) = (crossings[0], crossings[crossings.len() - 1]);
-        let found = 2.0 * (last - first) / (crossings.len() - 1) as f64 / LOOKS;
-        // Peaks half a period apart, from the first whole one.
-        let peak = |from: f64, to: f64| {
-            let some = &shares[from as usize..=(to as usize).min(shares.len() - 1)];
-            some.iter()
-                .fold(0.0, |most: f64, share| most.max(share.abs()))
-        };
-        let early = peak(first, crossings[1]);
-        let late = peak(crossings[crossings.len() - 2], last);
-        let periods = 0.5 * (crossings.len() - 2) as f64;
-        let loss = 1.0 - (late / early).powf(1.0 / periods);
-        records.push(trial.relative(format!("period / exact, H/Δx = {layers}"), found, 1.0, 0.01));
-        records.push(trial.at_most(
-            format!("amplitude lost a period, H/Δx = {layers}"),
+        let Wave {
+            trial,
+            period,
             loss,
-            0.05,
-        ));
+        } = measure(stand, layers, length, Scheme::Delta)?;
+        let name = |what: &str| format!("{what}, H/Δx = {layers}");
+        records.push(trial.relative(name("period / exact"), period, 1.0, 0.01));
+        records.push(trial.at_most(name("amplitude lost a period"), loss, 0.05));
     }
     Ok(records)
+}
+
+/// What a standing wave shows.
+pub struct Wave {
+    /// What was run.
+    pub trial: Trial,
+    /// Period, of the exact one.
+    pub period: f64,
+    /// Part of the amplitude that is lost in a period.
+    pub loss: f64,
+}
+
+/// A tank `layers` spacings deep and `length` (m) long.
+///
+/// # Errors
+/// If the water leaves the range of the method or has no wave, or the device is lost or silent.
+pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyhow::Result<Wave> {
+    let k = PI / length;
+    let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
+    let period = 2.0 * PI / omega;
+    let spacing = DEPTH / f64::from(layers);
+    let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
+    pool::choose(&mut scene, scheme);
+    let blocks = block_setup(&scene)?;
+    let (mut setup, start) = particle_setup(&scene, &blocks)?;
+    if stand.software {
+        setup.neighbours = Neighbours::Lists;
+    }
+    let amplitude = STEEPNESS * DEPTH;
+    let velocities: Vec<DVec3> = start
+        .positions
+        .iter()
+        .map(|x| amplitude * flow(*x, k, omega))
+        .collect();
+    let (device, queue) = (&stand.device, &stand.queue);
+    let positions = &start.positions;
+    let mut water = Particles::new(
+        device,
+        queue,
+        setup,
+        positions,
+        &velocities,
+        &start.pressures,
+    )?;
+    let poses: Vec<Pose> = blocks
+        .setup
+        .blocks
+        .iter()
+        .map(|b| Pose::rigid(b.centre, b.rotation, DVec3::ZERO, DVec3::ZERO))
+        .collect();
+    let begin = Instant::now();
+    let mut stepping = Spent::default();
+    // How much of the wave's flow is in the velocities, over time.
+    let mut shares = vec![1.0];
+    let (mut steps, mut timed) = (0, 0);
+    for look in 0..(PERIODS * LOOKS) as usize {
+        let watch = Stopwatch::start();
+        let done = water.advance(device, queue, &poses, period / LOOKS);
+        stand.drive("a wave", done)??;
+        let now = stand.drive("reading particles", water.water(device, queue))??;
+        // Drivers compile at the first look.
+        if look > 0 {
+            watch.stop(&mut stepping);
+            timed += water.steps() - steps;
+        }
+        steps = water.steps();
+        let (mut with, mut of) = (0.0, 0.0);
+        for n in 0..now.len() {
+            let mode = flow(now.positions[n], k, omega);
+            with += now.velocities[n].as_dvec3().dot(mode);
+            of += mode.length_squared();
+        }
+        shares.push(with / of / amplitude);
+    }
+    let trial = Trial {
+        setup: format!("standing wave, kH = {:.2}, H/Δx = {layers}", k * DEPTH),
+        cells: water.numbers().water.into(),
+        steps,
+        seconds: begin.elapsed().as_secs_f64(),
+        stepping: stepping.scaled(steps as f64 / timed.max(1) as f64),
+    };
+    let crossings = crossings(&shares);
+    anyhow::ensure!(
+        crossings.len() > 2,
+        "there is no wave: the velocity changes its sign {} times in {PERIODS} periods",
+        crossings.len()
+    );
+    let (first, last) = (crossings[0], crossings[crossings.len() - 1]);
+    let found = 2.0 * (last - first) / (crossings.len() - 1) as f64 / LOOKS;
+    // Peaks half a period apart, from the first whole one.
+    let peak = |from: f64, to: f64| {
+        let some = &shares[from as usize..=(to as usize).min(shares.len() - 1)];
+        some.iter()
+            .fold(0.0, |most: f64, share| most.max(share.abs()))
+    };
+    let early = peak(first, crossings[1]);
+    let late = peak(crossings[crossings.len() - 2], last);
+    let periods = 0.5 * (crossings.len() - 2) as f64;
+    Ok(Wave {
+        trial,
+        period: found,
+        loss: 1.0 - (late / early).powf(1.0 / periods),
+    })
 }
 
 /// Where a row of numbers passes zero, between them.

@@ -1,0 +1,262 @@
+//! How far forces may be off, from what `riprap report` has measured.
+//!
+//! The table is that of the report that ships, so that both say the same: the drag on spheres in creeping flow over
+//! resolution and relaxation time, that on cubes in streams, and Poiseuille flow. Where a scene lies between runs, the
+//! band is that of the errors of the runs around it.
+
+use crate::{print::percent, report::Row};
+use riprap::{
+    scene::{Axis, Boundary, Face},
+    simulation::{SUBLAYER, Simulation},
+};
+use serde::Serialize;
+
+/// The report that ships.
+const MEASURED: &str = include_str!("../../results/report_lavapipe_2_cores/report.csv");
+/// Classes of blocks in it with their Reynolds numbers.
+const BLOCKS: [(&str, f64, &str); 3] = [
+    ("sphere-array", 0.0, "sphere arrays"),
+    ("cube-re20", 20.0, "a cube at Re 20"),
+    ("cube-re100", 100.0, "a cube at Re 100"),
+];
+/// The class of channels.
+const CHANNEL: &str = "poiseuille";
+
+/// The error that is to be expected, as a part of the force.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// What the force is.
+    pub of: &'static str,
+    /// Cells across the narrowest block, or between the walls.
+    pub across: f64,
+    /// Relaxation time.
+    pub tau: f64,
+    /// y⁺ half a cell from the surface where the stream reaches the first cell, √(½ U Δx/ν): at edges it does. None
+    /// where no speed is known.
+    pub y_plus: Option<f64>,
+    /// Least and largest error of the runs around it.
+    pub band: [f64; 2],
+    /// Whether the flow is one of those that were measured, or faster: then the band says little.
+    pub known: bool,
+    /// What was measured.
+    pub measured: Vec<&'static str>,
+    /// In what the scene is beyond that.
+    pub beyond: Vec<String>,
+}
+
+/// A scene as far as the table goes.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    across: f64,
+    tau: f64,
+    /// U D/ν of a block, if a speed is known.
+    reynolds: Option<f64>,
+}
+
+impl Accuracy {
+    /// Of the blocks in a fluid, and of the walls beside it; `speed` (m/s) is that of the fluid.
+    pub fn all(simulation: &Simulation, speed: Option<f64>) -> Vec<Self> {
+        let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
+        let scene = simulation.scene();
+        let tau = simulation.lattice().setup().tau();
+        let cell = scene.domain.cell;
+        let narrowest = simulation.coupled().and_then(|coupled| coupled.narrowest());
+        let blocks = narrowest.and_then(|width| {
+            let asked = Asked {
+                across: width / cell,
+                tau,
+                reynolds: speed.map(|speed| speed * width / scene.fluid.viscosity),
+            };
+            of_blocks(&rows, asked)
+        });
+        let walls = Axis::ALL.into_iter().filter(|axis| {
+            let mut faces = scene
+                .boundaries
+                .iter()
+                .filter(|(face, _)| face.axis() == *axis);
+            faces.all(|(_, boundary): (Face, &Boundary)| matches!(boundary, Boundary::Wall { .. }))
+        });
+        let narrow = walls.map(|axis| scene.cells()[axis.index()]).min();
+        let walls = narrow.and_then(|cells| of_walls(&rows, f64::from(cells), tau));
+        blocks.into_iter().chain(walls).collect()
+    }
+
+    /// It in a line.
+    pub fn text(&self) -> String {
+        let [low, high] = self.band.map(percent);
+        let band = match low == high {
+            true => format!("about {high}"),
+            false => format!("{} to {high}", low.trim_end_matches(" %")),
+        };
+        let y_plus = self
+            .y_plus
+            .map_or(String::new(), |y| format!(", y⁺ about {y:.1}"));
+        let band = match self.known {
+            true => band,
+            false => format!("not measured at this speed, {band} below it"),
+        };
+        let beyond: String = self.beyond.iter().map(|what| format!("; {what}")).collect();
+        format!(
+            "expected error of {}: {band} ({:.1} cells, τ = {:.3}{y_plus}; measured on {}{beyond})",
+            self.of,
+            self.across,
+            self.tau,
+            self.measured.join(" and ")
+        )
+    }
+}
+
+/// The drag on blocks.
+fn of_blocks(rows: &[Row], asked: Asked) -> Option<Accuracy> {
+    let Asked {
+        across,
+        tau,
+        reynolds,
+    } = asked;
+    let [slow, fast] = around(
+        BLOCKS.iter().map(|class| class.1),
+        reynolds.unwrap_or_default(),
+    )?;
+    let classes = BLOCKS
+        .iter()
+        .filter(|class| (slow..=fast).contains(&class.1));
+    let (mut near, mut measured) = (Vec::new(), Vec::new());
+    for (class, _, name) in classes {
+        let default = rows.iter().filter(|row| row.class == *class && row.default);
+        let some = neighbours(&default.collect::<Vec<_>>(), across, tau);
+        if !some.is_empty() {
+            measured.push(*name);
+        }
+        near.extend(some);
+    }
+    let y_plus = reynolds.map(|reynolds| (reynolds / (2.0 * across)).sqrt());
+    let mut beyond = Vec::new();
+    let most = |value: fn(&Row) -> Option<f64>| {
+        let values = rows.iter().filter(|row| row.default).filter_map(value);
+        values.fold(0.0, f64::max)
+    };
+    let fastest = BLOCKS[BLOCKS.len() - 1].1;
+    if let Some(reynolds) = reynolds.filter(|reynolds| *reynolds > fastest) {
+        beyond.push(format!(
+            "the Reynolds number is {reynolds:.1e}, beyond those"
+        ));
+    }
+    let resolved = most(|row| row.y_plus).max(SUBLAYER);
+    if y_plus.is_some_and(|y_plus| y_plus > resolved) {
+        beyond.push("at this y⁺ friction is not resolved, and comes out too small".into());
+    }
+    let found = Accuracy::of("drag on blocks", asked, y_plus, (&near, measured, beyond))?;
+    Some(Accuracy {
+        known: reynolds.is_none_or(|reynolds| reynolds <= fastest),
+        ..found
+    })
+}
+
+/// The shear at two walls with a given flow between them.
+fn of_walls(rows: &[Row], across: f64, tau: f64) -> Option<Accuracy> {
+    let default = rows
+        .iter()
+        .filter(|row| row.class == CHANNEL && row.default);
+    let near = neighbours(&default.collect::<Vec<_>>(), across, tau);
+    let asked = Asked {
+        across,
+        tau,
+        reynolds: None,
+    };
+    let measured = vec!["Poiseuille flow"];
+    let of = "laminar shear at the walls";
+    Accuracy::of(of, asked, None, (&near, measured, Vec::new()))
+}
+
+impl Accuracy {
+    /// The band of the rows that are near.
+    fn of(
+        of: &'static str,
+        asked: Asked,
+        y_plus: Option<f64>,
+        (near, measured, mut beyond): (&[&Row], Vec<&'static str>, Vec<String>),
+    ) -> Option<Self> {
+        let errors = near.iter().filter_map(|row| row.certain_error());
+        let band = errors.fold([f64::INFINITY, 0.0], |[low, high], error| {
+            [error.min(low), error.max(high)]
+        });
+        let range = |value: &dyn Fn(&Row) -> Option<f64>| {
+            let values = near.iter().filter_map(|row| value(row));
+            values.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], v| {
+                [v.min(low), v.max(high)]
+            })
+        };
+        let [coarsest, finest] = range(&|row| Some(row.resolution));
+        if asked.across < 0.99 * coarsest {
+            beyond.push(format!(
+                "coarser than those, {coarsest:.1} cells: expect more"
+            ));
+        } else if asked.across > 1.01 * finest {
+            beyond.push(format!("finer than those, {finest:.1} cells"));
+        }
+        let [low, high] = range(&|row| row.tau);
+        if asked.tau < low - 0.01 || asked.tau > high + 0.01 {
+            beyond.push(match low == high {
+                true => format!("τ = {low:.3} there"),
+                false => format!("τ = {low:.3} to {high:.3} there"),
+            });
+        }
+        (!near.is_empty()).then_some(Self {
+            of,
+            across: asked.across,
+            tau: asked.tau,
+            y_plus,
+            band,
+            known: true,
+            measured,
+            beyond,
+        })
+    }
+}
+
+/// The rows with an error around a resolution and, at each of both resolutions, around a relaxation time.
+fn neighbours<'a>(rows: &[&'a Row], across: f64, tau: f64) -> Vec<&'a Row> {
+    let known: Vec<&Row> = rows
+        .iter()
+        .copied()
+        .filter(|row| row.error.is_some())
+        .collect();
+    let Some(sizes) = around(known.iter().map(|row| row.resolution), across) else {
+        return Vec::new();
+    };
+    let mut found: Vec<&Row> = Vec::new();
+    for (n, size) in sizes.into_iter().enumerate() {
+        // Both are the same where the scene is beyond the table.
+        if n > 0 && size == sizes[0] {
+            continue;
+        }
+        let same: Vec<&Row> = known
+            .iter()
+            .copied()
+            .filter(|row| row.resolution == size)
+            .collect();
+        let taus = around(same.iter().filter_map(|row| row.tau), tau);
+        let near = |row: &&Row| {
+            let near = |[low, high]: [f64; 2]| row.tau.is_some_and(|t| (low..=high).contains(&t));
+            taus.is_none_or(near)
+        };
+        found.extend(same.into_iter().filter(near));
+    }
+    found
+}
+
+/// The values next to `x` on both sides; the last one twice where there is none beyond it.
+fn around(values: impl Iterator<Item = f64>, x: f64) -> Option<[f64; 2]> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let below = sorted.iter().copied().rfind(|value| *value <= x);
+    let above = sorted.iter().copied().find(|value| *value >= x);
+    Some([
+        below.or(sorted.first().copied())?,
+        above.or(sorted.last().copied())?,
+    ])
+}
+
+#[cfg(test)]
+#[path = "accuracy_tests.rs"]
+mod tests;

@@ -1,0 +1,99 @@
+//! Classes of scenes, and the settings by which each is computed.
+
+use super::{blocks, flows, water};
+use crate::validate::{Method, Stand, Trial};
+
+/// What a point shows.
+pub struct Found {
+    /// What was run.
+    pub trial: Trial,
+    /// The number that the class judges.
+    pub value: f64,
+    /// Relaxation time, of a lattice.
+    pub tau: Option<f64>,
+    /// Largest y⁺ half a cell from a block.
+    pub y_plus: Option<f64>,
+}
+
+/// Computes a point.
+pub type Run = Box<dyn Fn(&Stand) -> anyhow::Result<Found>>;
+
+/// One point of a diagram: a setting on a grid.
+pub struct Point {
+    /// Name of the setting: that of the curve.
+    pub setting: String,
+    /// Whether all that the library chooses is as it chooses it.
+    pub default: bool,
+    /// How fine the grid is, in the measure of the class.
+    pub resolution: f64,
+    /// Computes it.
+    pub run: Run,
+}
+
+/// What the value of a class is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reference {
+    /// The value is the error.
+    None,
+    /// A number that is known, and the part of it by which it may be off.
+    Known(f64, f64),
+    /// The limit of the first three points, which have the default setting on grids each twice as fine as the one
+    /// before.
+    Limit,
+}
+
+/// Scenes of a kind.
+pub struct Class {
+    /// Short name, as in the table.
+    pub name: &'static str,
+    /// What it is.
+    pub title: &'static str,
+    /// What the error is, and of what.
+    pub error: &'static str,
+    /// What the resolution counts.
+    pub resolution: &'static str,
+    /// What an update is of.
+    pub update: &'static str,
+    /// What the value is compared with.
+    pub reference: Reference,
+    /// Its points, in their order.
+    pub points: Vec<Point>,
+}
+
+/// All classes; with `full` on the grids for a GPU.
+pub fn classes(full: bool) -> Vec<Class> {
+    vec![
+        flows::taylor_green(full),
+        flows::poiseuille(full),
+        flows::cavity(full),
+        blocks::array(full),
+        blocks::cube(full, 20.0),
+        blocks::cube(full, 100.0),
+        blocks::settling(full),
+        water::still(full),
+        water::wave(full),
+        water::dam(full),
+    ]
+}
+
+impl Point {
+    /// A lattice by `method` on a grid.
+    pub fn by(
+        method: Method,
+        resolution: f64,
+        run: impl Fn(&Stand) -> anyhow::Result<Found> + 'static,
+    ) -> Self {
+        Self {
+            setting: method.name.into(),
+            default: method.name == Method::DEFAULT.name,
+            resolution,
+            run: Box::new(run),
+        }
+    }
+
+    /// The same under a name that says more; without a comma, since tables hold it.
+    pub fn with(mut self, what: &str) -> Self {
+        self.setting = format!("{} at {what}", self.setting);
+        self
+    }
+}

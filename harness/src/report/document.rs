@@ -1,0 +1,239 @@
+//! All that a report holds: rows, findings and noise, in words, as JSON and as pictures.
+
+use super::{
+    class::Class,
+    computed,
+    finding::{Finding, SAME, TARGETS},
+    page,
+    row::{Cost, Row},
+};
+use crate::{
+    bench::Machine,
+    picture::{Chart, Curve, Mark, Measure},
+    print::percent,
+    validate::Stand,
+};
+use riprap::output::replace;
+use serde::Serialize;
+use std::path::Path;
+
+/// What counts as run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Time {
+    /// CPU time of all threads: a busy machine distorts it least.
+    Cpu,
+    /// By the clock on the wall.
+    Wall,
+}
+
+impl Time {
+    pub(super) fn of(self) -> Cost {
+        match self {
+            Self::Cpu => |row| row.cpu_seconds,
+            Self::Wall => |row| row.wall_seconds,
+        }
+    }
+
+    pub(super) fn axis(self) -> &'static str {
+        match self {
+            Self::Cpu => "CPU time, all threads, s",
+            Self::Wall => "run time, s",
+        }
+    }
+
+    pub(super) fn says(self) -> &'static str {
+        match self {
+            Self::Cpu => {
+                "the CPU time of the steps, of all threads together, without read-outs and without the first four, at which \
+                 the driver compiles"
+            }
+            Self::Wall => {
+                "the time of the steps by the clock on the wall, without read-outs and without the first four, at which the \
+                 driver compiles"
+            }
+        }
+    }
+}
+
+/// A run that was done twice.
+#[derive(Clone, Debug, Serialize)]
+pub struct Repeat {
+    /// Class of scenes.
+    pub class: String,
+    /// Resolution.
+    pub resolution: f64,
+    /// Its run time both times, s.
+    pub seconds: [f64; 2],
+}
+
+impl Repeat {
+    /// How far both times are apart, as a part of the smaller one.
+    fn apart(&self) -> f64 {
+        let [a, b] = self.seconds;
+        (a - b).abs() / a.min(b)
+    }
+}
+
+/// All that was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Where and when.
+    #[serde(flatten)]
+    pub machine: Machine,
+    /// Whether in the full form.
+    pub full: bool,
+    /// What counts as run time.
+    pub time: Time,
+    /// Runs that were done twice.
+    pub repeats: Vec<Repeat>,
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// What follows from them.
+    pub findings: Vec<Finding>,
+}
+
+impl Report {
+    /// The rows of a class.
+    pub(super) fn of(&self, class: &str) -> Vec<&Row> {
+        self.rows.iter().filter(|row| row.class == class).collect()
+    }
+
+    /// Runs the longest short run with the defaults of a class again.
+    pub(super) fn repeat(&self, stand: &Stand, class: &Class) -> Option<Repeat> {
+        /// Longest run that is done twice, s.
+        const SHORT: f64 = 4.0;
+        let time = self.time.of();
+        let rows = self.of(class.name);
+        let point_of = |row: &Row| class.points.iter().find(|point| row.is_of(point));
+        let (row, point) = rows
+            .iter()
+            .filter_map(|row| Some((row, point_of(row)?)))
+            .filter(|(row, point)| point.default && row.error.is_some() && time(row) < SHORT)
+            .max_by(|(a, _), (b, _)| time(a).total_cmp(&time(b)))?;
+        let again = computed(stand, class, point);
+        Some(Repeat {
+            class: class.name.into(),
+            resolution: row.resolution,
+            seconds: [time(row), time(&again)],
+        })
+    }
+
+    /// How far run times differ from run to run.
+    pub(super) fn noise_says(&self) -> String {
+        let mut all: Vec<f64> = self.repeats.iter().map(Repeat::apart).collect();
+        all.sort_by(f64::total_cmp);
+        match (all.get(all.len() / 2), all.last()) {
+            (Some(middle), Some(most)) => format!(
+                "Noise: of {} runs that were done twice, one a class, the times differ by {} (median), at most {}.",
+                all.len(),
+                percent(*middle),
+                percent(*most)
+            ),
+            _ => "Noise: no run was done twice.".into(),
+        }
+    }
+
+    /// Names of the costs.
+    pub(super) fn costs(&self) -> [&'static str; 2] {
+        ["run time", "updates"]
+    }
+
+    /// Finds the cheapest settings.
+    pub(super) fn conclude(&mut self, classes: &[Class]) {
+        let [time, updates] = self.costs();
+        let all: [Cost; 2] = [self.time.of(), |row| row.updates as f64];
+        // Updates are counted, and have no noise.
+        let noise = self.repeats.iter().map(Repeat::apart).fold(0.0, f64::max);
+        let costs = [
+            (time, all[0], SAME.max(1.0 + noise)),
+            (updates, all[1], SAME),
+        ];
+        let findings = classes.iter().flat_map(|class| {
+            let rows = self.of(class.name);
+            let asked = TARGETS
+                .iter()
+                .flat_map(|target| costs.map(|cost| (*target, cost)));
+            let asked = asked.filter(|_| !rows.is_empty());
+            let found = asked.map(|(target, cost)| Finding::of(class.name, &rows, target, cost));
+            found.collect::<Vec<_>>()
+        });
+        self.findings = findings.collect();
+    }
+
+    /// Whether the defaults follow from the findings, in words.
+    pub(super) fn verdict(&self) -> String {
+        let reached: Vec<_> = self
+            .findings
+            .iter()
+            .filter(|f| f.cheapest.is_some())
+            .collect();
+        let others: Vec<String> = reached
+            .iter()
+            .filter(|finding| finding.follows() == Some(false))
+            .map(|finding| {
+                let by = finding.cheapest.as_ref().map_or("", |c| c.setting.as_str());
+                let cost = match finding.ratio() {
+                    Some(ratio) => format!("{ratio:.1} times the {} of {by}", finding.cost),
+                    None => format!("{by} reaches it, the default does not"),
+                };
+                format!("{} at {} ({cost})", finding.class, percent(finding.target))
+            })
+            .collect();
+        let mut text = format!(
+            "The defaults are the cheapest, or cost as little within noise, in {} of {} questions",
+            reached.len() - others.len(),
+            reached.len()
+        );
+        if !others.is_empty() {
+            text += &format!("; not for {}", others.join("; "));
+        }
+        text + "."
+    }
+
+    /// The diagram of a class over run time, as a picture.
+    pub(super) fn chart(&self, class: &Class) -> Chart {
+        let time = self.time.of();
+        let mut curves: Vec<Curve> = Vec::new();
+        // A picture has eight colours: settings at other relaxation times are on the page.
+        let usual = |row: &&Row| !row.setting.contains(" at ");
+        for row in self.of(class.name).into_iter().filter(usual) {
+            let Some(error) = row.certain_error().filter(|error| *error > 0.0) else {
+                continue;
+            };
+            let at = curves.iter().position(|curve| curve.name == row.setting);
+            let at = at.unwrap_or_else(|| {
+                curves.push(Curve {
+                    name: row.setting.clone(),
+                    points: Vec::new(),
+                    mark: Mark::LinePoints,
+                });
+                curves.len() - 1
+            });
+            curves[at].points.push([time(row), 100.0 * error]);
+        }
+        for curve in &mut curves {
+            curve.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        let (name, unit) = match self.time {
+            Time::Cpu => ("CPU time of all threads", "s"),
+            Time::Wall => ("run time", "s"),
+        };
+        Chart::profile(
+            class.title,
+            Measure::logarithmic(name, unit),
+            Measure::logarithmic("error", "%"),
+            curves,
+        )
+    }
+
+    /// Writes the page and the JSON.
+    pub(super) fn write(&self, folder: &Path, classes: &[Class]) -> anyhow::Result<()> {
+        let json = serde_json::to_string_pretty(self)? + "\n";
+        let html = page::page(self, classes);
+        for (name, text) in [("report.json", json), ("report.html", html)] {
+            replace(&folder.join(name), |file| file.write_all(text.as_bytes()))?;
+        }
+        Ok(())
+    }
+}

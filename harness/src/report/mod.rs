@@ -1,0 +1,176 @@
+//! `riprap report`: work–precision diagrams. Error against run time and against updates, every setting on one plot, and
+//! what follows from them for the defaults.
+//!
+//! A class of scenes is a case of [`crate::validate`] that is run by several settings on several grids. Each point is a
+//! row that is on disk before the next one begins; one that diverges is a row that says so.
+
+mod blocks;
+mod class;
+mod document;
+mod finding;
+mod flows;
+mod limit;
+mod page;
+mod plot;
+mod row;
+mod svg;
+mod water;
+
+pub use document::{Repeat, Report, Time};
+pub use finding::{Choice, Finding, TARGETS};
+pub use row::{Row, Table};
+
+use crate::{bench::Machine, print::percent, validate::Stand};
+use anyhow::Context;
+use class::{Class, Point, Reference, classes};
+use std::{path::PathBuf, time::Instant};
+
+/// Draws error against run time and updates for every setting, and says which is the cheapest.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct Args {
+    /// Finer grids, for a GPU; the short form takes minutes on two cores
+    #[arg(long)]
+    pub full: bool,
+    /// Folder for report.html, report.csv, report.json and a PNG of each class
+    #[arg(long, value_name = "DIR", default_value = "out/report")]
+    pub out: PathBuf,
+    /// Classes of scenes, such as `cube-*`; all without it
+    #[arg(long, value_name = "GLOB")]
+    pub case: Option<String>,
+    /// Go on with the report.csv in the folder, which this adapter began: what it holds does not run again
+    #[arg(long)]
+    pub resume: bool,
+    /// Part of the name of the adapter to use
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+/// Measures and writes.
+///
+/// # Errors
+/// If no class matches, there is no adapter, or a file cannot be written. A point that breaks off is a row.
+pub fn run(args: &Args) -> anyhow::Result<()> {
+    let classes = select(args)?;
+    let stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    let folder = &args.out;
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let path = folder.join("report.csv");
+    let mut table = match args.resume {
+        true => Table::resume(&path)?,
+        false => Table::create(&path)?,
+    };
+    let mut report = Report {
+        machine: Machine::of(&stand.device.adapter_info()),
+        full: args.full,
+        time: match stand.software {
+            true => Time::Cpu,
+            false => Time::Wall,
+        },
+        repeats: Vec::new(),
+        rows: Vec::new(),
+        findings: Vec::new(),
+    };
+    let begin = Instant::now();
+    for class in &classes {
+        println!("{}: {}", class.name, class.title);
+        measure(&stand, class, &mut table)?;
+        report.rows.clone_from(&table.rows);
+        report.repeats.extend(report.repeat(&stand, class));
+        report.conclude(&classes);
+        report.write(folder, &classes)?;
+        let chart = report.chart(class);
+        chart.draw(&folder.join(format!("{}.png", class.name)))?;
+    }
+    println!("{}", report.noise_says());
+    println!("{}", report.verdict());
+    println!(
+        "{} in {}",
+        folder.join("report.html").display(),
+        crate::print::duration(begin.elapsed().as_secs_f64())
+    );
+    Ok(())
+}
+
+/// The classes that match.
+fn select(args: &Args) -> anyhow::Result<Vec<Class>> {
+    let text = args.case.as_deref().unwrap_or("*");
+    let pattern =
+        glob::Pattern::new(text).with_context(|| format!("--case {text} is no pattern"))?;
+    let all = classes(args.full);
+    let names: Vec<_> = all.iter().map(|class| class.name).collect();
+    let names = names.join(", ");
+    let found: Vec<_> = all
+        .into_iter()
+        .filter(|class| pattern.matches(class.name))
+        .collect();
+    anyhow::ensure!(
+        !found.is_empty(),
+        "no class matches --case {text}; there are: {names}"
+    );
+    Ok(found)
+}
+
+/// Computes what the table lacks of a class; its rows are on disk as they come.
+fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()> {
+    let mut reference = match class.reference {
+        Reference::None => Some((None, 0.0)),
+        Reference::Known(value, uncertainty) => Some((Some(value), uncertainty)),
+        Reference::Limit => None,
+    };
+    for (n, point) in class.points.iter().enumerate() {
+        if table.find(class.name, point).is_none() {
+            let mut row = computed(stand, class, point);
+            if let Some((reference, uncertainty)) = reference {
+                row.compare(reference, uncertainty);
+            }
+            println!("{}", told(&row));
+            table.push(row)?;
+        }
+        if reference.is_none() && n == 2 {
+            let three = class.points[..3]
+                .iter()
+                .map(|point| table.find(class.name, point)?.value);
+            // Without its three grids a class has values, and no errors.
+            if let Some(values) = three.collect::<Option<Vec<f64>>>()
+                && let Some(values) = values.first_chunk::<3>()
+            {
+                let (limit, uncertainty) = limit::limit(*values);
+                println!(
+                    "     limit {limit:.6}, off by at most {}",
+                    percent(uncertainty)
+                );
+                let all = table.rows.iter_mut().filter(|row| row.class == class.name);
+                all.for_each(|row| row.compare(Some(limit), uncertainty));
+                table.write()?;
+                reference = Some((Some(limit), uncertainty));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn computed(stand: &Stand, class: &Class, point: &Point) -> Row {
+    let mut row = Row {
+        class: class.name.into(),
+        setting: point.setting.clone(),
+        default: point.default,
+        resolution: point.resolution,
+        ..Row::default()
+    };
+    row.take((point.run)(stand));
+    row
+}
+
+/// A row as a line of the terminal.
+fn told(row: &Row) -> String {
+    format!(
+        "     {:24} {:>7.1} {:>10} {:>9.2e} updates {:>8.2} s CPU {:>8.2} s  {}",
+        row.setting,
+        row.resolution,
+        row.error.map_or("-".into(), percent),
+        row.updates as f64,
+        row.cpu_seconds,
+        row.wall_seconds,
+        row.note
+    )
+}

@@ -1,0 +1,93 @@
+//! Free water by particles, with both schemes.
+
+use super::class::{Class, Found, Point, Reference};
+use crate::validate::{
+    Stand, Trial,
+    water::{dam, still, wave},
+};
+use riprap::scene::Scheme;
+
+/// Both schemes on each number of layers.
+fn both(
+    layers: &[u32],
+    run: impl Fn(&Stand, u32, Scheme) -> anyhow::Result<(Trial, f64)> + Copy + 'static,
+) -> Vec<Point> {
+    let point = |(name, scheme), layers: u32| Point {
+        setting: String::from(name),
+        default: scheme == Scheme::default(),
+        resolution: layers.into(),
+        run: Box::new(move |stand| {
+            let (trial, value) = run(stand, layers, scheme)?;
+            Ok(Found {
+                trial,
+                value,
+                tau: None,
+                y_plus: None,
+            })
+        }),
+    };
+    [("delta", Scheme::Delta), ("mueller", Scheme::Mueller)]
+        .into_iter()
+        .flat_map(|scheme| layers.iter().map(move |layers| point(scheme, *layers)))
+        .collect()
+}
+
+/// Water at rest.
+pub fn still(full: bool) -> Class {
+    let layers: &[u32] = match full {
+        true => &[10, 20, 40, 80],
+        false => &[5, 10, 16],
+    };
+    Class {
+        name: "still-tank",
+        title: "Still tank",
+        error: "L2 error of the pressure, of its norm",
+        resolution: "spacings of depth",
+        update: "particle",
+        reference: Reference::None,
+        points: both(layers, |stand, layers, scheme| {
+            let found = still::measure(stand, layers, scheme)?;
+            Ok((found.trial, found.miss))
+        }),
+    }
+}
+
+/// The first mode of a tank.
+pub fn wave(full: bool) -> Class {
+    let layers: &[u32] = match full {
+        true => &[10, 25, 50],
+        false => &[8, 12],
+    };
+    Class {
+        name: "standing-wave",
+        title: "Standing wave, four depths long",
+        error: "error of the period, against ω² = g k tanh kH",
+        resolution: "spacings of depth",
+        update: "particle",
+        reference: Reference::Known(1.0, 0.0),
+        points: both(layers, |stand, layers, scheme| {
+            let found = wave::measure(stand, layers, wave::LENGTHS[0], scheme)?;
+            Ok((found.trial, found.period))
+        }),
+    }
+}
+
+/// A dam that breaks.
+pub fn dam(full: bool) -> Class {
+    let columns: &[u32] = match full {
+        true => &[10, 20, 40, 80],
+        false => &[8, 12, 16],
+    };
+    Class {
+        name: "dam-break",
+        title: "Dam break",
+        error: "error of the speed of the front, against Martin & Moyce (1952)",
+        resolution: "spacings of the column's width",
+        update: "particle",
+        reference: Reference::Known(dam::SPEED, 0.0),
+        points: both(columns, |stand, columns, scheme| {
+            let (trial, [speed, _]) = dam::front(stand, columns, scheme)?;
+            Ok((trial, speed))
+        }),
+    }
+}

@@ -55,16 +55,24 @@ impl Facet {
         })
     }
 
+    /// Whether it lies along an axis and goes beyond the lower and the upper end of the domain there.
+    fn passes(&self, lattice: &Lattice, axis: usize) -> [bool; 2] {
+        let [low, high] = self.extent(DVec3::AXES[axis]);
+        let along = self.plane.normal[axis].abs() < WITHIN;
+        [
+            along && low <= lattice.low[axis] + lattice.tolerance(),
+            along && high >= lattice.high[axis] - lattice.tolerance(),
+        ]
+    }
+
     /// Whether it lies along an axis, across all of the domain.
     fn spans(&self, lattice: &Lattice, axis: usize) -> bool {
-        let [low, high] = self.extent(DVec3::AXES[axis]);
-        self.plane.normal[axis].abs() < WITHIN
-            && low <= lattice.low[axis] + lattice.tolerance()
-            && high >= lattice.high[axis] - lattice.tolerance()
+        self.passes(lattice, axis) == [true; 2]
     }
 
     /// Points a spacing apart: those of the lattice along an axis that it spans, so that they match the rows
-    /// of the fluid and the ends of a period; along others evenly from edge to edge, both included.
+    /// of the fluid and the ends of a period; so too from one end of the domain, where they meet those of a wall, to
+    /// an edge of its own; along others evenly from edge to edge, both included.
     pub fn points(&self, lattice: &Lattice) -> Vec<DVec3> {
         let spanned = (0..3).find(|axis| self.spans(lattice, *axis));
         let along = match spanned {
@@ -76,9 +84,11 @@ impl Facet {
         let other = (0..3).find(|axis| across[*axis].abs() > 1.0 - WITHIN);
         let across = other.map_or(across, |axis| DVec3::AXES[axis]);
         let range = self.extent(across);
-        let rows = match other.filter(|axis| self.spans(lattice, *axis)) {
-            Some(axis) => lattice.row(axis, range),
-            None => lattice.fitted(range),
+        let rows = match other.map(|axis| (axis, self.passes(lattice, axis))) {
+            Some((axis, [true, true])) => lattice.row(axis, range),
+            Some((axis, [true, false])) => lattice.row_to(axis, range, range[1]),
+            Some((axis, [false, true])) => lattice.row_to(axis, range, range[0]),
+            _ => lattice.fitted(range),
         };
         let origin = self.plane.normal * self.plane.distance;
         let mut points = Vec::new();

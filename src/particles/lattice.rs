@@ -95,6 +95,16 @@ impl Lattice {
             .collect()
     }
 
+    /// The same, and `end` (m) of the range where that is too far from all of them.
+    pub fn row_to(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
+        let mut row = self.row(axis, range);
+        let near = super::crowd::NEAREST * self.spacing;
+        if row.iter().all(|at| (at - end).abs() >= near) {
+            row.push(end);
+        }
+        row
+    }
+
     /// About as many coordinates as the spacing asks for from `from` to `to` (m), those two included.
     pub fn fitted(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let length = to - from;

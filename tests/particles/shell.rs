@@ -259,6 +259,17 @@ fn seams_of_a_compound_leave_no_holes() {
     // In a cubic lattice nowhere is farther from a point than half a diagonal.
     let lattice = 0.75f64.sqrt();
     assert!(widest < lattice * DX, "{} spacings", widest / DX);
+    // Its floor goes on where the wall ends: in the corner between them there is a whole lattice.
+    for i in -4..6 {
+        for k in -2..2 {
+            let place = DVec3::new(f64::from(i) + 0.5, 9.5, f64::from(k) + 0.5) * DX;
+            let near = shells
+                .iter()
+                .map(|s| s.distance(place))
+                .fold(f64::INFINITY, f64::min);
+            assert!(near < 1e-6 * DX, "{i} {k}: {} spacings", near / DX);
+        }
+    }
 }
 
 /// OBJ of a prism across the tank: its section in x and z, clockwise seen from −y.

@@ -11,6 +11,7 @@ mod cloud;
 mod crowd;
 mod facet;
 mod fill;
+mod followed;
 mod frame;
 mod from_scene;
 mod gauges;

@@ -1,7 +1,9 @@
 //! Water of particles on the device.
 
 use super::{
-    Body, Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water, hulls,
+    Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water,
+    followed::Followed,
+    hulls,
     kernels::{Kernels, NUMBERS},
     near,
 };
@@ -41,15 +43,11 @@ pub struct Particles {
     /// Bodies in the order of the device, those with loads first, and the place of each in it.
     order: Vec<usize>,
     number: Vec<usize>,
-    /// How far each shell reaches from the centroid of its body, m.
-    reaches: Vec<f64>,
     /// First particle of each shell in the order of the device, and one more.
     first: Vec<u32>,
     kernels: Kernels,
     clock: Clock,
-    /// How each body moved at the last exchange, and how long that took, s.
-    before: Vec<(DVec3, DMat3)>,
-    lasted: f64,
+    followed: Followed,
     /// Whether the shells that never move are in their places.
     placed: bool,
     report: Option<wgpu::Buffer>,
@@ -57,8 +55,6 @@ pub struct Particles {
     steps: u64,
     /// Whether the next step sorts in any case.
     renewed: bool,
-    /// Where the bodies were at the start of the last exchange.
-    poses: Vec<Pose>,
 }
 
 impl Particles {
@@ -149,26 +145,21 @@ impl Particles {
         if homes.is_empty() {
             queue.write_buffer(&kernels.shell.unsorted, 0, bytemuck::bytes_of(&nowhere));
         }
-        let reach = |body: &Body| body.shell.iter().map(|x| x.length()).fold(0.0, f64::max);
-        let reaches = setup.bodies.iter().map(reach).collect();
         let fastest = velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
         Ok(Self {
             clock: Clock {
                 limit: first_limit(&setup, &frame, fastest),
                 ..Clock::default()
             },
-            before: Vec::new(),
-            lasted: 0.0,
+            followed: Followed::new(&setup.bodies),
             placed: false,
             report: None,
             readback: Readback::default(),
             steps: 0,
             renewed: true,
-            poses: Vec::new(),
             setup,
             frame,
             numbers,
-            reaches,
             order,
             number,
             first,
@@ -232,14 +223,9 @@ impl Particles {
             .map(|(place, &body)| {
                 let pose = &poses[body];
                 let shell = [self.first[place], self.first[place + 1] - self.first[place]];
-                let (mut rate, mut change) = (DVec3::ZERO, DMat3::ZERO);
-                if let Some((velocity, turning)) = self.before.get(body)
-                    && self.setup.bodies[body].accelerates
-                    && self.lasted > 0.0
-                {
-                    rate = (pose.velocity - *velocity) / self.lasted;
-                    change = (pose.deformation_rate - *turning) * (1.0 / self.lasted);
-                }
+                let counts = self.setup.bodies[body].accelerates;
+                let known = self.followed.acceleration(body, pose).filter(|_| counts);
+                let (rate, change) = known.unwrap_or((DVec3::ZERO, DMat3::ZERO));
                 let unit = self.frame.unit_time();
                 Motion::of(
                     self.frame.place(pose.centre),
@@ -257,7 +243,7 @@ impl Particles {
             })
             .collect();
         queue.write_buffer(&self.kernels.motions, 0, bytemuck::cast_slice(&motions));
-        let travel = f64::from(self.clock.travel) + self.jump(poses);
+        let travel = f64::from(self.clock.travel) + self.followed.jump(poses) / self.setup.spacing;
         let stale = self.renewed || self.clock.stale != 0 || travel > self.frame.skin;
         let left = (time / self.frame.unit_time()) as f32;
         self.clock = Clock {
@@ -268,21 +254,15 @@ impl Particles {
             sorts: 0,
             stale: stale.into(),
             travel: if stale { 0.0 } else { travel as f32 },
-            body_speed: self.fastest(poses) as f32,
+            body_speed: (self.followed.fastest(poses) / self.frame.sound_speed()) as f32,
             ..self.clock
         };
         queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
         let none = vec![0.0f32; NUMBERS * self.numbers.loaded.max(1) as usize];
         queue.write_buffer(&self.kernels.loads, 0, bytemuck::cast_slice(&none));
-        self.before = poses
-            .iter()
-            .map(|pose| (pose.velocity, pose.deformation_rate))
-            .collect();
-        self.lasted = time;
+        self.followed.follow(poses, time);
         // Until it is known what the clock has come to.
         self.renewed = true;
-        self.poses.clear();
-        self.poses.extend_from_slice(poses);
     }
 
     /// Has the next step sort the particles anew. Between two such calls their order, and with it the rounding of
@@ -290,26 +270,6 @@ impl Particles {
     /// time of the checkpoint, as [`Particles::restore`] does.
     pub fn renew(&mut self) {
         self.renewed = true;
-    }
-
-    /// How far the bodies are from where the last exchange would have had them, spacings.
-    fn jump(&self, poses: &[Pose]) -> f64 {
-        let jump = |((new, old), reach): ((&Pose, &Pose), &f64)| {
-            let centre = old.centre + self.lasted * old.velocity;
-            let shape = old.deformation + old.deformation_rate * self.lasted;
-            (new.centre - centre).length() + size(new.deformation - shape) * reach
-        };
-        let jumps = poses.iter().zip(&self.poses).zip(&self.reaches).map(jump);
-        jumps.fold(0.0, f64::max) / self.setup.spacing
-    }
-
-    /// The fastest that any particle of a shell moves, in speeds of sound, or somewhat more.
-    fn fastest(&self, poses: &[Pose]) -> f64 {
-        let speed = |(pose, reach): (&Pose, &f64)| {
-            pose.velocity.length() + size(pose.deformation_rate) * reach
-        };
-        let speeds = poses.iter().zip(&self.reaches).map(speed);
-        speeds.fold(0.0, f64::max) / self.frame.sound_speed()
     }
 
     /// Makes the lists of neighbours longer and goes on with the step that waits for it.
@@ -426,8 +386,8 @@ impl Particles {
             limit: self.clock.limit,
             escaped: self.clock.escaped,
             steps: self.steps,
-            lasted: self.lasted,
-            before: self.before.clone(),
+            lasted: self.followed.lasted,
+            before: self.followed.before.clone(),
         }
     }
 
@@ -468,11 +428,9 @@ impl Particles {
             ..Clock::default()
         };
         self.steps = state.steps;
-        self.lasted = state.lasted;
-        self.before.clone_from(&state.before);
+        self.followed = self.followed.restored(&state.before, state.lasted);
         self.placed = false;
         self.renewed = true;
-        self.poses.clear();
         Ok(())
     }
 
@@ -525,11 +483,6 @@ pub struct State {
     pub lasted: f64,
     /// Velocity (m/s) and Ḟ (1/s) of each body at its start.
     pub before: Vec<(DVec3, DMat3)>,
-}
-
-/// Root of the sum of the squares of a matrix, by which it lengthens no vector more.
-fn size(m: DMat3) -> f64 {
-    m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The longest first step, of water that is pushed by gravity alone and moves at `fastest` (m/s), in units of the

@@ -1,10 +1,7 @@
 // Verlet 1967, Phys. Rev. 159:98: the water within the support of each particle of a shell, for several steps.
-// needs invocation, particle_grid, $runs, clock_shared, near
+// needs invocation, particle_grid, $runs, clock_shared, near, list_water
 
-@group(0) @binding(0) var<storage, read> particles: array<Particle>;
-@group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
-@group(0) @binding(4) var<storage, read_write> near_out: array<u32>;
 @group(0) @binding(5) var<storage, read_write> near_counts_out: array<vec2<u32>>;
 @group(0) @binding(6) var<storage, read_write> clock: ClockShared;
 
@@ -23,21 +20,7 @@ fn shell_neighbours(
         near_counts_out[n] = vec2(0u);
         return;
     }
-    let first = near_first(n);
-    let home = cell_of(at);
-    var count = 0u;
-    for (var k = 0; k < RUNS; k++) {
-        let cells = run(home, k);
-        for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
-            let r = between(at, particles[j].at);
-            if (dot(r, r) < LIST_SQUARED) {
-                if (count < CAPACITY) {
-                    near_out[first + 64u * count] = j;
-                }
-                count++;
-            }
-        }
-    }
+    let count = list_water(at, near_first(n));
     near_counts_out[n] = vec2(min(count, CAPACITY));
     if (count > CAPACITY) {
         atomicMax(&clock.shell_crowd, count);

@@ -9,7 +9,7 @@ use riprap::{
     scene::Scene,
     simulation::{FreeSurface, Simulation},
 };
-use std::path::Path;
+use std::{path::Path, time::Duration};
 
 const FLOW: &str = r#"
 domain = { size = [12, 8, 8], cell = 1 }
@@ -103,4 +103,29 @@ fn a_scene_is_not_set_up_on_a_device_that_is_lost() {
         FreeSurface::new(&rig.device, &rig.queue, &scene(WATER)),
     );
     assert!(made.is_err());
+}
+
+/// A buffer that comes back by both ways of waiting, and a future that never comes.
+#[test]
+fn both_ways_of_waiting_end() {
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let buffer = device.create_buffer(&riprap::wgpu::BufferDescriptor {
+        label: None,
+        size: 16,
+        usage: riprap::wgpu::BufferUsages::COPY_DST | riprap::wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    queue.write_buffer(&buffer, 0, &[7; 16]);
+    for looks in [true, false] {
+        let mut readback = riprap::readback::Readback::default();
+        let read = readback.read::<u8>(device, queue, &buffer, 16);
+        let patience = Duration::from_secs(60);
+        let bytes = rig::gpu::drive_by(device, looks, patience, "a buffer", read).unwrap();
+        assert_eq!(bytes.unwrap(), [7; 16]);
+        let never = std::future::pending::<()>();
+        let patience = Duration::from_millis(50);
+        let silent = rig::gpu::drive_by(device, looks, patience, "nothing", never);
+        assert!(matches!(silent, Err(Error::Timeout { .. })));
+    }
 }

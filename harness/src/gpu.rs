@@ -95,12 +95,33 @@ pub fn open(
     pollster::block_on(request).map_err(|e| Error::Device(e.to_string()))
 }
 
+/// Time between two looks at a GPU: short beside a step of it.
+const NAP: Duration = Duration::from_micros(20);
+
 /// Runs `future` to its end, polling the device for it.
+///
+/// A GPU is looked at often, so that the host goes on with what has come while the GPU works on the rest; a CPU adapter
+/// has no other cores than the host, which waits until all is done.
 ///
 /// # Errors
 /// [`Error::Timeout`] if the device is silent for `patience`: drivers may hang on infinite waits.
 pub fn drive<T>(
     device: &wgpu::Device,
+    patience: Duration,
+    what: &str,
+    future: impl Future<Output = T>,
+) -> Result<T> {
+    let looks = !is_software(&device.adapter_info());
+    drive_by(device, looks, patience, what, future)
+}
+
+/// The same, by looks at the device, or by waits for all that was submitted.
+///
+/// # Errors
+/// Those of [`drive`].
+pub fn drive_by<T>(
+    device: &wgpu::Device,
+    looks: bool,
     patience: Duration,
     what: &str,
     future: impl Future<Output = T>,
@@ -117,14 +138,19 @@ pub fn drive<T>(
             return Ok(value);
         }
         let left = patience.saturating_sub(start.elapsed());
-        let waited = device.poll(wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(left.min(Duration::from_secs(1))),
+        let waited = device.poll(match looks {
+            true => wgpu::PollType::Poll,
+            false => wgpu::PollType::Wait {
+                submission_index: None,
+                timeout: Some(left.min(Duration::from_secs(1))),
+            },
         });
-        if let Err(error) = waited
-            && !matches!(error, wgpu::PollError::Timeout)
-        {
-            return Err(Error::DeviceLost(error.to_string()));
+        match waited {
+            Err(wgpu::PollError::Timeout) | Ok(_) => {}
+            Err(error) => return Err(Error::DeviceLost(error.to_string())),
+        }
+        if looks {
+            std::thread::sleep(NAP);
         }
         if start.elapsed() >= patience {
             return Err(Error::Timeout {

@@ -1,6 +1,6 @@
 //! What the fluid does to the faces of blocks, where a probe asks.
 
-use super::Coupled;
+use super::{Coupled, Wet};
 use crate::{
     Result,
     bodies::Pose,
@@ -18,7 +18,7 @@ pub(super) fn asked(scene: &Scene, name: &str) -> [bool; 2] {
     [probes().next().is_some(), probes().any(|faces| faces)]
 }
 
-impl Coupled {
+impl Wet {
     /// Records the sums of what the fluid did to single faces in the step `step`, and their way to the host;
     /// nothing where nobody asks.
     pub fn record_faces(
@@ -40,7 +40,7 @@ impl Coupled {
     /// Waits for the loads on faces that were recorded; they are those at the beginning of the step.
     pub(super) async fn read_faces(&mut self) -> Result<()> {
         for (_, sums) in self.face_reading.finish().await? {
-            let poses = self.blocks.poses();
+            let poses = self.placed.iter().flatten();
             let loads = self.immersed.face_loads(&sums)?;
             let whole = |(loads, pose): (Vec<FaceLoad>, &Pose)| {
                 let load = |load: FaceLoad| {
@@ -49,14 +49,16 @@ impl Coupled {
                 };
                 loads.into_iter().map(load).collect()
             };
-            self.faces = loads.into_iter().zip(&poses).map(whole).collect();
+            self.faces = loads.into_iter().zip(poses).map(whole).collect();
         }
         Ok(())
     }
+}
 
+impl Coupled {
     /// The loads of the fluid on the faces of a block at the last exchange, part by part; none where no probe asks
     /// for them, or before the first exchange.
     pub fn faces(&self, block: usize) -> &[FaceLoad] {
-        self.faces.get(block).map_or(&[], Vec::as_slice)
+        self.wet.faces.get(block).map_or(&[], Vec::as_slice)
     }
 }

@@ -1,13 +1,15 @@
 //! Blocks and a fluid together (Gardner & Sitar 2018, section 4): poses in, loads out.
 //!
-//! [`Coupled`] holds the blocks of a scene and their cells in the lattice. A step puts the blocks where they
-//! are, has the fluid run the bricks that they reach, reads the loads back while the rest of the fluid runs,
-//! and moves the blocks to the end of the step in as many sub-steps as their contacts want.
+//! [`run`] is the loop, for any [`Fluid`]: poses in, loads out. [`Rock`] holds the blocks of a scene, tells the fluid where
+//! they are and how often they want to meet it, and moves them under what they felt, in as many sub-steps as their
+//! contacts want. [`Coupled`] has their cells in a lattice besides, whose fluid runs the bricks that they reach first, and
+//! the rest while their loads are read.
 
 mod advice;
 mod coupled;
 mod faces;
 mod film;
+mod fluid;
 mod gaps;
 mod gathered;
 mod inlets;
@@ -16,9 +18,12 @@ mod joints;
 mod loads;
 mod near;
 mod reading;
+mod rock;
 mod state;
+mod wet;
 
-pub use coupled::{Coupled, Exchanges, Felt};
+pub use coupled::{Coupled, Exchanges};
+pub use fluid::{Fluid, Pace, run};
 pub use gaps::Gap;
 pub(crate) use gaps::gaps;
 pub use gathered::Gathered;
@@ -26,4 +31,6 @@ pub use inner_fluid::{InnerFluid, Matter};
 pub use loads::Ambient;
 pub use near::BlockCell;
 pub use reading::Reading;
+pub use rock::{Company, Felt, Rock};
 pub use state::CoupledState;
+pub(crate) use wet::Wet;

@@ -41,7 +41,7 @@ impl Coupled {
 
     /// Velocity of a block's solid at the place `x` (m) or its image next to the block, m/s.
     pub fn solid_velocity(&self, block: usize, x: DVec3) -> DVec3 {
-        let pose = self.poses()[block];
+        let pose = self.rock.poses()[block];
         let gradient = pose.deformation_rate * pose.deformation.inverse();
         let (cells, periodic) = self.immersed().domain();
         let mut r = x - pose.centre;

@@ -135,23 +135,24 @@ impl Coupled {
     /// # Errors
     /// If the device is lost.
     pub async fn state(&mut self) -> Result<CoupledState> {
-        self.read_loads().await?;
-        let Gathered { last, sum, steps } = &self.gathered;
+        let (rock, wet) = self.sides();
+        wet.read_loads().await?;
+        let Gathered { last, sum, steps } = &wet.gathered;
         let known = last.as_ref().map_or(&[][..], |(_, loads)| loads);
         let of = |loads: &[Load], block: usize| loads.get(block).copied().unwrap_or_default();
-        let tiled = self.immersed.tiled();
+        let tiled = wet.immersed.tiled();
         let block = |block: usize| BlockState {
-            inner: self.inner[block],
+            inner: rock.inner[block],
             last: of(known, block),
             sum: of(sum, block),
-            felt: self.felt[block],
+            felt: rock.felt[block],
             tiled: tiled.get(block).copied().flatten(),
         };
         Ok(CoupledState {
-            snapshot: self.blocks.snapshot(),
+            snapshot: rock.blocks.snapshot(),
             last: last.as_ref().map_or(0, |(step, _)| *step),
             steps: *steps,
-            blocks: (0..self.blocks.len()).map(block).collect(),
+            blocks: (0..rock.blocks.len()).map(block).collect(),
         })
     }
 
@@ -160,36 +161,32 @@ impl Coupled {
     /// # Errors
     /// [`Error::Scene`] if it is of other blocks.
     pub fn restore(&mut self, state: &CoupledState) -> Result<()> {
-        if state.blocks.len() != self.blocks.len() {
+        let in_fluid = self.in_fluid();
+        let (rock, wet) = self.sides();
+        if state.blocks.len() != rock.blocks.len() {
             let message = format!(
                 "it holds {} blocks, these are {} of another scene",
                 state.blocks.len(),
-                self.blocks.len()
+                rock.blocks.len()
             );
             return Err(Error::scene("restart", message));
         }
-        self.blocks
-            .restore(&state.snapshot)
-            .map_err(|error| Error::scene("restart", error.to_string()))?;
-        self.reading.forget();
-        self.face_reading.forget();
-        self.faces.clear();
-        let in_fluid = &state.blocks[..self.in_fluid()];
-        self.gathered = Gathered {
-            last: (state.last > 0).then(|| {
-                (
-                    state.last,
-                    in_fluid.iter().map(|block| block.last).collect(),
-                )
-            }),
-            sum: in_fluid.iter().map(|block| block.sum).collect(),
+        rock.restore(&state.snapshot)?;
+        wet.reading.forget();
+        wet.face_reading.forget();
+        wet.faces.clear();
+        let blocks = &state.blocks[..in_fluid];
+        let last = || blocks.iter().map(|block| block.last).collect();
+        wet.gathered = Gathered {
+            last: (state.last > 0).then(|| (state.last, last())),
+            sum: blocks.iter().map(|block| block.sum).collect(),
             steps: state.steps,
         };
-        self.inner = state.blocks.iter().map(|block| block.inner).collect();
-        self.felt = state.blocks.iter().map(|block| block.felt).collect();
-        let tiled: Vec<_> = in_fluid.iter().map(|block| block.tiled).collect();
-        self.immersed.tile(&tiled);
-        self.placed = false;
+        rock.inner = state.blocks.iter().map(|block| block.inner).collect();
+        rock.felt = state.blocks.iter().map(|block| block.felt).collect();
+        let tiled: Vec<_> = blocks.iter().map(|block| block.tiled).collect();
+        wet.immersed.tile(&tiled);
+        wet.placed = None;
         Ok(())
     }
 }

@@ -7,9 +7,11 @@ mod diverged;
 mod dry;
 mod face_surface;
 mod fields;
+mod flow;
 mod free_surface;
 mod lattice_setup;
 mod needs;
+mod pool;
 mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};
@@ -27,11 +29,12 @@ pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
-    coupling::Coupled,
-    lattice::{self, Collision, Derived, Lattice, Observer, State},
+    coupling::{self, Coupled, Rock},
+    lattice::{Collision, Derived, Lattice, Observer, State},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
 };
+use flow::Flow;
 
 /// A scene that runs.
 ///
@@ -116,11 +119,12 @@ impl Simulation {
     /// blocks cannot move, they are where they were at the last exchange, and the fluid is at the end of the
     /// step; a checkpoint leads back to a state from which all can go on.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
-        let last = self.step() + steps;
-        let mut done = Ok(());
-        while self.step() < last && done.is_ok() {
-            done = self.stretch(last).await;
-        }
+        let end = (self.step() + steps) as f64 * self.units.time_step;
+        let (mut flow, rock) = self.sides();
+        let done = match rock {
+            Some(rock) => coupling::run(&mut flow, rock, end).await,
+            None => flow.run(end).await,
+        };
         let fault = self
             .observer
             .fault(&self.device, &self.queue, &self.lattice)
@@ -133,66 +137,19 @@ impl Simulation {
         self.check_suga().await
     }
 
-    /// Steps in one go until `last`, or until the host has something to do: blocks to move, or a velocity
-    /// that changes to write.
-    async fn stretch(&mut self, last: u64) -> Result<()> {
-        let (device, queue) = (self.device.clone(), self.queue.clone());
-        let mut encoder = device.create_command_encoder(&Default::default());
-        if let Some(coupled) = &mut self.coupled {
-            let lattice = &mut self.lattice;
-            coupled
-                .place(&device, &queue, lattice, &mut encoder)
-                .await?;
-        }
-        loop {
-            let next = self.step() + 1;
-            let coupled = self.coupled.as_ref();
-            if coupled.is_some_and(|coupled| coupled.meets(next, last)) {
-                self.exchange(encoder).await?;
-                let coming = self.changed_faces()?;
-                return self.set_faces(coming);
-            }
-            self.lattice
-                .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-            if let Some(coupled) = self.coupled.as_mut().filter(|c| c.wants(next, last)) {
-                coupled.record_loads(&device, &mut encoder, next);
-            }
-            self.lattice
-                .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
-            let coming = self.changed_faces();
-            let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
-            if self.step() == last || !goes_on {
-                // What is recorded counts as done, whatever the next step lacks.
-                queue.submit([encoder.finish()]);
-                // A velocity that changes is written between two submissions.
-                return self.set_faces(coming?);
-            }
-        }
-    }
-
-    /// The last step of a stretch, at whose end the blocks move, or are asked what they feel: the fluid around
-    /// them runs first, and the rest of it while their loads are read.
-    async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
-        let (device, queue) = (&self.device, &self.queue);
-        let Some(coupled) = &mut self.coupled else {
-            return Ok(());
+    /// The fluid, and the blocks in it.
+    fn sides(&mut self) -> (Flow<'_>, Option<&mut Rock>) {
+        let (rock, wet) = self.coupled.as_mut().map(Coupled::sides).unzip();
+        let flow = Flow {
+            device: &self.device,
+            queue: &self.queue,
+            scene: &self.scene,
+            units: &self.units,
+            lattice: &mut self.lattice,
+            changing: &self.changing,
+            wet,
         };
-        self.lattice
-            .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-        coupled.record_loads(device, &mut encoder, self.lattice.step() + 1);
-        coupled.record_faces(device, &mut encoder, self.lattice.step() + 1);
-        queue.submit([encoder.finish()]);
-        let mut encoder = device.create_command_encoder(&Default::default());
-        self.lattice
-            .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
-        queue.submit([encoder.finish()]);
-        coupled.read_loads().await?;
-        coupled.exchange();
-        if !coupled.moves() {
-            return Ok(());
-        }
-        let until = self.lattice.step() as f64 * self.units.time_step;
-        coupled.advance(until).await
+        (flow, rock)
     }
 
     /// The published operator is unstable where WALE lifts the relaxation time over its bound.
@@ -222,29 +179,6 @@ impl Simulation {
                 self.units.time_step * (bound - 0.5) / (effective - 0.5)
             ),
         ))
-    }
-
-    /// The velocity faces whose values at the present time are not those that they have.
-    fn changed_faces(&self) -> Result<Vec<(Face, Vec<[f32; 3]>)>> {
-        let mut changed = Vec::new();
-        for &face in &self.changing {
-            let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
-            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
-            match &self.lattice.setup().faces[axis][side] {
-                lattice::Face::Velocity(old) if *old == velocity => {}
-                _ => changed.push((face, velocity)),
-            }
-        }
-        Ok(changed)
-    }
-
-    fn set_faces(&mut self, faces: Vec<(Face, Vec<[f32; 3]>)>) -> Result<()> {
-        for (face, velocity) in faces {
-            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
-            self.lattice
-                .set_face_velocity(&self.queue, axis, side, velocity)?;
-        }
-        Ok(())
     }
 
     /// Steps done.
@@ -342,8 +276,7 @@ impl Simulation {
         }
         self.lattice
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
-        let changed = self.changed_faces()?;
-        self.set_faces(changed)
+        self.sides().0.set_faces()
     }
 }
 

@@ -1,0 +1,219 @@
+//! The blocks of a scene beside its fluid, whichever that is.
+
+use super::{InnerFluid, Matter, Pace, loads::sum};
+use crate::{
+    Result,
+    bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
+    broadphase::AutoBroadphase,
+    scene::Scene,
+    simulation::{self, BlockSetup},
+};
+use glam::{DMat3, DVec3};
+
+/// Exchanges that are left out between two looks at the loads while every block rests.
+const REST: u64 = 16;
+/// Share of its weight by which the load on a sleeping block may change and leave it asleep: far above the rounding
+/// of sums over cells and the last swirls in still water, far below what moves a block.
+const STIR: f64 = 1e-3;
+
+/// What a block feels of the fluid, the mean since the exchange before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Felt {
+    /// What the flow does: zero at rest where buoyancy is apart.
+    pub flow: Load,
+    /// Buoyancy, −ρ g Σε, of a fluid whose pressure is counted from the hydrostatic one.
+    pub buoyancy: Load,
+}
+
+/// What blocks want to know of their fluid.
+#[derive(Clone, Copy, Debug)]
+pub struct Company {
+    /// Length of its steps, s: that of blocks that nothing pushes.
+    pub time_step: f64,
+    /// Blocks are held in all exchanges that begin before this time, s.
+    pub hold: f64,
+    /// Density of the fluid that is inside the blocks too, kg/m³; none where they displace it.
+    pub inside: Option<f64>,
+}
+
+/// Blocks that feel a fluid.
+#[derive(Debug)]
+pub struct Rock {
+    pub(super) setup: BlockSetup,
+    pub(super) blocks: Blocks,
+    pub(super) finder: AutoBroadphase,
+    interval: u64,
+    hold: f64,
+    inside: Option<f64>,
+    pub(super) felt: Vec<Felt>,
+    pub(super) inner: Vec<InnerFluid>,
+    /// What blocks go back to if a step of theirs fails; its memory is used again.
+    good: (Snapshot, Vec<InnerFluid>),
+    met: u64,
+}
+
+impl Rock {
+    /// The blocks of a scene, as `setup` has them.
+    ///
+    /// # Errors
+    /// What the blocks lack.
+    pub async fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        setup: BlockSetup,
+        company: Company,
+    ) -> Result<Self> {
+        let mut setup = setup;
+        let free = |block: &Block| block.motion == Motion::Free;
+        if setup.setup.time_step.is_none() && !setup.setup.blocks.iter().any(free) {
+            // No contact limits the step of blocks that nothing pushes.
+            setup.setup.time_step = Some(company.time_step);
+        }
+        let mut finder = simulation::finder(device, queue, scene.rock.search);
+        let blocks = simulation::begin(scene, &setup, &mut finder).await?;
+        Ok(Self {
+            interval: scene.coupling.interval.into(),
+            hold: company.hold,
+            inside: company.inside,
+            felt: vec![Felt::default(); blocks.len()],
+            inner: vec![InnerFluid::default(); blocks.len()],
+            good: (Snapshot::default(), Vec::new()),
+            met: 0,
+            setup,
+            blocks,
+            finder,
+        })
+    }
+
+    /// Where the blocks are and how they move: not at all while they are held.
+    pub fn poses(&self) -> Vec<Pose> {
+        let mut poses = self.blocks.poses();
+        if self.is_held() {
+            for pose in &mut poses {
+                (pose.velocity, pose.deformation_rate) = (DVec3::ZERO, DMat3::ZERO);
+            }
+        }
+        poses
+    }
+
+    /// Whether they are held in an exchange that begins now.
+    fn is_held(&self) -> bool {
+        self.blocks.time() < self.hold
+    }
+
+    /// Whether a block can move at all.
+    pub fn moves(&self) -> bool {
+        (0..self.blocks.len()).any(|block| self.blocks.moves(block))
+    }
+
+    /// How often they want to meet the fluid now.
+    pub fn pace(&self) -> Pace {
+        if !self.moves() {
+            return Pace::Still;
+        }
+        let mut all = self.blocks.asleep().enumerate();
+        match all.all(|(block, asleep)| asleep || !self.blocks.moves(block)) {
+            true => Pace::Asleep(self.interval * REST),
+            false => Pace::Awake(self.interval),
+        }
+    }
+
+    /// Fluid and blocks meet at the time `until` (s): these move on under what they felt since the last time.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::advance`]. The blocks then are where they were.
+    pub async fn meet(&mut self, felt: &[Felt], until: f64) -> Result<()> {
+        self.met += 1;
+        for (old, new) in self.felt.iter_mut().zip(felt) {
+            *old = *new;
+        }
+        if !self.moves() {
+            return Ok(());
+        }
+        if self.is_held() {
+            self.blocks.wait(until);
+            return Ok(());
+        }
+        let dt = until - self.blocks.time();
+        self.blocks.save(&mut self.good.0);
+        self.good.1.clone_from(&self.inner);
+        let poses = self.blocks.poses();
+        let mut loads: Vec<Load> = (0..poses.len())
+            .map(|block| self.load(block, &poses[block], dt))
+            .collect();
+        self.calm(&mut loads);
+        let moved = match self.blocks.load(&loads) {
+            Ok(()) => self.blocks.advance(&mut self.finder, until).await,
+            refused => refused,
+        };
+        if moved.is_err() {
+            self.inner.clone_from(&self.good.1);
+            self.blocks.restore(&self.good.0)?;
+        }
+        moved
+    }
+
+    /// Leaves sleeping blocks the loads that they have, unless theirs have changed so much that it matters.
+    fn calm(&self, loads: &mut [Load]) {
+        let asleep = self.blocks.asleep().zip(self.blocks.loads());
+        for (block, (load, (asleep, [force, torque]))) in loads.iter_mut().zip(asleep).enumerate() {
+            let weight = self.blocks.mass(block) * self.blocks.gravity().length();
+            let scale = STIR * if weight > 0.0 { weight } else { force.length() };
+            let radius = self.setup.setup.blocks[block].shape.radius();
+            if asleep
+                && (load.force - force).length() <= scale
+                && (load.torque() - torque).length() <= scale * radius
+            {
+                (load.force, load.moment) = (force, 0.5 * skew(torque));
+            }
+        }
+    }
+
+    /// The whole load on a block, from the fluid around it and any inside it, over the last `dt` (s).
+    fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
+        let felt = &self.felt[block];
+        let made = &self.setup.setup.blocks[block];
+        let (Some(density), Motion::Free) = (self.inside, &made.motion) else {
+            return sum(felt.flow, felt.buoyancy);
+        };
+        let turn = pose.deformation;
+        let matter = Matter {
+            mass: self.blocks.mass(block),
+            volume: made.shape.volume(),
+            inertia: turn * made.shape.inertia() * turn.transpose(),
+            gravity: self.blocks.gravity(),
+        };
+        self.inner[block].load(felt, pose, &matter, density, dt)
+    }
+
+    /// What each block feels of the fluid, of the last exchange.
+    pub fn felt(&self) -> &[Felt] {
+        &self.felt
+    }
+
+    /// The blocks as they are.
+    pub fn blocks(&self) -> &Blocks {
+        &self.blocks
+    }
+
+    /// The blocks as they were made.
+    pub fn setup(&self) -> &BlockSetup {
+        &self.setup
+    }
+
+    /// How often fluid and blocks met, or were asked for.
+    pub fn meetings(&self) -> u64 {
+        self.met
+    }
+
+    /// Goes back, or on, to a state of the same blocks.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] if it is of other blocks.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
+        self.blocks
+            .restore(snapshot)
+            .map_err(|error| crate::Error::scene("restart", error.to_string()))
+    }
+}

@@ -1,0 +1,123 @@
+//! Free water with blocks in it.
+
+use crate::{
+    Result,
+    bodies::{Load, Pose},
+    checkpoint::WaterCheckpoint,
+    coupling::{Felt, Fluid, Pace},
+    particles::{Particle, Particles, Water},
+    scene::Scene,
+};
+
+/// The water of a scene.
+#[derive(Debug)]
+pub(super) struct Pool {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pub particles: Particles,
+    time: f64,
+    average: bool,
+    /// Mean loads of the last exchange, none before the first one.
+    pub last: Vec<Load>,
+    pub exchanges: u64,
+    /// Steps of the water that sorted its particles.
+    pub sorts: u64,
+}
+
+impl Fluid for Pool {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    async fn advance(&mut self, poses: &[Pose], pace: Pace, end: f64) -> Result<Option<Vec<Felt>>> {
+        let until = self.next(pace, end);
+        let (device, queue, time) = (&self.device, &self.queue, until - self.time);
+        let done = self.particles.advance(device, queue, poses, time).await?;
+        self.time = until;
+        self.exchanges += 1;
+        self.sorts += u64::from(done.sorts);
+        if !self.average || self.last.is_empty() {
+            self.last.clone_from(&done.loads);
+        }
+        let mean = |(last, new): (&Load, &Load)| Felt {
+            flow: Load {
+                force: 0.5 * (last.force + new.force),
+                moment: 0.5 * (last.moment + new.moment),
+                ..Load::default()
+            },
+            buoyancy: Load::default(),
+        };
+        let felt = self.last.iter().zip(&done.loads).map(mean).collect();
+        self.last = done.loads;
+        Ok(Some(felt))
+    }
+}
+
+impl Pool {
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        particles: Particles,
+    ) -> Self {
+        Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            particles,
+            time: 0.0,
+            average: scene.coupling.average,
+            last: Vec::new(),
+            exchanges: 0,
+            sorts: 0,
+        }
+    }
+
+    /// Begins a step at the time `time` (s), from nothing that a checkpoint does not hold.
+    pub fn begin(&mut self, time: f64) {
+        self.time = time;
+        self.particles.renew();
+    }
+
+    /// When water and blocks meet next: in parts of equal length until `end`.
+    fn next(&self, pace: Pace, end: f64) -> f64 {
+        let (Pace::Asleep(steps) | Pace::Awake(steps)) = pace else {
+            return end;
+        };
+        let interval = steps as f64 * self.particles.limit();
+        let parts = ((end - self.time) / interval * (1.0 - 1e-6))
+            .ceil()
+            .max(1.0);
+        if parts == 1.0 {
+            end
+        } else {
+            self.time + (end - self.time) / parts
+        }
+    }
+
+    /// The water as it is.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn water(&mut self) -> Result<Water> {
+        self.particles.water(&self.device, &self.queue).await
+    }
+
+    /// Its particles, in the units of the device.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn particles(&mut self) -> Result<Vec<Particle>> {
+        self.particles.particles(&self.device, &self.queue).await
+    }
+
+    /// Goes on from a checkpoint.
+    ///
+    /// # Errors
+    /// If it is of other particles.
+    pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
+        self.particles
+            .restore(&self.queue, &checkpoint.particles, &checkpoint.state)?;
+        self.last.clone_from(&checkpoint.loads);
+        Ok(())
+    }
+}

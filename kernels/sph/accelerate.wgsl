@@ -1,6 +1,6 @@
 // Monaghan 2005, Rep. Prog. Phys. 68:1703, momentum with artificial viscosity: the velocities at the end of the step,
 // and how long the next one may be.
-// needs invocation, particle_grid, $runs, $state, wendland, clock, $around
+// needs invocation, particle_grid, $runs, $state, wendland, clock, $around, $friction
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
@@ -35,7 +35,9 @@ fn meet_water(j: u32) {
     let viscous = -2.0 * ARTIFICIAL_VISCOSITY * min(mu, 0.0) / (density + other_density);
     if (square < SUPPORT_SQUARED) {
         shear = max(shear, abs(mu));
-        rate += (push + viscous) * slope(sqrt(square)) * r;
+        let steep = slope(sqrt(square));
+        rate += (push + viscous) * steep * r;
+        rub_water(steep / (density * other_density), other.velocity);
     }
 }
 
@@ -43,9 +45,12 @@ fn meet_shell(j: u32) {
     let other = shell[j];
     let r = between(here.at, other.at);
     let square = dot(r, r);
-    let push = (pressure + other.excess) / ((1.0 + here.excess) * (1.0 + excess_of(other.excess)));
+    let densities = (1.0 + here.excess) * (1.0 + excess_of(other.excess));
+    let push = (pressure + other.excess) / densities;
     if (square < SUPPORT_SQUARED) {
-        rate += push * slope(sqrt(square)) * r;
+        let steep = slope(sqrt(square));
+        rate += push * steep * r;
+        rub_shell(j, steep / densities);
     }
 }
 
@@ -71,5 +76,5 @@ fn accelerate(
     let velocity = here.velocity + clock.step * rate;
     let by_force = sqrt(SMOOTHING / max(length(rate), 1e-30));
     let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + shear);
-    fresh[n] = vec4(velocity, COURANT * min(by_force, by_sound));
+    fresh[n] = vec4(velocity, min(COURANT * min(by_force, by_sound), longest_step()));
 }

@@ -8,6 +8,8 @@ struct Motion {
     velocity: vec3<f32>,
     count: u32,
     acceleration: vec3<f32>,
+    // 1 where water clings to it, 0 where it slides.
+    clings: f32,
     // Columns of F and of its first and second derivative.
     turn_x: vec3<f32>,
     turn_y: vec3<f32>,

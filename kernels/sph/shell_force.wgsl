@@ -1,6 +1,6 @@
 // Monaghan 2005, Rep. Prog. Phys. 68:1703: what the water does to each particle of the shells of bodies that
 // somebody asks about; the opposite of what these do to the water.
-// needs invocation, particle_grid, $runs, $state, wendland, clock, $around_water
+// needs invocation, particle_grid, $runs, $state, wendland, clock, $around_water, $drag
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
@@ -8,8 +8,9 @@
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
 
-// The particle, its density, and the sum over the water around it.
+// The particle, its place in the shells, its density, and the sum over the water around it.
 var<private> here: Particle;
+var<private> number: u32;
 var<private> density: f32;
 var<private> force: vec3<f32>;
 
@@ -17,9 +18,12 @@ fn meet_water(j: u32) {
     let other = particles[j];
     let r = between(here.at, other.at);
     let square = dot(r, r);
-    let push = (pressure_of(other.excess) + here.excess) / (density * (1.0 + other.excess));
+    let densities = density * (1.0 + other.excess);
+    let push = (pressure_of(other.excess) + here.excess) / densities;
     if (square < SUPPORT_SQUARED) {
-        force += push * slope(sqrt(square)) * r;
+        let steep = slope(sqrt(square));
+        force += push * steep * r;
+        drag(number, steep / densities, other.velocity);
     }
 }
 
@@ -34,6 +38,7 @@ fn shell_force(
         return;
     }
     here = shell[n];
+    number = n;
     if (here.id >= arrayLength(&forces)) {
         return;
     }

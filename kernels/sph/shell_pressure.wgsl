@@ -1,5 +1,5 @@
 // Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057, eq. 27: the pressure of the water beside a wall, continued into it.
-// needs invocation, particle_grid, $runs, $state, wendland, bodies, clock, $around_water
+// needs invocation, particle_grid, $runs, $state, wendland, bodies, clock, $around_water, $cling
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read_write> shell: array<Particle>;
@@ -26,6 +26,7 @@ fn meet_water(j: u32) {
         weights += w;
         pressure += w * pressure_of(other.excess);
         column += w * (1.0 + other.excess) * r;
+        meet_velocity(w, other.velocity);
     }
 }
 
@@ -49,9 +50,10 @@ fn shell_pressure(
     column = vec3(0.0);
     around_water(n, at);
     let home = homes[here.id];
-    let wall = acceleration_at(motions[home.body], home.place);
-    let fall = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z) - wall;
+    let motion = motions[home.body];
+    let fall = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z) - acceleration_at(motion, home.place);
     // Walls do not pull; where there is no water there is no pressure.
     let sum = max(pressure + dot(fall, column), 0.0);
     shell[n].excess = select(0.0, sum / weights, weights > 0.0);
+    keep_velocity(n, motion.clings, here.velocity);
 }

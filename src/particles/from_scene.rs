@@ -4,7 +4,7 @@ use super::{Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, s
 use crate::{
     Error, Result,
     bodies::{Block, Motion},
-    scene::{self, Boundary, ProbePlace, Scene},
+    scene::{self, Boundary, Face, ProbePlace, Scene},
     simulation::BlockSetup,
 };
 use glam::DVec3;
@@ -28,6 +28,10 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
             |place: &ProbePlace| matches!(place, ProbePlace::Block { block, .. } if block == name);
         scene.probes.iter().any(|probe| of(&probe.place))
     };
+    let free_slip = |(face, boundary): (Face, &Boundary)| {
+        matches!(boundary, Boundary::FreeSlip).then(|| format!("wall_{}", face.name()))
+    };
+    let slippery: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
     let bodies = blocks
         .setup
         .blocks
@@ -39,6 +43,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
             moves: block.motion != Motion::Fixed,
             loaded: block.motion == Motion::Free || probed(&block.name),
             accelerates: matches!(block.motion, Motion::Driven { .. }),
+            slips: slippery.contains(&block.name),
         });
     let side = |boundary: &Boundary| match boundary {
         Boundary::Periodic => Side::Periodic,
@@ -70,6 +75,10 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         },
         density: scene.fluid.density,
         gravity,
+        laminar_viscosity: match particles.scheme {
+            scene::Scheme::Delta => scene.fluid.viscosity,
+            scene::Scheme::Mueller => 0.0,
+        },
         artificial_viscosity: particles.artificial_viscosity,
         density_diffusion: particles.density_diffusion,
         courant: particles.courant,

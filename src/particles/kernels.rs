@@ -82,6 +82,12 @@ impl Kernels {
         let forces = buffer("forces on shells", numbers.loaded_shell, 16)?;
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
+        let viscous = setup.laminar_viscosity > 0.0;
+        let clinging = buffer(
+            "velocities of shells",
+            numbers.shell * u32::from(viscous),
+            16,
+        )?;
         let clock = buffer("clock", 1, size_of::<Clock>())?;
         let sorting = Sorting::new(device, setup, frame)?;
         let water = sorting.of(device, frame, &clock, numbers.water)?;
@@ -110,6 +116,8 @@ impl Kernels {
             ("loads", &loads),
             ("hulls", &hull_buffer),
             ("planes", &plane_buffer),
+            ("clinging", &clinging),
+            ("clinging_out", &clinging),
         ];
         let bound = |name: &str| {
             let kernel = kernel(name)?;

@@ -40,7 +40,9 @@ pub struct Motion {
     /// Number of the particles of its shell.
     pub count: u32,
     /// Spacings over the square of the unit of time.
-    pub acceleration: [f32; 4],
+    pub acceleration: [f32; 3],
+    /// 1 where water clings to it, 0 where it slides.
+    pub clings: f32,
     /// Columns of F.
     pub turn: [[f32; 4]; 3],
     /// Columns of Ḟ.
@@ -55,13 +57,15 @@ impl Motion {
         shell: [u32; 2],
         [velocity, acceleration]: [DVec3; 2],
         [turn, rate, change]: [DMat3; 3],
+        clings: bool,
     ) -> Self {
         Self {
             centre,
             first: shell[0],
             velocity: velocity.as_vec3().to_array(),
             count: shell[1],
-            acceleration: column(acceleration),
+            acceleration: acceleration.as_vec3().to_array(),
+            clings: if clings { 1.0 } else { 0.0 },
             turn: columns(turn),
             rate: columns(rate),
             change: columns(change),
@@ -69,12 +73,8 @@ impl Motion {
     }
 }
 
-fn column(v: DVec3) -> [f32; 4] {
-    [v.x as f32, v.y as f32, v.z as f32, 0.0]
-}
-
 fn columns(m: DMat3) -> [[f32; 4]; 3] {
-    [m.x_axis, m.y_axis, m.z_axis].map(column)
+    [m.x_axis, m.y_axis, m.z_axis].map(|v| v.extend(0.0).as_vec4().to_array())
 }
 
 /// The time of the particles within an exchange.

@@ -239,6 +239,7 @@ impl Particles {
                         self.frame.rate(pose.deformation_rate),
                         change * (unit * unit),
                     ],
+                    !self.setup.bodies[body].slips,
                 )
             })
             .collect();
@@ -491,5 +492,6 @@ fn first_limit(setup: &Setup, frame: &Frame, fastest: f64) -> f32 {
     let h = setup.smoothing;
     let by_force = (h / frame.acceleration(setup.gravity).length().max(1e-30)).sqrt();
     let by_sound = h / (10.0 * fastest / setup.sound_speed).max(1.0);
-    (setup.courant * by_force.min(by_sound)) as f32
+    let by_friction = setup.friction_step() / frame.unit_time();
+    (setup.courant * by_force.min(by_sound)).min(by_friction) as f32
 }

@@ -36,7 +36,15 @@ pub const KERNELS: [&str; 18] = [
 /// The program of a kernel: slots that it does not have are passed over.
 pub fn program(setup: &Setup, frame: &Frame, kernel: &str) -> Program {
     let periodic = frame.period.iter().any(|period| *period > 0);
+    let viscous = setup.laminar_viscosity > 0.0;
+    let where_viscous = |some, none| if viscous { some } else { none };
     Program::new(kernel)
+        .slot(
+            "friction",
+            where_viscous("friction_laminar", "friction_none"),
+        )
+        .slot("cling", where_viscous("cling_walls", "cling_none"))
+        .slot("drag", where_viscous("drag_laminar", "drag_none"))
         .slot(
             "runs",
             if periodic {
@@ -90,9 +98,10 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         ],
     };
     let viscosity = match setup.scheme {
-        Scheme::Delta => 0.0,
-        Scheme::Mueller { viscosity } => viscosity * frame.unit_time() / setup.spacing.powi(2),
-    };
+        Scheme::Delta => setup.laminar_viscosity,
+        Scheme::Mueller { viscosity } => viscosity,
+    } * frame.unit_time()
+        / setup.spacing.powi(2);
     let gravity = frame.acceleration(setup.gravity);
     let [from, to] = frame.kept;
     vec![

@@ -66,6 +66,8 @@ pub struct Body {
     /// Whether its acceleration counts in the pressure beside it. That of a body which the water itself pushes
     /// would be an explicit added mass, which is unstable for light bodies.
     pub accelerates: bool,
+    /// Whether viscous water slides along it instead of clinging to it.
+    pub slips: bool,
 }
 
 /// The domain, the water's constants and the numbers of the scheme, SI.
@@ -87,6 +89,8 @@ pub struct Setup {
     pub density: f64,
     /// m/s².
     pub gravity: DVec3,
+    /// Kinematic viscosity ν, m²/s; 0: none but the artificial one.
+    pub laminar_viscosity: f64,
     /// α.
     pub artificial_viscosity: f64,
     /// δ.
@@ -118,6 +122,7 @@ impl Setup {
             sound_speed,
             density: 1000.0,
             gravity: DVec3::new(0.0, 0.0, -9.81),
+            laminar_viscosity: 0.0,
             artificial_viscosity: 0.01,
             density_diffusion: 0.1,
             courant: 0.2,
@@ -160,7 +165,13 @@ impl Setup {
     /// Longest step of water that moves at most at a tenth of the speed of sound, s: the bound of
     /// Monaghan (1992) without the share of viscosity.
     pub fn acoustic_step(&self) -> f64 {
-        self.courant * self.smoothing * self.unit_time()
+        let by_sound = self.courant * self.smoothing * self.unit_time();
+        by_sound.min(self.friction_step())
+    }
+
+    /// Longest step that laminar viscosity allows, s: h²/8ν (Morris, Fox & Zhu 1997); infinite without it.
+    pub fn friction_step(&self) -> f64 {
+        (self.smoothing * self.spacing).powi(2) / (8.0 * self.laminar_viscosity)
     }
 
     pub(super) fn check(&self) -> Result<()> {

@@ -51,7 +51,7 @@ pub enum Boundary {
     /// What leaves here enters at the opposite face, which must be periodic too.
     #[default]
     Periodic,
-    /// No slip.
+    /// No slip; particles without viscosity slide along it.
     Wall {
         /// Velocity of the wall, m/s; its component normal to the face is 0. Default at rest.
         #[schemars(default)]

@@ -12,7 +12,7 @@ pub struct Fluid {
     /// Density, kg/m³. Default 1000.
     #[serde(default = "water")]
     pub density: f64,
-    /// Kinematic viscosity, m²/s. Particles can do without; default 0.
+    /// Kinematic viscosity, m²/s. Particles can do without, and then slide along walls and blocks; default 0.
     #[serde(default)]
     pub viscosity: f64,
     /// Body force per mass, m/s²: three numbers or formulas of x, y, z; for particles three

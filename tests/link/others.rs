@@ -65,6 +65,11 @@ fn kernels_of_particles_in_all_variants() {
             for neighbours in [Neighbours::Cells, Neighbours::Lists] {
                 let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
                 (setup.state, setup.neighbours) = (state, neighbours);
+                // With one of them, to have both.
+                setup.laminar_viscosity = match state {
+                    StateEquation::Linear => 0.0,
+                    StateEquation::Tait => 0.01,
+                };
                 if periodic {
                     setup.faces[0] = [Side::Periodic; 2];
                 }

@@ -17,6 +17,12 @@ fn all_variants_compile_and_bind_what_is_asked_for() {
     for periodic in [false, true] {
         for state in [StateEquation::Linear, StateEquation::Tait] {
             let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
+            // With the other state, to have both.
+            setup.laminar_viscosity = if state == StateEquation::Tait {
+                0.01
+            } else {
+                0.0
+            };
             setup.state = state;
             if periodic {
                 setup.faces[0] = [Side::Periodic; 2];
@@ -65,6 +71,7 @@ fn structures_lie_as_on_the_device() {
         ("velocity", offset_of!(Motion, velocity)),
         ("count", offset_of!(Motion, count)),
         ("acceleration", offset_of!(Motion, acceleration)),
+        ("clings", offset_of!(Motion, clings)),
         ("turn_x", column(turn, 0)),
         ("turn_y", column(turn, 1)),
         ("turn_z", column(turn, 2)),

@@ -83,8 +83,10 @@ fn check_with(setup: Setup) {
         }
     }
     let fixed = walls(&setup);
+    // Water clings to walls in space, and slides along them in a plane.
+    let slips = plane;
     setup.bodies = vec![
-        fixed,
+        Body { slips, ..fixed },
         Body {
             shell: block.clone(),
             moves: true,
@@ -135,6 +137,7 @@ fn check_with(setup: Setup) {
             x: *x,
             v: DVec3::ZERO,
             a: DVec3::ZERO,
+            slips,
         })
         .collect();
     let first = dummies.len();
@@ -142,6 +145,7 @@ fn check_with(setup: Setup) {
         x: pose.point(*x),
         v: pose.point_velocity(*x),
         a: DVec3::ZERO,
+        slips: false,
     }));
     let dt = 0.9 * particles.limit();
     let done = rig
@@ -217,6 +221,17 @@ fn with_the_state_equation_of_tait() {
     let mut setup = base(true, false);
     setup.state = StateEquation::Tait;
     check(setup);
+}
+
+#[test]
+fn with_laminar_viscosity() {
+    // In space it bounds the step, in a plane sound does.
+    for (plane, laminar_viscosity) in [(false, 3.0), (true, 0.5)] {
+        check(Setup {
+            laminar_viscosity,
+            ..base(plane, true)
+        });
+    }
 }
 
 #[test]

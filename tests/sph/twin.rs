@@ -19,6 +19,7 @@ pub struct Dummy {
     pub v: DVec3,
     /// Acceleration of the wall.
     pub a: DVec3,
+    pub slips: bool,
 }
 
 pub struct Outcome {
@@ -118,9 +119,35 @@ impl Twin<'_> {
         }
     }
 
+    /// The velocity of the water before a wall, continued into it about the wall's own.
+    fn wall_velocity(&self, water: &[Wet], wall: &Dummy) -> DVec3 {
+        let (mut above, mut below) = (DVec3::ZERO, 0.0);
+        for f in water {
+            let w = self.w(self.between(wall.x, f.x).length());
+            above += w * f.v;
+            below += w;
+        }
+        if below > 0.0 {
+            2.0 * wall.v - above / below
+        } else {
+            wall.v
+        }
+    }
+
+    /// What friction of a neighbour at `r` adds to the rate of a velocity that differs from its by `v`.
+    fn friction(&self, [a, b]: [f64; 2], r: DVec3, v: DVec3) -> DVec3 {
+        if r.length() == 0.0 {
+            return DVec3::ZERO;
+        }
+        // μ = ρ₀ ν of both.
+        let both = 2.0 * self.0.density * self.0.laminar_viscosity;
+        self.mass() * both / (a * b) * r.dot(self.gradient(r)) / r.length_squared() * v
+    }
+
     pub fn step(&self, water: &[Wet], walls: &[Dummy], dt: f64) -> Outcome {
         let (m, h, c) = (self.mass(), self.h(), self.0.sound_speed);
         let pressures: Vec<f64> = walls.iter().map(|w| self.wall_pressure(water, w)).collect();
+        let velocities: Vec<DVec3> = walls.iter().map(|w| self.wall_velocity(water, w)).collect();
         let mut forces = vec![DVec3::ZERO; walls.len()];
         let (mut fresh, mut limit) = (Vec::new(), f64::INFINITY);
         for i in water {
@@ -139,18 +166,24 @@ impl Twin<'_> {
                 };
                 let push = (self.pressure(i.rho) + self.pressure(j.rho)) / (i.rho * j.rho) + pi;
                 a -= m * push * self.gradient(r);
+                a += self.friction([i.rho, j.rho], r, i.v - j.v);
             }
             for (k, w) in walls.iter().enumerate() {
                 let rho = self.density(pressures[k]);
                 let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
-                let pull = m * push * self.gradient(self.between(i.x, w.x));
+                let r = self.between(i.x, w.x);
+                let mut pull = m * push * self.gradient(r);
+                if !w.slips {
+                    pull -= self.friction([i.rho, rho], r, i.v - velocities[k]);
+                }
                 a -= pull;
                 forces[k] += m * pull;
             }
             let v = i.v + a * dt;
             let by_force = (h / a.length()).sqrt();
             let by_sound = h / (c.max(10.0 * v.length()) + steepest);
-            limit = limit.min(self.0.courant * by_force.min(by_sound));
+            let by_friction = h * h / (8.0 * self.0.laminar_viscosity);
+            limit = limit.min((self.0.courant * by_force.min(by_sound)).min(by_friction));
             fresh.push(v);
         }
         let mut out = Vec::new();

@@ -162,6 +162,7 @@ pub const CASES: &[Case] = &[
     short("dda/collision", dda::contact::collision),
     short("dda/rigid-limit", dda::rigid_limit::run),
     short("water/still", water::still::run),
+    short("water/film", water::film::run),
     short("water/submerged", water::buoyancy::submerged),
     short("water/floating", water::buoyancy::floating),
     short("water/standing-wave", water::wave::run),

@@ -4,6 +4,7 @@ pub mod pool;
 
 pub mod buoyancy;
 pub mod dam;
+pub mod film;
 pub mod maker;
 pub mod schemes;
 pub mod still;

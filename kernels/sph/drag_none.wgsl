@@ -1,0 +1,4 @@
+// No friction on a shell.
+
+fn drag(n: u32, share: f32, water: vec3<f32>) {
+}

@@ -19,6 +19,7 @@ mod loads;
 mod near;
 mod reading;
 mod rock;
+mod sealed;
 mod state;
 mod wet;
 
@@ -32,5 +33,6 @@ pub use loads::Ambient;
 pub use near::BlockCell;
 pub use reading::Reading;
 pub use rock::{Company, Felt, Rock};
+pub(crate) use sealed::Sealed;
 pub use state::CoupledState;
 pub(crate) use wet::Wet;

@@ -18,8 +18,10 @@ const RUN: u32 = 64;
 const OF_SHELL: Names = ["shell_neighbours", "shell_pressure", "shell_force"];
 const OF_DELTA: Names = ["neighbours", "accelerate", "drift"];
 const OF_MUELLER: Names = ["neighbours", "mueller_density", "mueller_move"];
-/// Numbers of a load.
-pub(super) const NUMBERS: usize = 12;
+/// Numbers of a load, and of the pressure around a body.
+pub(super) const NUMBERS: usize = 26;
+/// The first of them.
+pub(super) const OF_LOAD: usize = 12;
 
 /// Numbers of particles and bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Home, Motion, Numbers, Particle, Scheme, Setup, Water,
+    Clock, Frame, Head, Home, Motion, Numbers, Particle, Scheme, Setup, Water,
     followed::Followed,
     hulls,
-    kernels::{Kernels, NUMBERS},
+    kernels::{Kernels, NUMBERS, OF_LOAD},
     near,
 };
 use crate::{
@@ -25,6 +25,8 @@ const SHORTEST: f32 = 1e-3;
 pub struct Exchange {
     /// Mean load on each body over the time of the exchange; nothing on those that are not asked about.
     pub loads: Vec<Load>,
+    /// Mean pressure of the water around each body that is asked about, if it feels any.
+    pub heads: Vec<Option<Head>>,
     /// Steps that the water took.
     pub steps: u32,
     /// Steps of them that sorted the particles, and made lists of neighbours if there are any.
@@ -208,7 +210,7 @@ impl Particles {
                 self.renewed = false;
                 self.steps += u64::from(self.clock.steps);
                 let loads = bytemuck::cast_slice(loads);
-                return Ok(self.exchange(loads, time));
+                return Ok(self.exchange(loads, poses, time));
             }
         }
     }
@@ -345,14 +347,21 @@ impl Particles {
         })
     }
 
-    fn exchange(&self, numbers: &[f32], time: f64) -> Exchange {
+    fn exchange(&self, numbers: &[f32], poses: &[Pose], time: f64) -> Exchange {
         let unit = time / self.frame.unit_time();
-        let load = |&place: &usize| match numbers.get(place * NUMBERS..(place + 1) * NUMBERS) {
+        let of = |place: usize| numbers.get(place * NUMBERS..(place + 1) * NUMBERS);
+        let load = |&place: &usize| match of(place) {
             Some(numbers) => self.frame.load(numbers, unit),
             None => Load::default(),
         };
+        let head = |(&place, pose): (&usize, &Pose)| {
+            // From the centroid in the middle of the exchange.
+            let centre = pose.centre + 0.5 * time * pose.velocity;
+            self.frame.head(&of(place)?[OF_LOAD..], centre)
+        };
         Exchange {
             loads: self.number.iter().map(load).collect(),
+            heads: self.number.iter().zip(poses).map(head).collect(),
             steps: self.clock.steps,
             sorts: self.clock.sorts,
         }

@@ -70,8 +70,8 @@ impl FreeSurface {
         }
         Ok(Self {
             scene: scene.clone(),
+            pool: Pool::new(device, queue, (scene, &rock), particles),
             rock,
-            pool: Pool::new(device, queue, scene, particles),
             time_step,
             step: 0,
         })

@@ -4,7 +4,7 @@ use crate::{
     Result,
     bodies::{Load, Pose},
     checkpoint::WaterCheckpoint,
-    coupling::{Felt, Fluid, Pace},
+    coupling::{Felt, Fluid, Pace, Rock, Sealed},
     particles::{Particle, Particles, Water},
     scene::Scene,
 };
@@ -15,6 +15,7 @@ pub(super) struct Pool {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pub particles: Particles,
+    sealed: Sealed,
     time: f64,
     average: bool,
     /// Mean loads of the last exchange, none before the first one.
@@ -32,7 +33,8 @@ impl Fluid for Pool {
     async fn advance(&mut self, poses: &[Pose], pace: Pace, end: f64) -> Result<Option<Vec<Felt>>> {
         let until = self.next(pace, end);
         let (device, queue, time) = (&self.device, &self.queue, until - self.time);
-        let done = self.particles.advance(device, queue, poses, time).await?;
+        let mut done = self.particles.advance(device, queue, poses, time).await?;
+        self.sealed.push(poses, &done.heads, &mut done.loads);
         self.time = until;
         self.exchanges += 1;
         self.sorts += u64::from(done.sorts);
@@ -57,12 +59,15 @@ impl Pool {
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        scene: &Scene,
+        (scene, rock): (&Scene, &Rock),
         particles: Particles,
     ) -> Self {
+        let shapes = rock.setup().setup.blocks.iter();
+        let shapes = shapes.map(|block| block.shape.clone()).collect();
         Self {
             device: device.clone(),
             queue: queue.clone(),
+            sealed: Sealed::new(shapes, rock.blocks().period(), particles.setup().spacing),
             particles,
             time: 0.0,
             average: scene.coupling.average,

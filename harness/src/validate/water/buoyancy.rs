@@ -11,17 +11,24 @@ const DEPTH: f64 = 1.0;
 const LENGTH: f64 = 2.4;
 /// Times over which the last of the motion is averaged out, s.
 const LOOKS: u32 = 40;
+/// Edge of the box, m.
+const EDGE: f64 = 8.0 * SPACING;
+/// Middle of the tank, m.
+pub const MIDDLE: f64 = 0.5 * DEPTH;
 
-/// The push (ρVg) on a box that is held under water, turned by `angle` (degrees), and across.
-pub fn held(stand: &Stand, angle: f64, scheme: Scheme) -> anyhow::Result<(Trial, [f64; 2])> {
-    let edge = 8.0 * SPACING;
+/// The push (ρVg) on a box that is held under water at the height `z` (m), turned by `angle` (degrees), and across.
+pub fn held(
+    stand: &Stand,
+    (z, angle): (f64, f64),
+    scheme: Scheme,
+) -> anyhow::Result<(Trial, [f64; 2])> {
     let more = format!(
         r#"
         [[blocks]]
         name = "box"
         kind = "box"
-        size = [{edge}, 1, {edge}]
-        position = [{}, 0.5, 0.5]
+        size = [{EDGE}, 1, {EDGE}]
+        position = [{}, 0.5, {z}]
         rotation = {{ axis = [0, 1, 0], angle = {angle} }}
         motion = "fixed"
         [[probes]]
@@ -40,22 +47,25 @@ pub fn held(stand: &Stand, angle: f64, scheme: Scheme) -> anyhow::Result<(Trial,
         pool.advance(3.0 + 0.05 * f64::from(look))?;
         force += pool.felt(0).flow.force / f64::from(LOOKS);
     }
-    let weight = 1000.0 * GRAVITY * edge * edge;
+    let weight = 1000.0 * GRAVITY * EDGE * EDGE;
     Ok((
         pool.trial("box under water"),
         [force.z / weight, force.x / weight],
     ))
 }
 
-/// Archimedes' law for a box under water, along the lattice and across it.
+/// Archimedes' law for a box under water, along the lattice and across it, and on the floor, where it holds for the
+/// pressure that closed joints carry.
 pub fn submerged(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for angle in [0.0, 30.0] {
-        let (trial, [up, across]) = held(stand, angle, Scheme::Delta)?;
+        let (trial, [up, across]) = held(stand, (MIDDLE, angle), Scheme::Delta)?;
         let what = format!("turned by {angle}°");
         records.push(trial.relative(format!("push / ρVg, {what}"), up, 1.0, 0.01));
         records.push(trial.at_most(format!("push across / ρVg, {what}"), across.abs(), 0.01));
     }
+    let (trial, [up, _]) = held(stand, (0.5 * EDGE, 0.0), Scheme::Delta)?;
+    records.push(trial.relative("push / ρVg, on the floor", up, 1.0, 0.1));
     Ok(records)
 }
 

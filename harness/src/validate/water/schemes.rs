@@ -16,7 +16,7 @@ pub fn run(stand: &Stand) -> Outcome {
         records.push(trial.report(of("p at the bottom, Pa"), still.bottom, Some(still::BOTTOM)));
         records.push(trial.report(of("L2(p)"), still.miss, None));
         records.push(trial.report(of("u_rms / √(gH)"), still.speed, None));
-        let (trial, [up, across]) = buoyancy::held(stand, 0.0, scheme)?;
+        let (trial, [up, across]) = buoyancy::held(stand, (buoyancy::MIDDLE, 0.0), scheme)?;
         records.push(trial.report(of("push on a box / ρVg"), up, Some(1.0)));
         records.push(trial.report(of("push across / ρVg"), across.abs(), None));
         let (trial, [speed, kept]) = dam::front(stand, 20, scheme)?;

@@ -11,6 +11,8 @@ const WITHIN: f64 = 1e-9;
 pub(super) struct Facet {
     plane: HalfSpace,
     corners: Vec<DVec3>,
+    /// Edges a layer of another part of the block is parallel to, a spacing farther out.
+    laid: Vec<HalfSpace>,
 }
 
 impl Facet {
@@ -33,7 +35,58 @@ impl Facet {
                 return None;
             }
         }
-        Some(Self { plane, corners })
+        Some(Self {
+            plane,
+            corners,
+            laid: Vec::new(),
+        })
+    }
+
+    /// The same, and it ends `half` (m) before the seams `laid`, behind which the first layer of another part is
+    /// as far: so the layers of both follow each other as rows of one do. Where the seams, or one and an edge,
+    /// are too near each other, what is left between them is a line.
+    pub fn beside(
+        plane: HalfSpace,
+        others: &[HalfSpace],
+        (laid, half, slack): (&[HalfSpace], f64, f64),
+        (about, reach): (DVec3, f64),
+    ) -> Option<Self> {
+        // By how much a seam moves so that its trace in the plane does so by `by`.
+        let before = |seam: &HalfSpace, by: f64| HalfSpace {
+            distance: seam.distance - by * seam.normal.cross(plane.normal).length(),
+            ..*seam
+        };
+        let cut = |by: f64| {
+            let seams = laid.iter().map(|seam| before(seam, by - slack));
+            Self::new(plane, others.iter().copied().chain(seams), about, reach)
+        };
+        let mut by = half;
+        let mut facet = cut(by);
+        if facet.is_none() {
+            facet = Some(cut(0.0)?);
+            let (mut most, mut least) = (half, 0.0);
+            while most - least > slack {
+                by = 0.5 * (least + most);
+                match cut(by) {
+                    Some(found) => (facet, least) = (Some(found), by),
+                    None => most = by,
+                }
+            }
+            by = least;
+        }
+        let mut facet = facet?;
+        facet.laid = laid.iter().map(|seam| before(seam, by - slack)).collect();
+        Some(facet)
+    }
+
+    /// Whether what it reaches at `at` (m) along a direction is an edge before a seam.
+    fn is_before_seam(&self, lattice: &Lattice, direction: DVec3, at: f64) -> bool {
+        let there = |c: &&DVec3| (c.dot(direction) - at).abs() < lattice.tolerance();
+        let mut corners = self.corners.iter().filter(there);
+        corners.all(|corner| {
+            let mut heights = self.laid.iter().map(|seam| seam.height(*corner));
+            heights.any(|height| height.abs() < lattice.tolerance())
+        })
     }
 
     /// Points all over it: near its corners and the middles of its edges, and its middle.
@@ -84,10 +137,14 @@ impl Facet {
         let other = (0..3).find(|axis| across[*axis].abs() > 1.0 - WITHIN);
         let across = other.map_or(across, |axis| DVec3::AXES[axis]);
         let range = self.extent(across);
+        let to = |axis: usize, end: f64| match self.is_before_seam(lattice, across, end) {
+            true => lattice.row_beside(axis, range, end),
+            false => lattice.row_to(axis, range, end),
+        };
         let rows = match other.map(|axis| (axis, self.passes(lattice, axis))) {
             Some((axis, [true, true])) => lattice.row(axis, range),
-            Some((axis, [true, false])) => lattice.row_to(axis, range, range[1]),
-            Some((axis, [false, true])) => lattice.row_to(axis, range, range[0]),
+            Some((axis, [true, false])) => to(axis, range[1]),
+            Some((axis, [false, true])) => to(axis, range[0]),
             _ => lattice.fitted(range),
         };
         let origin = self.plane.normal * self.plane.distance;

@@ -117,6 +117,29 @@ pub(super) struct Faces {
     pub bare: Vec<HalfSpace>,
     /// Those that lie inside other parts of the same block.
     pub seams: Vec<HalfSpace>,
+    /// Those of them in the plane of a bare face, whose layers go on below them.
+    pub laid: Vec<HalfSpace>,
+}
+
+impl Faces {
+    /// Finds the seams in the planes of `bare`, the bare faces of all parts of the block, within `slack` (m) near
+    /// `about`.
+    pub fn lay(&mut self, bare: &[HalfSpace], about: DVec3, slack: f64) {
+        let is_laid = |seam: &HalfSpace| {
+            bare.iter().any(|face| {
+                let along = face.normal.dot(seam.normal);
+                let apart = face.height(about) - along.signum() * seam.height(about);
+                along.abs() > 1.0 - 1e-9 && apart.abs() < slack
+            })
+        };
+        let all = std::mem::take(&mut self.seams);
+        (self.laid, self.seams) = all.into_iter().partition(is_laid);
+    }
+
+    /// All seams.
+    pub fn inner(&self) -> impl Iterator<Item = &HalfSpace> {
+        self.seams.iter().chain(&self.laid)
+    }
 }
 
 impl Solid {
@@ -152,8 +175,19 @@ impl Solid {
             })
         };
         let bare = planes.into_iter().filter(|plane| !ends(plane)).collect();
-        let seams = Vec::new();
-        Self::Faces(Faces { bare, seams })
+        Self::Faces(Faces {
+            bare,
+            seams: Vec::new(),
+            laid: Vec::new(),
+        })
+    }
+
+    /// Its faces that water may meet.
+    pub fn bare(&self) -> &[HalfSpace] {
+        match self {
+            Self::Faces(faces) => &faces.bare,
+            Self::Sphere { .. } => &[],
+        }
     }
 
     /// Sorts out the faces of a part that lie inside `others`, the other parts of its block.
@@ -185,16 +219,13 @@ impl Solid {
         match self {
             Self::Sphere { centre, radius } => radius - centre.distance(point),
             Self::Faces(faces) => {
-                let depth = |planes: &[HalfSpace]| {
-                    let depths = planes.iter().map(|plane| -plane.height(point));
-                    depths.fold(f64::INFINITY, f64::min)
-                };
+                let least = |least: f64, plane: &HalfSpace| least.min(-plane.height(point));
                 // What is beyond a seam is another part's.
-                let inside = depth(&faces.seams);
+                let inside = faces.inner().fold(f64::INFINITY, least);
                 if inside < 0.0 {
                     inside
                 } else {
-                    depth(&faces.bare)
+                    faces.bare.iter().fold(f64::INFINITY, least)
                 }
             }
         }

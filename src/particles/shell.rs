@@ -21,9 +21,10 @@ use glam::DVec3;
 ///
 /// Facet by facet and layer by layer, the facet of what is left of a convex part when all its faces move in
 /// by (k + ½) Δx is filled with rows of points; they belong to the lattice of the fluid where the part spans
-/// the domain. No two points of a block are nearer than 0.6 Δx, nor two of fixed blocks, which share what they
-/// have in common by depth: who of them is deeper there. The faces of the domain give lattice points outside
-/// of it, in corners too. Fixed blocks have none farther beyond the domain than its walls.
+/// the domain. Where a part stands on another, the rows of both follow each other as if they were of one. No two
+/// points of a block are nearer than 0.6 Δx, nor two of fixed blocks, which share what they have in common by
+/// depth: who of them is deeper there. The faces of the domain give lattice points outside of it, in corners too.
+/// Fixed blocks have none farther beyond the domain than its walls.
 ///
 /// # Errors
 /// If the scene has no particles, a block is thinner than Δx, or, in a plane, is no prism across the domain.
@@ -57,7 +58,14 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
             solid.sew(part, &others, &lattice);
             solid
         };
-        solids.push(parts.iter().enumerate().map(solid).collect::<Vec<_>>());
+        let mut own: Vec<Solid> = parts.iter().enumerate().map(solid).collect();
+        let bare: Vec<HalfSpace> = own.iter().flat_map(Solid::bare).copied().collect();
+        for (solid, part) in own.iter_mut().zip(&parts) {
+            if let Solid::Faces(faces) = solid {
+                faces.lay(&bare, part.centre, 1e3 * lattice.tolerance());
+            }
+        }
+        solids.push(own);
     }
     let still: Vec<usize> = (0..blocks.len())
         .filter(|index| blocks[*index].motion == Motion::Fixed)
@@ -168,15 +176,20 @@ fn facets(block: &Block, faces: &Faces, depth: f64, lattice: &Lattice, fixed: bo
         let others = faces.bare.iter().enumerate().filter(|(i, _)| *i != index);
         let others = others.map(|(_, other)| moved(other, depth - slack));
         let others = others.chain(faces.seams.iter().map(|seam| moved(seam, -slack)));
-        let others = others.chain(ends.iter().copied());
-        Facet::new(moved(plane, depth), others, about, reach)
+        let others: Vec<HalfSpace> = others.chain(ends.iter().copied()).collect();
+        Facet::beside(
+            moved(plane, depth),
+            &others,
+            (&faces.laid, 0.5 * lattice.spacing, slack),
+            (about, reach),
+        )
     };
     faces.bare.iter().enumerate().filter_map(facet).collect()
 }
 
 /// Whether no face bounds these along an axis.
 fn is_endless(faces: &Faces, axis: usize) -> bool {
-    let mut planes = faces.bare.iter().chain(&faces.seams);
+    let mut planes = faces.bare.iter().chain(faces.inner());
     planes.all(|plane| plane.normal[axis].abs() < 1e-9)
 }
 

@@ -28,6 +28,7 @@ mod program;
 mod setup;
 mod shell;
 mod sorting;
+mod speeds;
 mod sphere;
 mod totals;
 mod water;

@@ -7,6 +7,9 @@ use glam::DVec3;
 /// Cosine of the angle to a plane below which a direction lies in it.
 const WITHIN: f64 = 1e-9;
 
+/// How precisely the place between two seams that are near each other is found, of half a spacing.
+const PRECISE: f64 = 1e-7;
+
 /// The part of a plane that lies in all of some half-spaces.
 pub(super) struct Facet {
     plane: HalfSpace,
@@ -42,41 +45,55 @@ impl Facet {
         })
     }
 
-    /// The same, and it ends `half` (m) before the seams `laid`, behind which the first layer of another part is
-    /// as far: so the layers of both follow each other as rows of one do. Where the seams, or one and an edge,
-    /// are too near each other, what is left between them is a line.
+    /// The same, and it ends before each of `seams` by a length (m), or beyond it by one below 0. Where seams, or one
+    /// and an edge, are too near each other for that, what is left between them is a line.
     pub fn beside(
         plane: HalfSpace,
         others: &[HalfSpace],
-        (laid, half, slack): (&[HalfSpace], f64, f64),
+        (seams, slack): (&[(HalfSpace, f64)], f64),
         (about, reach): (DVec3, f64),
     ) -> Option<Self> {
-        // By how much a seam moves so that its trace in the plane does so by `by`.
-        let before = |seam: &HalfSpace, by: f64| HalfSpace {
-            distance: seam.distance - by * seam.normal.cross(plane.normal).length(),
-            ..*seam
+        // So that the trace of the seam in the plane moves by that length.
+        let moved = |(seam, by): &(HalfSpace, f64), share: f64| {
+            let by = if *by > 0.0 { *by * share } else { *by };
+            HalfSpace {
+                distance: seam.distance - by * seam.normal.cross(plane.normal).length() + slack,
+                ..*seam
+            }
         };
-        let cut = |by: f64| {
-            let seams = laid.iter().map(|seam| before(seam, by - slack));
+        let cut = |share: f64| {
+            let seams = seams.iter().map(|seam| moved(seam, share));
             Self::new(plane, others.iter().copied().chain(seams), about, reach)
         };
-        let mut by = half;
-        let mut facet = cut(by);
+        let mut share = 1.0;
+        let mut facet = cut(share);
         if facet.is_none() {
             facet = Some(cut(0.0)?);
-            let (mut most, mut least) = (half, 0.0);
-            while most - least > slack {
-                by = 0.5 * (least + most);
-                match cut(by) {
-                    Some(found) => (facet, least) = (Some(found), by),
-                    None => most = by,
+            let (mut most, mut least) = (1.0, 0.0);
+            while most - least > PRECISE {
+                let middle = 0.5 * (least + most);
+                match cut(middle) {
+                    Some(found) => (facet, least) = (Some(found), middle),
+                    None => most = middle,
                 }
             }
-            by = least;
+            share = least;
         }
         let mut facet = facet?;
-        facet.laid = laid.iter().map(|seam| before(seam, by - slack)).collect();
+        let laid = seams.iter().filter(|(_, by)| *by > 0.0);
+        facet.laid = laid.map(|seam| moved(seam, share)).collect();
         Some(facet)
+    }
+
+    /// Some points near its edge on `seam`, none if it has none there.
+    pub fn edge(&self, seam: &HalfSpace, slack: f64) -> Vec<DVec3> {
+        let next = self.corners.iter().cycle().skip(1);
+        let on = |x: &DVec3| seam.height(*x).abs() < slack;
+        let edges = self.corners.iter().zip(next);
+        let edges = edges.filter(|(a, b)| on(a) && on(b) && a.distance(**b) > slack);
+        edges
+            .flat_map(|(a, b)| [0.02, 0.5, 0.98].map(|share| a.lerp(*b, share)))
+            .collect()
     }
 
     /// Whether what it reaches at `at` (m) along a direction is an edge before a seam.

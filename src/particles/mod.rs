@@ -9,6 +9,7 @@
 mod advise;
 mod cloud;
 mod crowd;
+mod edge;
 mod facet;
 mod fill;
 mod followed;

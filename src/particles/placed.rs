@@ -117,29 +117,6 @@ pub(super) struct Faces {
     pub bare: Vec<HalfSpace>,
     /// Those that lie inside other parts of the same block.
     pub seams: Vec<HalfSpace>,
-    /// Those of them in the plane of a bare face, whose layers go on below them.
-    pub laid: Vec<HalfSpace>,
-}
-
-impl Faces {
-    /// Finds the seams in the planes of `bare`, the bare faces of all parts of the block, within `slack` (m) near
-    /// `about`.
-    pub fn lay(&mut self, bare: &[HalfSpace], about: DVec3, slack: f64) {
-        let is_laid = |seam: &HalfSpace| {
-            bare.iter().any(|face| {
-                let along = face.normal.dot(seam.normal);
-                let apart = face.height(about) - along.signum() * seam.height(about);
-                along.abs() > 1.0 - 1e-9 && apart.abs() < slack
-            })
-        };
-        let all = std::mem::take(&mut self.seams);
-        (self.laid, self.seams) = all.into_iter().partition(is_laid);
-    }
-
-    /// All seams.
-    pub fn inner(&self) -> impl Iterator<Item = &HalfSpace> {
-        self.seams.iter().chain(&self.laid)
-    }
 }
 
 impl Solid {
@@ -178,16 +155,19 @@ impl Solid {
         Self::Faces(Faces {
             bare,
             seams: Vec::new(),
-            laid: Vec::new(),
         })
     }
 
-    /// Its faces that water may meet.
-    pub fn bare(&self) -> &[HalfSpace] {
-        match self {
-            Self::Faces(faces) => &faces.bare,
-            Self::Sphere { .. } => &[],
-        }
+    /// Whether a layer of this part is parallel to `seam` of another where `point` (m), just behind it, is.
+    pub fn follows(&self, seam: &HalfSpace, point: DVec3, slack: f64) -> bool {
+        let Self::Faces(faces) = self else {
+            return false;
+        };
+        let is_below = |face: &HalfSpace| {
+            let apart = face.height(point) + seam.height(point);
+            face.normal.dot(seam.normal) < 1e-9 - 1.0 && apart.abs() < slack
+        };
+        self.depth(point) > -slack && faces.bare.iter().any(is_below)
     }
 
     /// Sorts out the faces of a part that lie inside `others`, the other parts of its block.
@@ -221,7 +201,7 @@ impl Solid {
             Self::Faces(faces) => {
                 let least = |least: f64, plane: &HalfSpace| least.min(-plane.height(point));
                 // What is beyond a seam is another part's.
-                let inside = faces.inner().fold(f64::INFINITY, least);
+                let inside = faces.seams.iter().fold(f64::INFINITY, least);
                 if inside < 0.0 {
                     inside
                 } else {

@@ -127,7 +127,7 @@ fn widest_hole(made: &Made, parts: &[Rectangle], outline: &[[f64; 2]], scale: f6
 }
 
 /// Δx does not divide most of the sizes. In the square lattice nowhere is farther from a point than 0.71 Δx, and the
-/// few rows over the parts' widths stretch by up to a tenth.
+/// few rows over the parts' widths stretch by up to a tenth, or meet those of another part.
 #[test]
 fn re_entrant_corners_of_a_compound_have_no_holes() {
     for (name, parts, outline) in sections() {
@@ -141,7 +141,7 @@ fn re_entrant_corners_of_a_compound_have_no_holes() {
                 let made = compound(&parts, scale, &keys);
                 let widest = widest_hole(&made, &parts, &outline, scale) / DX;
                 assert!(
-                    widest < 0.75,
+                    widest < 0.8,
                     "{name} × {scale}, {motion}: {widest} spacings"
                 );
                 let apart = nearest(&made.shell("b")) / DX;

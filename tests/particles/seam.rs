@@ -6,8 +6,10 @@ use glam::DVec2;
 /// Two corners of a rectangle of a section, x and z, m.
 type Rectangle = [[f64; 2]; 2];
 
-/// Sections with re-entrant corners, as parts and as the outline of all of them.
-fn sections() -> [(&'static str, Vec<Rectangle>, Vec<[f64; 2]>); 4] {
+/// A section with re-entrant corners: its name, its parts and the outline of all of them, m.
+type Section = (&'static str, Vec<Rectangle>, Vec<[f64; 2]>);
+
+fn sections() -> [Section; 4] {
     let l = vec![
         [0.0, 0.0],
         [0.6, 0.0],

@@ -194,7 +194,7 @@ fn a_block_falls_into_water_and_its_books_close() {
 }
 
 #[test]
-fn water_far_faster_than_expected_is_told() {
+fn water_that_is_too_fast_or_lost_is_told() {
     let folder = folder("water_fast");
     let text = STILL
         .replace("plane = true", "plane = true\n    largest_speed = 1")
@@ -204,7 +204,10 @@ fn water_far_faster_than_expected_is_told() {
         );
     let summary = go(&args(&folder, &text, "out"));
     let told = |words: &str| summary.warnings.iter().any(|w| w.contains(words));
-    assert!(summary.pool.unwrap().max_mach > 0.2);
+    let pool = summary.pool.unwrap();
+    assert!(pool.max_mach > 0.2);
     assert!(told("water reached"), "{:?}", summary.warnings);
-    assert!(!told("left the domain"), "{:?}", summary.warnings);
+    // It runs up the wall and out of the tank: one particle is more than a hundredth.
+    assert!(pool.escaped > 0);
+    assert!(told("left the domain"), "{:?}", summary.warnings);
 }

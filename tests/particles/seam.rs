@@ -1,7 +1,7 @@
 //! Shells where the parts of a compound meet.
 
 use crate::{DX, Made, nearest, scene};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Two corners of a rectangle of a section, x and z, m.
 type Rectangle = [[f64; 2]; 2];
@@ -150,5 +150,41 @@ fn re_entrant_corners_of_a_compound_have_no_holes() {
                 assert!(apart > 0.599, "{name} × {scale}, {motion}: {apart}");
             }
         }
+    }
+}
+
+/// A box on a plate, in space: around its foot no hole is wider than half a diagonal of the lattice's cube and the
+/// tenth by which rows stretch.
+#[test]
+fn the_foot_of_a_box_on_a_plate_has_no_holes() {
+    for scale in [1.0, 1.04, 1.09] {
+        let (plate, foot, height) = (0.7 * scale, 0.4 * scale, 0.3 * scale);
+        let block = format!(
+            "[[blocks]]\nname = \"b\"\nkind = \"compound\"\nposition = [1, 0.5, 0.6]\n\
+             parts = [{{ kind = \"box\", size = [{plate}, {plate}, 0.2] }}, \
+             {{ kind = \"box\", size = [{foot}, {foot}, {height}], position = [0, 0, {}] }}]\n",
+            0.1 + 0.5 * height
+        );
+        let made = Made::of(&scene("", &block).unwrap());
+        let index = made.block("b");
+        // The plate's centre is the origin.
+        let offset = made.setup.setup.blocks[index].shape.parts()[0].offset;
+        let shell: Vec<DVec3> = made.shells[index].iter().map(|x| *x - offset).collect();
+        let mut widest = 0.0f64;
+        for n in 0..=40 {
+            let along = (f64::from(n) / 40.0 - 0.5) * (foot - DX);
+            for layer in [0.5, 1.0, 1.5] {
+                for up in -6..=12 {
+                    let side = 0.5 * foot - layer * DX;
+                    let z = 0.1 + 0.25 * f64::from(up) * DX;
+                    for x in [DVec3::new(side, along, z), DVec3::new(along, -side, z)] {
+                        let distances = shell.iter().map(|s| s.distance(x));
+                        widest = widest.max(distances.fold(f64::INFINITY, f64::min));
+                    }
+                }
+            }
+        }
+        let widest = widest / DX;
+        assert!(widest < 0.95, "× {scale}: {widest} spacings");
     }
 }

@@ -192,3 +192,22 @@ fn a_block_falls_into_water_and_its_books_close() {
     assert!(height > 0.745 && height < 0.95, "{height}");
     assert!(out.join("blocks.pvd").is_file());
 }
+
+#[test]
+fn water_that_is_too_fast_or_lost_is_told() {
+    let folder = folder("water_fast");
+    let text = STILL
+        .replace("plane = true", "plane = true\n    largest_speed = 1")
+        .replace(
+            "position = [0.6, 0.5, 0.4]",
+            "position = [0.6, 0.5, 0.4]\n    velocity = [3, 0, 0]",
+        );
+    let summary = go(&args(&folder, &text, "out"));
+    let told = |words: &str| summary.warnings.iter().any(|w| w.contains(words));
+    let pool = summary.pool.unwrap();
+    assert!(pool.max_mach > 0.2);
+    assert!(told("water reached"), "{:?}", summary.warnings);
+    // It runs up the wall and out of the tank: one particle is more than a hundredth.
+    assert!(pool.escaped > 0);
+    assert!(told("left the domain"), "{:?}", summary.warnings);
+}

@@ -7,10 +7,15 @@ use glam::DVec3;
 /// Cosine of the angle to a plane below which a direction lies in it.
 const WITHIN: f64 = 1e-9;
 
+/// How precisely the place between two seams that are near each other is found, of half a spacing.
+const PRECISE: f64 = 1e-7;
+
 /// The part of a plane that lies in all of some half-spaces.
 pub(super) struct Facet {
     plane: HalfSpace,
     corners: Vec<DVec3>,
+    /// Edges a layer of another part of the block is parallel to, a spacing farther out.
+    laid: Vec<HalfSpace>,
 }
 
 impl Facet {
@@ -33,7 +38,72 @@ impl Facet {
                 return None;
             }
         }
-        Some(Self { plane, corners })
+        Some(Self {
+            plane,
+            corners,
+            laid: Vec::new(),
+        })
+    }
+
+    /// The same, and it ends before each of `seams` by a length (m), or beyond it by one below 0. Where seams, or one
+    /// and an edge, are too near each other for that, what is left between them is a line.
+    pub fn beside(
+        plane: HalfSpace,
+        others: &[HalfSpace],
+        (seams, slack): (&[(HalfSpace, f64)], f64),
+        (about, reach): (DVec3, f64),
+    ) -> Option<Self> {
+        // So that the trace of the seam in the plane moves by that length.
+        let moved = |(seam, by): &(HalfSpace, f64), share: f64| {
+            let by = if *by > 0.0 { *by * share } else { *by };
+            HalfSpace {
+                distance: seam.distance - by * seam.normal.cross(plane.normal).length() + slack,
+                ..*seam
+            }
+        };
+        let cut = |share: f64| {
+            let seams = seams.iter().map(|seam| moved(seam, share));
+            Self::new(plane, others.iter().copied().chain(seams), about, reach)
+        };
+        let mut share = 1.0;
+        let mut facet = cut(share);
+        if facet.is_none() {
+            facet = Some(cut(0.0)?);
+            let (mut most, mut least) = (1.0, 0.0);
+            while most - least > PRECISE {
+                let middle = 0.5 * (least + most);
+                match cut(middle) {
+                    Some(found) => (facet, least) = (Some(found), middle),
+                    None => most = middle,
+                }
+            }
+            share = least;
+        }
+        let mut facet = facet?;
+        let laid = seams.iter().filter(|(_, by)| *by > 0.0);
+        facet.laid = laid.map(|seam| moved(seam, share)).collect();
+        Some(facet)
+    }
+
+    /// Some points near its edge on `seam`, none if it has none there.
+    pub fn edge(&self, seam: &HalfSpace, slack: f64) -> Vec<DVec3> {
+        let next = self.corners.iter().cycle().skip(1);
+        let on = |x: &DVec3| seam.height(*x).abs() < slack;
+        let edges = self.corners.iter().zip(next);
+        let edges = edges.filter(|(a, b)| on(a) && on(b) && a.distance(**b) > slack);
+        edges
+            .flat_map(|(a, b)| [0.02, 0.5, 0.98].map(|share| a.lerp(*b, share)))
+            .collect()
+    }
+
+    /// Whether what it reaches at `at` (m) along a direction is an edge before a seam.
+    fn is_before_seam(&self, lattice: &Lattice, direction: DVec3, at: f64) -> bool {
+        let there = |c: &&DVec3| (c.dot(direction) - at).abs() < lattice.tolerance();
+        let mut corners = self.corners.iter().filter(there);
+        corners.all(|corner| {
+            let mut heights = self.laid.iter().map(|seam| seam.height(*corner));
+            heights.any(|height| height.abs() < lattice.tolerance())
+        })
     }
 
     /// Points all over it: near its corners and the middles of its edges, and its middle.
@@ -84,10 +154,14 @@ impl Facet {
         let other = (0..3).find(|axis| across[*axis].abs() > 1.0 - WITHIN);
         let across = other.map_or(across, |axis| DVec3::AXES[axis]);
         let range = self.extent(across);
+        let to = |axis: usize, end: f64| match self.is_before_seam(lattice, across, end) {
+            true => lattice.row_beside(axis, range, end),
+            false => lattice.row_to(axis, range, end),
+        };
         let rows = match other.map(|axis| (axis, self.passes(lattice, axis))) {
             Some((axis, [true, true])) => lattice.row(axis, range),
-            Some((axis, [true, false])) => lattice.row_to(axis, range, range[1]),
-            Some((axis, [false, true])) => lattice.row_to(axis, range, range[0]),
+            Some((axis, [true, false])) => to(axis, range[1]),
+            Some((axis, [false, true])) => to(axis, range[0]),
             _ => lattice.fitted(range),
         };
         let origin = self.plane.normal * self.plane.distance;

@@ -113,6 +113,31 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
     Ok(start)
 }
 
+/// Volume of all bodies of water of `scene`, m³; none where a block stands in the box around one.
+pub(super) fn volume(scene: &Scene, setup: &BlockSetup) -> Result<Option<f64>> {
+    let solids = setup.setup.blocks.iter().flat_map(Placed::of);
+    let solids: Vec<Placed<'_>> = solids.collect();
+    let slack = 1e-6 * scene.particles.as_ref().map_or(0.0, |p| p.spacing);
+    let mut volume = 0.0;
+    for (index, water) in scene.water.iter().enumerate() {
+        let (shape, centroid) = simulation::shape(scene, &format!("water[{index}]"), &water.shape)?;
+        let rotation = simulation::rotation(&water.rotation);
+        let centre = DVec3::from(water.position) + rotation * centroid;
+        let is_met = |part: &Placed<'_>| {
+            let meets = |solid: &Placed<'_>| {
+                (solid.low + slack).cmplt(part.high).all()
+                    && (solid.high - slack).cmpgt(part.low).all()
+            };
+            solids.iter().any(meets)
+        };
+        if Placed::parts(&shape, centre, rotation).iter().any(is_met) {
+            return Ok(None);
+        }
+        volume += shape.volume();
+    }
+    Ok(Some(volume))
+}
+
 /// The acceleration that pressure balances, m/s²: along a period, nothing stands against it.
 fn gravity(scene: &Scene) -> DVec3 {
     let (_, gradient) = scene.hydrostatic();

@@ -1,6 +1,8 @@
 //! From a scene to its water.
 
-use super::{Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, shells};
+use super::{
+    Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, shells, speeds::Speeds,
+};
 use crate::{
     Error, Result,
     bodies::{Block, Motion},
@@ -59,20 +61,24 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let gravity = DVec3::from_array(
         [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0)),
     );
-    let fastest = largest_speed(scene, blocks, &start, gravity);
+    let length = scene.run.duration.unwrap_or(0.0);
+    let speeds = Speeds::new(&start.positions, particles.spacing, gravity, length);
+    let fastest = largest_speed(scene, blocks, &start, &speeds);
+    let sound_speed = match particles.scheme {
+        scene::Scheme::Delta => scene::Particles::SOUND * fastest,
+        scene::Scheme::Mueller => {
+            let usual = scene::Particles::STIFFNESS * fastest.powi(2);
+            particles.stiffness.unwrap_or(usual).sqrt()
+        }
+    };
+    check(&blocks.setup.blocks, &speeds, sound_speed)?;
     let mut setup = Setup {
         origin: DVec3::from(scene.domain.origin),
         size: DVec3::from(scene.domain.size),
         faces: sides,
         spacing: particles.spacing,
         smoothing: particles.smoothing,
-        sound_speed: match particles.scheme {
-            scene::Scheme::Delta => scene::Particles::SOUND * fastest,
-            scene::Scheme::Mueller => {
-                let usual = scene::Particles::STIFFNESS * fastest.powi(2);
-                particles.stiffness.unwrap_or(usual).sqrt()
-            }
-        },
+        sound_speed,
         density: scene.fluid.density,
         gravity,
         laminar_viscosity: match particles.scheme {
@@ -102,8 +108,8 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
 }
 
 /// The largest speed that is expected, m/s: what the scene says, or that of a fall through the height of all
-/// water, or of what moves at the start.
-fn largest_speed(scene: &Scene, blocks: &BlockSetup, start: &Start, gravity: DVec3) -> f64 {
+/// water, or of what moves at the start, is driven or falls.
+fn largest_speed(scene: &Scene, blocks: &BlockSetup, start: &Start, speeds: &Speeds) -> f64 {
     if let Some(given) = scene
         .particles
         .as_ref()
@@ -111,40 +117,40 @@ fn largest_speed(scene: &Scene, blocks: &BlockSetup, start: &Start, gravity: DVe
     {
         return given;
     }
-    let heights = start.positions.iter().map(|x| x.dot(gravity));
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-        (low.min(height), high.max(height))
-    });
-    // Half a spacing of water is above the highest particle and below the lowest.
-    let spacing = scene
-        .particles
-        .as_ref()
-        .map_or(0.0, |particles| particles.spacing);
-    let fall = (2.0 * ((high - low).max(0.0) + spacing * gravity.length())).sqrt();
     let water = start.velocities.iter().map(|v| v.length());
-    let length = scene.run.duration.unwrap_or(0.0);
-    let blocks = blocks.setup.blocks.iter().map(|block| speed(block, length));
-    water.chain(blocks).fold(fall, f64::max)
+    let blocks = blocks.setup.blocks.iter().map(|block| speeds.of(block));
+    water.chain(blocks).fold(speeds.of_water(), f64::max)
 }
 
-/// Moments of a run at which the speed of a driven block is looked at.
-const MOMENTS: u32 = 1000;
-
-/// The largest speed of a block that nothing pushes, in a run of `length` (s), m/s.
-fn speed(block: &Block, length: f64) -> f64 {
-    let of =
-        |velocity: DVec3, spin: DVec3| velocity.length() + spin.length() * block.shape.radius();
-    match &block.motion {
-        Motion::Fixed => 0.0,
-        Motion::Free => of(block.velocity, block.spin),
-        Motion::Driven { velocity, spin } => {
-            let moments = (0..=MOMENTS).map(|n| length * f64::from(n) / f64::from(MOMENTS));
-            let at = |formulas: &[crate::formula::Formula; 3], time| {
-                DVec3::from_array([0, 1, 2].map(|axis| formulas[axis].eval_at([0.0; 3], time)))
-            };
-            moments
-                .map(|time| of(at(velocity, time), at(spin, time)))
-                .fold(0.0, f64::max)
-        }
+/// Water can make way for all that is driven.
+fn check(blocks: &[Block], speeds: &Speeds, sound_speed: f64) -> Result<()> {
+    if sound_speed <= 0.0 {
+        return Err(Error::scene(
+            "particles.largest_speed",
+            "nothing flows, falls or is driven, from which a speed of sound would follow; give the largest speed that \
+             is expected, m/s",
+        ));
     }
+    let driven = |block: &&Block| matches!(block.motion, Motion::Driven { .. });
+    for block in blocks.iter().filter(driven) {
+        let speed = speeds.of(block);
+        if speed < sound_speed {
+            continue;
+        }
+        let place = format!("block {}", block.name);
+        return Err(match speed.is_finite() {
+            true => Error::scene(
+                place,
+                format!(
+                    "is driven at up to {speed:.3} m/s, and sound in the water has {sound_speed:.3} m/s: water cannot \
+                     make way; drive it more slowly, or give particles.largest_speed {speed:.3} at least"
+                ),
+            ),
+            false => Error::scene(
+                place,
+                format!("is driven at {speed} m/s at some moment of the run; mend the formula"),
+            ),
+        });
+    }
+    Ok(())
 }

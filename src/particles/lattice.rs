@@ -105,6 +105,22 @@ impl Lattice {
         row
     }
 
+    /// The same where the points go on a spacing beyond `end` (m) of the range: one more stands in the middle of
+    /// what is left, where that is room for it.
+    pub fn row_beside(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
+        let mut row = self.row(axis, range);
+        let upward = end == range[1];
+        let Some(last) = (if upward { row.last() } else { row.first() }) else {
+            return vec![end];
+        };
+        let beyond = if upward { self.spacing } else { -self.spacing };
+        let middle = last.midpoint(end + beyond);
+        if (middle - last).abs() >= super::crowd::NEAREST * self.spacing {
+            row.push(middle);
+        }
+        row
+    }
+
     /// About as many coordinates as the spacing asks for from `from` to `to` (m), those two included.
     pub fn fitted(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let length = to - from;

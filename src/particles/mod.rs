@@ -9,6 +9,7 @@
 mod advise;
 mod cloud;
 mod crowd;
+mod edge;
 mod facet;
 mod fill;
 mod followed;
@@ -29,6 +30,7 @@ mod program;
 mod setup;
 mod shell;
 mod sorting;
+mod speeds;
 mod sphere;
 mod totals;
 mod water;

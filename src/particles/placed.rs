@@ -152,8 +152,22 @@ impl Solid {
             })
         };
         let bare = planes.into_iter().filter(|plane| !ends(plane)).collect();
-        let seams = Vec::new();
-        Self::Faces(Faces { bare, seams })
+        Self::Faces(Faces {
+            bare,
+            seams: Vec::new(),
+        })
+    }
+
+    /// Whether a layer of this part is parallel to `seam` of another where `point` (m), just behind it, is.
+    pub fn follows(&self, seam: &HalfSpace, point: DVec3, slack: f64) -> bool {
+        let Self::Faces(faces) = self else {
+            return false;
+        };
+        let is_below = |face: &HalfSpace| {
+            let apart = face.height(point) + seam.height(point);
+            face.normal.dot(seam.normal) < 1e-9 - 1.0 && apart.abs() < slack
+        };
+        self.depth(point) > -slack && faces.bare.iter().any(is_below)
     }
 
     /// Sorts out the faces of a part that lie inside `others`, the other parts of its block.
@@ -185,16 +199,13 @@ impl Solid {
         match self {
             Self::Sphere { centre, radius } => radius - centre.distance(point),
             Self::Faces(faces) => {
-                let depth = |planes: &[HalfSpace]| {
-                    let depths = planes.iter().map(|plane| -plane.height(point));
-                    depths.fold(f64::INFINITY, f64::min)
-                };
+                let least = |least: f64, plane: &HalfSpace| least.min(-plane.height(point));
                 // What is beyond a seam is another part's.
-                let inside = depth(&faces.seams);
+                let inside = faces.seams.iter().fold(f64::INFINITY, least);
                 if inside < 0.0 {
                     inside
                 } else {
-                    depth(&faces.bare)
+                    faces.bare.iter().fold(f64::INFINITY, least)
                 }
             }
         }

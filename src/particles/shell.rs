@@ -2,6 +2,7 @@
 
 use super::{
     crowd::Crowd,
+    edge::Edge,
     facet::Facet,
     lattice::Lattice,
     placed::{Faces, Placed, Solid},
@@ -21,9 +22,10 @@ use glam::DVec3;
 ///
 /// Facet by facet and layer by layer, the facet of what is left of a convex part when all its faces move in
 /// by (k + ½) Δx is filled with rows of points; they belong to the lattice of the fluid where the part spans
-/// the domain. No two points of a block are nearer than 0.6 Δx, nor two of fixed blocks, which share what they
-/// have in common by depth: who of them is deeper there. The faces of the domain give lattice points outside
-/// of it, in corners too. Fixed blocks have none farther beyond the domain than its walls.
+/// the domain. Where a part stands on another, the rows of both follow each other as if they were of one. No two
+/// points of a block are nearer than 0.6 Δx, nor two of fixed blocks, which share what they have in common by
+/// depth: who of them is deeper there. The faces of the domain give lattice points outside of it, in corners too.
+/// Fixed blocks have none farther beyond the domain than its walls.
 ///
 /// # Errors
 /// If the scene has no particles, a block is thinner than Δx, or, in a plane, is no prism across the domain.
@@ -118,16 +120,29 @@ fn wall(lattice: &Lattice, face: Face) -> Vec<DVec3> {
     points
 }
 
-/// The layers of a block, the outermost of all its facets first, m.
+/// The layers of a block, the outermost of all its facets first, and what goes on behind re-entrant edges last, m.
 fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Vec<DVec3> {
-    let mut points = Vec::new();
+    let (mut points, mut behind) = (Vec::new(), Vec::new());
+    let deepest = |x: DVec3| {
+        let depths = solids.iter().map(|solid| solid.depth(x));
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    };
     for layer in 0..lattice.layers {
         let depth = lattice.depth(layer);
-        for solid in solids {
+        for (index, solid) in solids.iter().enumerate() {
             match solid {
                 Solid::Faces(faces) => {
-                    for facet in facets(block, faces, depth, lattice, fixed) {
-                        points.extend(facet.points(lattice));
+                    let others = solids.iter().enumerate().filter(|(i, _)| *i != index);
+                    let others: Vec<&Solid> = others.map(|(_, other)| other).collect();
+                    for facet in facets(block, (faces, &others), depth, lattice, fixed) {
+                        let (own, rest): (Vec<DVec3>, Vec<DVec3>) =
+                            facet.points(lattice).into_iter().partition(|x| {
+                                let mut seams = faces.seams.iter();
+                                seams.all(|seam| seam.height(*x) <= lattice.tolerance())
+                            });
+                        points.extend(own);
+                        let least = lattice.depth(0) - lattice.tolerance();
+                        behind.extend(rest.into_iter().filter(|x| deepest(*x) >= least));
                     }
                 }
                 Solid::Sphere { centre, radius } if *radius >= depth - lattice.tolerance() => {
@@ -138,6 +153,7 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Ve
             }
         }
     }
+    points.extend(behind);
     let reach = [0, 1, 2].map(|axis| lattice.reach(axis));
     points.retain(|x| {
         let inside = |axis: usize| x[axis] >= reach[axis][0] && x[axis] <= reach[axis][1];
@@ -146,8 +162,15 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Ve
     points
 }
 
-/// The facets of what is left when the bare ones of `faces` have moved in by `depth` (m).
-fn facets(block: &Block, faces: &Faces, depth: f64, lattice: &Lattice, fixed: bool) -> Vec<Facet> {
+/// The facets of what is left when the bare ones of `faces` have moved in by `depth` (m), beside `solids`, the other
+/// parts of the block.
+fn facets(
+    block: &Block,
+    (faces, solids): (&Faces, &[&Solid]),
+    depth: f64,
+    lattice: &Lattice,
+    fixed: bool,
+) -> Vec<Facet> {
     let moved = |plane: &HalfSpace, by: f64| HalfSpace {
         distance: plane.distance - by,
         ..*plane
@@ -167,9 +190,25 @@ fn facets(block: &Block, faces: &Faces, depth: f64, lattice: &Lattice, fixed: bo
     let facet = |(index, plane): (usize, &HalfSpace)| {
         let others = faces.bare.iter().enumerate().filter(|(i, _)| *i != index);
         let others = others.map(|(_, other)| moved(other, depth - slack));
-        let others = others.chain(faces.seams.iter().map(|seam| moved(seam, -slack)));
-        let others = others.chain(ends.iter().copied());
-        Facet::new(moved(plane, depth), others, about, reach)
+        let others: Vec<HalfSpace> = others.chain(ends.iter().copied()).collect();
+        let seams = faces.seams.iter();
+        let whole = others.iter().copied();
+        let whole = whole.chain(seams.clone().map(|seam| moved(seam, -slack)));
+        let plane = moved(plane, depth);
+        let whole = Facet::new(plane, whole, about, reach)?;
+        let seams = seams.map(|seam| {
+            let edge = Edge {
+                points: whole.edge(seam, lattice.tolerance()),
+                depth,
+            };
+            (*seam, edge.end(&plane, seam, solids, lattice))
+        });
+        Facet::beside(
+            plane,
+            &others,
+            (&seams.collect::<Vec<_>>(), slack),
+            (about, reach),
+        )
     };
     faces.bare.iter().enumerate().filter_map(facet).collect()
 }
@@ -223,7 +262,7 @@ fn check(block: &Block, parts: &[Placed<'_>], lattice: &Lattice) -> Result<()> {
             let Solid::Faces(faces) = Solid::of(part, lattice, false) else {
                 return true;
             };
-            !facets(block, &faces, depth, lattice, false).is_empty()
+            !facets(block, (&faces, &[]), depth, lattice, false).is_empty()
         }
     };
     if parts.iter().any(thick) {

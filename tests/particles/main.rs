@@ -4,6 +4,7 @@ mod advice;
 mod fill;
 mod gauges;
 mod kernel;
+mod seam;
 mod shell;
 
 use glam::DVec3;

@@ -171,7 +171,10 @@ fn particles_that_contradict_themselves_are_refused() {
         (
             "spacing = 0.05",
             "spacing = 0.2",
-            ["domain.size[1]", "at least 12"],
+            [
+                "domain.size[1]",
+                "hold 5 particles 0.2 m apart, and the kernel wants 12 at least",
+            ],
         ),
         (
             "spacing = 0.05",

@@ -94,7 +94,18 @@ impl Scene {
             let count = size / spacing;
             // Three cells of the device, each as wide as the kernel reaches.
             let fewest = 3 * particles.layers();
-            if (count - count.round()).abs() > WHOLE || count.round() < f64::from(fewest) {
+            let is_whole = (count - count.round()).abs() <= WHOLE;
+            if is_whole && count.round() < f64::from(fewest) {
+                return refuse(
+                    key,
+                    format!(
+                        "{size} m along {}, which is periodic, hold {count:.0} particles {spacing} m apart, and the \
+                         kernel wants {fewest} at least; make it longer, or use a smaller particles.spacing",
+                        axis.name()
+                    ),
+                );
+            }
+            if !is_whole {
                 return refuse(
                     key,
                     format!(

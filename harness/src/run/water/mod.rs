@@ -248,7 +248,9 @@ impl Engine for Pond {
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
         summary.rocks = self.rocks(Rocks::concluded(self, notes, (steps, time)));
-        summary.pool = Some(Pool::of(self).since(summary.pool.as_ref(), time));
+        let pool = Pool::of(self).since(summary.pool.as_ref(), time);
+        summary.warnings.extend(pool.warnings(self));
+        summary.pool = Some(pool);
     }
 }
 

@@ -1,8 +1,15 @@
 //! A run of water in numbers.
 
 use super::Pond;
+use riprap::{particles::Scheme, scene::Boundary};
 use serde::Serialize;
 use std::{fmt, time::Duration};
+
+/// Mach number above which density changes by several hundredths.
+const FAST: f64 = 0.2;
+
+/// Share of the water that may leave where none is meant to.
+const LOST: f64 = 0.01;
 
 /// What the particles of water did.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -67,6 +74,43 @@ impl Pool {
             ..self
         }
     }
+}
+
+impl Pool {
+    /// What makes the numbers of `pond` doubtful.
+    pub fn warnings(&self, pond: &Pond) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let setup = pond.simulation.particles().setup();
+        // The published scheme has Mach 0.45 at the largest speed expected.
+        if setup.scheme == Scheme::Delta && self.max_mach > FAST {
+            warnings.push(format!(
+                "water reached {:.3} m/s, Mach {:.2}, and its density changes by several hundredths above Mach {FAST}; \
+                 give particles.largest_speed that speed, or look for water that leaks or is squeezed",
+                self.max_speed, self.max_mach
+            ));
+        }
+        let share = f64::from(self.escaped) / f64::from(self.particles.max(1));
+        if share > LOST && !has_outlet(pond) {
+            warnings.push(format!(
+                "{} of {} particles ({:.1} %) left the domain, which is open neither below nor beside the water; look for \
+                 a leak, or for water that is thrown out",
+                self.escaped,
+                self.particles,
+                100.0 * share
+            ));
+        }
+        warnings
+    }
+}
+
+/// Whether water may leave through a face: those above it only let drops out.
+fn has_outlet(pond: &Pond) -> bool {
+    let gravity = pond.simulation.particles().setup().gravity;
+    let mut faces = pond.simulation.scene().boundaries.iter();
+    faces.any(|(face, boundary)| {
+        let down = face.outward() * gravity[face.axis().index()];
+        *boundary == Boundary::Open && down >= 0.0
+    })
 }
 
 impl fmt::Display for Pool {

@@ -44,7 +44,7 @@ impl Wet {
             let loads = self.immersed.face_loads(&sums)?;
             let whole = |(loads, pose): (Vec<FaceLoad>, &Pose)| {
                 let load = |load: FaceLoad| {
-                    let weight = self.ambient.weight(load.face.centre);
+                    let weight = self.ambient.weight(load.centre);
                     load.at_face(weight, pose.centre)
                 };
                 loads.into_iter().map(load).collect()

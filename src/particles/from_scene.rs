@@ -135,6 +135,8 @@ fn speed(block: &Block, length: f64) -> f64 {
             };
             moments
                 .map(|time| of(at(velocity, time), at(spin, time)))
+                // Where a formula has no value the run ends, and says so.
+                .filter(|speed| speed.is_finite())
                 .fold(0.0, f64::max)
         }
     }

@@ -95,7 +95,8 @@ pub enum Error {
     },
     /// Two blocks overlap by more than hard blocks may.
     #[error(
-        "{first} and {second} overlap by {depth:.3e} m, more than {limit:.3e} m, which hard blocks may; {remedy}"
+        "{first} and {second} overlap by {} m, more than {} m, which hard blocks may; {remedy}",
+        unlike(*depth, *limit)[0], unlike(*depth, *limit)[1]
     )]
     DeepOverlap {
         /// One block.
@@ -188,10 +189,24 @@ impl Overlap {
     fn list(pairs: &[Self]) -> String {
         let few = pairs.iter().take(3);
         let names: Vec<_> = few
-            .map(|pair| format!("{} and {} by {:.3e} m", pair.first, pair.second, pair.depth))
+            .map(|pair| match pair.depth.is_finite() {
+                true => format!("{} and {} by {:.3e} m", pair.first, pair.second, pair.depth),
+                // No plane is near to part them.
+                false => format!(
+                    "{} and {}, of which one lies inside the other",
+                    pair.first, pair.second
+                ),
+            })
             .collect();
         names.join(", ")
     }
+}
+
+/// Two numbers with as many digits as it takes to tell them apart, four at least.
+fn unlike(a: f64, b: f64) -> [String; 2] {
+    let written = |digits: usize| [a, b].map(|x| format!("{x:.digits$e}"));
+    let told = (3..16).map(written).find(|[a, b]| a != b);
+    told.unwrap_or_else(|| written(3))
 }
 
 impl Error {
@@ -226,3 +241,29 @@ impl Error {
 
 /// `std::result::Result` with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_tell_them_apart() {
+        assert_eq!(unlike(8.3334e-5, 8.333e-5), ["8.3334e-5", "8.3330e-5"]);
+        assert_eq!(unlike(2.0, 1.0), ["2.000e0", "1.000e0"]);
+        assert_eq!(unlike(1.0, 1.0), ["1.000e0", "1.000e0"]);
+    }
+
+    #[test]
+    fn a_block_inside_another_has_no_depth() {
+        let pairs = [f64::INFINITY, 0.5].map(|depth| Overlap {
+            first: "a".into(),
+            second: "b".into(),
+            depth,
+        });
+        let told = Overlap::list(&pairs);
+        assert_eq!(
+            told,
+            "a and b, of which one lies inside the other, a and b by 5.000e-1 m"
+        );
+    }
+}

@@ -4,8 +4,11 @@ mod rig;
 
 use rig::{args, folder, go};
 use riprap::output::Table;
-use riprap_harness::{render::Picture, run::Args};
-use std::fs;
+use riprap_harness::{
+    render::Picture,
+    run::{Args, run},
+};
+use std::{fs, sync::atomic::AtomicBool};
 
 /// A tank of 12 × 8 particles of still water; nothing varies along y.
 const STILL: &str = r#"
@@ -122,7 +125,7 @@ fn a_restart_goes_on_to_the_same_bits() {
     let checkpoint = go(&part).checkpoint.unwrap();
     go(&Args {
         steps: None,
-        restart: Some(checkpoint),
+        restart: Some(checkpoint.clone()),
         ..part
     });
     for file in ["water_000012.vtp", "bed.csv"] {
@@ -130,6 +133,17 @@ fn a_restart_goes_on_to_the_same_bits() {
         // The table of the part has the row of its own end, too.
         let tail = |bytes: &[u8]| bytes[bytes.len() - 60..].to_vec();
         assert_eq!(tail(&a), tail(&b), "{file}");
+    }
+    // The same water in a longer tank is another scene.
+    let longer = STILL.replace("size = [1.2, 1, 1.2]", "size = [1.3, 1, 1.2]");
+    let other = Args {
+        restart: Some(checkpoint),
+        ..args(&folder, &longer, "other")
+    };
+    let refused = run(&other, &AtomicBool::new(false)).unwrap_err();
+    let told = refused.to_string();
+    for part in ["restart", "[1.2, 1, 1.2] m", "[1.3, 1, 1.2] m"] {
+        assert!(told.contains(part), "{part}: {told}");
     }
 }
 

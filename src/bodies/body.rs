@@ -73,6 +73,16 @@ impl Body {
         formulas.each_ref().map(|v| acting::value(v, t))
     }
 
+    /// The formula of a driven block that is not finite at the time `t` (s), if one is.
+    pub fn undriven_at(&self, t: f64) -> Option<&str> {
+        let Drive::Formulas(formulas) = &self.drive else {
+            return None;
+        };
+        let mut all = formulas.iter().flatten();
+        let lost = all.find(|formula| !formula.eval_at([0.0; 3], t).is_finite());
+        lost.map(Formula::text)
+    }
+
     /// What acts on it alone.
     pub fn acting(&self) -> Option<&Acting> {
         match &self.drive {

@@ -218,6 +218,9 @@ impl Scene<'_> {
             overlap: contact.overlap,
             area: contact.area,
             elastic_area: contact.area.max(self.corner_area * square),
+            rolls: parts
+                .iter()
+                .any(|&part| self.parts.placed[part as usize].is_sphere()),
         };
         let fresh = History {
             bonded: self.bonding,

@@ -234,18 +234,25 @@ impl Blocks {
     }
 
     /// Why a block has no pose at `time` (s).
-    fn lost(&self, block: usize, time: f64) -> Error {
-        let strain = self.deforming.of_next(&self.bodies[block]);
+    fn lost(&self, number: usize, time: f64) -> Error {
+        let strain = self.deforming.of_next(&self.bodies[number]);
         let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
-        let block = self.label(block);
+        let block = self.label(number);
         if crushed {
             return Error::Inverted { block, time };
         }
-        let remedy = "look at its load, its drive and its contacts; a shorter time_step may help";
+        let remedy = match self.bodies[number].undriven_at(time) {
+            Some(formula) => format!(
+                "its formula `{formula}` has no finite value there; give one that has at all times of the run"
+            ),
+            None => {
+                "look at its load, its drive and its contacts; a shorter time_step may help".into()
+            }
+        };
         Error::NotFinite {
             block,
             time,
-            remedy: remedy.into(),
+            remedy,
         }
     }
 

@@ -16,6 +16,12 @@ pub struct WaterCheckpoint {
     pub step: u64,
     /// Length of a step, s.
     pub time_step: f64,
+    /// Lower corner of the domain, m.
+    pub origin: DVec3,
+    /// Its size, m.
+    pub size: DVec3,
+    /// Spacing of the particles, m.
+    pub spacing: f64,
     /// The particles, in the order and the units of the device.
     pub particles: Vec<Particle>,
     /// What the water remembers besides.
@@ -27,10 +33,10 @@ pub struct WaterCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap water  1\n";
+const MAGIC: &[u8; 16] = b"riprap water  2\n";
 /// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
-/// last exchange, velocities, loads.
-const WORDS: usize = 9;
+/// last exchange, velocities, loads, lower corner and size of the domain, spacing.
+const WORDS: usize = 16;
 /// Bytes of a particle.
 const PARTICLE: usize = size_of::<Particle>();
 /// Numbers of a body: a vector and a matrix.
@@ -43,6 +49,7 @@ impl WaterCheckpoint {
     /// [`Error::File`] if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
         let state = &self.state;
+        let [origin, size] = [self.origin, self.size].map(|v| v.to_array().map(f64::to_bits));
         let words = [
             self.step,
             self.time_step.to_bits(),
@@ -53,6 +60,13 @@ impl WaterCheckpoint {
             state.lasted.to_bits(),
             state.before.len() as u64,
             self.loads.len() as u64,
+            origin[0],
+            origin[1],
+            origin[2],
+            size[0],
+            size[1],
+            size[2],
+            self.spacing.to_bits(),
         ];
         let loads = self.loads.iter().map(|load| (load.force, load.moment));
         let bodies = state.before.iter().copied().chain(loads);
@@ -87,6 +101,8 @@ impl WaterCheckpoint {
         let mut reader = Reader { rest, path };
         let words = reader.take(WORDS, 8)?;
         let word = |n: usize| u64::from_le_bytes(std::array::from_fn(|k| words[8 * n + k]));
+        let vector =
+            |n: usize| DVec3::from_array([n, n + 1, n + 2].map(|n| f64::from_bits(word(n))));
         let count = |n: usize| usize::try_from(word(n)).unwrap_or(usize::MAX);
         let particles = reader.take(count(2), PARTICLE)?;
         let particles = particles.chunks_exact(PARTICLE).map(|row| {
@@ -104,6 +120,9 @@ impl WaterCheckpoint {
         Ok(Self {
             step: word(0),
             time_step: f64::from_bits(word(1)),
+            origin: vector(9),
+            size: vector(12),
+            spacing: f64::from_bits(word(15)),
             particles,
             state: State {
                 limit: f32::from_bits(word(3) as u32),

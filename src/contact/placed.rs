@@ -34,6 +34,11 @@ impl Placed {
         placed
     }
 
+    /// Whether it is a sphere.
+    pub fn is_sphere(&self) -> bool {
+        self.faces.is_empty()
+    }
+
     /// Becomes `other` moved by `way` (m), in the memory that it has.
     pub fn copy_moved(&mut self, other: &Self, way: DVec3) {
         self.centre = other.centre + way;

@@ -11,6 +11,8 @@ use glam::DVec3;
 /// Cells across the thinnest block that is resolved: of a cube of so many, 42 % of the cells have no
 /// surface in them.
 const ACROSS: f64 = 8.0;
+/// Cells by which one may miss that, rounded as scenes write their numbers: it shows as 8.0.
+const ROUNDED: f64 = 0.05;
 
 /// Blocks by a number, the one with the smallest first.
 struct Ranked {
@@ -50,7 +52,7 @@ impl Coupled {
         let widths = blocks
             .clone()
             .map(|block| (block.name.clone(), width(&block.shape) / cell));
-        if let Some(thin) = Ranked::below(ACROSS * (1.0 - 1e-9), widths) {
+        if let Some(thin) = Ranked::below(ACROSS - ROUNDED, widths) {
             warn(
                 "domain.cell",
                 format!(

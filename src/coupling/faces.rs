@@ -8,10 +8,15 @@ use crate::{
     scene::{ProbePlace, Scene},
 };
 
-/// Whether a probe of the scene follows the block called `name`, and whether one asks for its faces.
+/// Whether a probe of the scene follows the block called `name`, and whether one asks for its faces, or for its
+/// safety, to which they belong.
 pub(super) fn asked(scene: &Scene, name: &str) -> [bool; 2] {
     let of = |place: &ProbePlace| match place {
-        ProbePlace::Block { block, faces, .. } if block == name => Some(*faces),
+        ProbePlace::Block {
+            block,
+            faces,
+            safety,
+        } if block == name => Some(*faces || *safety),
         _ => None,
     };
     let probes = || scene.probes.iter().filter_map(|probe| of(&probe.place));
@@ -44,7 +49,7 @@ impl Wet {
             let loads = self.immersed.face_loads(&sums)?;
             let whole = |(loads, pose): (Vec<FaceLoad>, &Pose)| {
                 let load = |load: FaceLoad| {
-                    let weight = self.ambient.weight(load.face.centre);
+                    let weight = self.ambient.weight(load.centre);
                     load.at_face(weight, pose.centre)
                 };
                 loads.into_iter().map(load).collect()

@@ -116,7 +116,7 @@ impl Coupled {
             let [cause, remedy] = self.inlet_trouble(found, found.speed);
             advice.push(Warning {
                 place: format!("boundaries.{}", found.face.name()),
-                message: format!("{cause}, and the run will diverge; {remedy}"),
+                message: format!("{cause}, and the run may diverge; {remedy}"),
             });
         }
     }

@@ -23,7 +23,18 @@ impl Coupled {
         let poses = self.blocks().poses();
         let setup = &self.setup().setup.blocks;
         let cell = self.immersed().frame().units.cell;
-        let far = HEIGHTS[HEIGHTS.len() - 1] * cell;
+        let others = self.others(block, HEIGHTS[HEIGHTS.len() - 1] * cell);
+        let parts = setup[block].shape.parts().iter();
+        parts
+            .flat_map(|part| faces_in_joints(part, &poses[block], &others, cell))
+            .collect()
+    }
+
+    /// The parts of the other blocks, solids and walls that may be within `far` (m) of a block, next to it where the
+    /// domain is periodic.
+    pub(super) fn others(&self, block: usize, far: f64) -> Vec<Placed> {
+        let poses = self.blocks().poses();
+        let setup = &self.setup().setup.blocks;
         let mut others = Vec::new();
         for (other, pose) in poses.iter().enumerate().filter(|(n, _)| *n != block) {
             let near = setup[block].shape.radius() + setup[other].shape.radius() + far;
@@ -39,10 +50,7 @@ impl Coupled {
                 others.extend(parts.map(|part| Placed::of(part, &image)));
             }
         }
-        let parts = setup[block].shape.parts().iter();
-        parts
-            .flat_map(|part| faces_in_joints(part, &poses[block], &others, cell))
-            .collect()
+        others
     }
 }
 

@@ -6,6 +6,7 @@
 //! the rest while their loads are read.
 
 mod advice;
+mod closed;
 mod coupled;
 mod faces;
 mod film;

@@ -4,6 +4,7 @@ use super::{FACE_LOAD, Frame};
 use crate::{
     block::{Form, Part, Polyhedron},
     bodies::Pose,
+    contact::clip,
 };
 use glam::DVec3;
 
@@ -28,7 +29,12 @@ pub struct PlaneFace {
 pub struct FaceLoad {
     /// The face.
     pub face: PlaneFace,
-    /// Area with fluid beside it, m²: its share of the cells beside it that lie in the domain.
+    /// What of the face lies in the domain, m²: its area where nothing sticks out. Of a part longer than a period it
+    /// is that of one period, as the load on a block is.
+    pub inside: f64,
+    /// Centroid of that, m.
+    pub centre: DVec3,
+    /// Area with fluid beside it, m²: `inside` times the share of the cells beside it that hold fluid alone.
     pub wetted: f64,
     /// Force on the wetted area, N: minus its pressure times the normal, and shear.
     pub force: DVec3,
@@ -53,23 +59,29 @@ impl FaceLoad {
         (self.force - self.force.dot(normal) * normal) / self.wetted
     }
 
-    /// From what the device added up, [`FACE_LOAD`] numbers.
-    pub(super) fn new(frame: &Frame, face: PlaneFace, sums: &[f32]) -> Self {
+    /// From what the device added up, [`FACE_LOAD`] numbers, and the corners of what of the face lies in the domain.
+    pub(super) fn new(frame: &Frame, face: PlaneFace, corners: &[DVec3], sums: &[f32]) -> Self {
+        let (centre, inside) = area_of(corners);
+        let inside = inside.length();
         let at = |n: usize| f64::from(sums[n]);
         let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
         let [cells, beside] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
         if cells == 0.0 {
             return Self {
                 face,
+                inside,
+                centre,
                 ..Self::default()
             };
         }
-        let wetted = face.area * cells / beside;
+        let wetted = inside * cells / beside;
         let cell = frame.units.cell;
         // The traction of a cell acts on its share of the wetted area.
         let share = wetted / (cells * cell * cell);
         Self {
             face,
+            inside,
+            centre,
             wetted,
             force: vector(0) * share * frame.units.force_from_lattice(1.0),
             moment: vector(3) * share * frame.units.torque_from_lattice(1.0),
@@ -81,10 +93,10 @@ impl FaceLoad {
     /// With the pressure that a body force of `weight` (N/m³) adds between the cells and the face: at a wall the
     /// pressure rises along its normal by the body force.
     pub(crate) fn at_face(mut self, weight: DVec3, block: DVec3) -> Self {
-        let PlaneFace { centre, normal, .. } = self.face;
+        let normal = self.face.normal;
         let force = weight.dot(normal) * self.height * self.wetted * normal;
         self.force += force;
-        self.moment += (centre - block).cross(force);
+        self.moment += (self.centre - block).cross(force);
         self
     }
 }
@@ -106,6 +118,31 @@ pub fn plane_faces(part: usize, of: &Part, pose: &Pose) -> Vec<PlaneFace> {
         }
     };
     (0..shape.faces().len()).map(face).collect()
+}
+
+/// A box, infinite where it does not end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Lower corner, m.
+    pub low: DVec3,
+    /// Upper corner, m.
+    pub high: DVec3,
+}
+
+impl Window {
+    /// What of a plane polygon lies in it.
+    pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
+        for axis in 0..3 {
+            let [low, high] = [self.low[axis], self.high[axis]];
+            if low.is_finite() {
+                clip(&mut corners, |x| low - x[axis]);
+            }
+            if high.is_finite() {
+                clip(&mut corners, |x| x[axis] - high);
+            }
+        }
+        corners
+    }
 }
 
 /// Corners of a face at a pose, m, counter-clockwise seen from outside.
@@ -141,6 +178,24 @@ pub fn area_of(corners: &[DVec3]) -> (DVec3, DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_window_cuts_what_sticks_out_and_leaves_the_rest_as_it_is() {
+        let square = |x: f64| {
+            [(0.1, 0.2), (0.7, 0.2), (0.7, 0.9), (0.1, 0.9)]
+                .map(|(u, v)| DVec3::new(x + u, v, 0.3))
+                .to_vec()
+        };
+        let window = Window {
+            low: DVec3::new(0.0, f64::NEG_INFINITY, 0.0),
+            high: DVec3::new(1.0, f64::INFINITY, 1.0),
+        };
+        assert_eq!(window.clipped(square(0.0)), square(0.0));
+        let (centre, area) = area_of(&window.clipped(square(0.5)));
+        assert!((area - DVec3::Z * 0.28).length() < 1e-15);
+        assert!((centre - DVec3::new(0.8, 0.55, 0.3)).length() < 1e-15);
+        assert_eq!(window.clipped(square(2.0)), []);
+    }
 
     #[test]
     fn faces_of_a_turned_box_close_it() {

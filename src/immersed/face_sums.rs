@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{Result, kernel::Kernel, lattice::Lattice};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Names of the buffers in WGSL.
 const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
@@ -17,6 +18,9 @@ const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "shares"];
 /// How far the centre of a cell that counts is from the plane of a face, at most, cells: half the diagonal of a
 /// cell and the thickness of the layer.
 const REACH: f64 = 1.9;
+
+/// How much longer than a period a part is that lies beside itself, cells: rounding.
+const LONGER: f64 = 1e-6;
 
 /// Sums over the cells beside the faces of the blocks that ask.
 #[derive(Debug)]
@@ -29,6 +33,8 @@ pub(super) struct FaceSums {
     buffers: [Growing; 4],
     jobs: Vec<FaceJob>,
     face_first: Vec<u32>,
+    /// Of each part of the blocks that ask: along which axes it is longer than a period.
+    repeated: HashMap<(usize, usize), [bool; 3]>,
 }
 
 impl FaceSums {
@@ -45,6 +51,7 @@ impl FaceSums {
             buffers: NAMES.map(|name| Growing::new(device, name)),
             jobs: Vec::new(),
             face_first: Vec::new(),
+            repeated: HashMap::new(),
         })
     }
 
@@ -61,14 +68,31 @@ impl FaceSums {
         self.jobs.clear();
         self.face_first.clear();
         self.face_first.push(0);
-        let brick = lattice.grid().brick.map(f64::from);
+        let grid = lattice.grid();
+        let brick = grid.brick.map(f64::from);
+        let periodic = lattice.setup().periodic_axes();
+        self.repeated.clear();
         for &block in &self.asked {
             let tiles = plan.tiles_of(block);
             for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
+                let length = outline.high - outline.low;
+                let repeated = [0, 1, 2].map(|axis| {
+                    periodic[axis] && length[axis] > f64::from(grid.cells[axis]) + LONGER
+                });
+                let number = (part - first_part[block]) as usize;
+                self.repeated.insert((block, number), repeated);
+                // Of a part that lies beside itself, the cells of one period alone.
+                let counts = |tile: &Tile| {
+                    (0..3).all(|axis| {
+                        !repeated[axis] || (0..grid.cells[axis] as i32).contains(&tile.cell[axis])
+                    })
+                };
                 for (face, plane) in (0..).zip(&outline.faces) {
                     let sees = |tile: &u32| {
                         let tile = &plan.tiles[*tile as usize];
-                        tile.part == part && reaches(tile, brick, outline.centre, plane)
+                        tile.part == part
+                            && counts(tile)
+                            && reaches(tile, brick, outline.centre, plane)
                     };
                     let job = |tile| FaceJob { tile, face };
                     self.jobs.extend(tiles.clone().filter(sees).map(job));
@@ -110,6 +134,12 @@ impl FaceSums {
         let first = bytemuck::cast_slice(&self.face_first);
         queue.write_buffer(&self.buffers[1].buffer, 0, first);
         Ok(())
+    }
+
+    /// Along which axes a part of a block that asks was longer than a period when its tiles were laid down.
+    pub fn repeated(&self, block: usize, part: usize) -> [bool; 3] {
+        let known = self.repeated.get(&(block, part));
+        known.copied().unwrap_or_default()
     }
 
     /// Records the sums.

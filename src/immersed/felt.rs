@@ -1,7 +1,11 @@
 //! What the device adds up of blocks in a fluid, and the loads that follow from it.
 
-use super::{FACE_LOAD, FaceLoad, Immersed, WRENCH, face_load::plane_faces, face_sums::FaceSums};
-use crate::{Error, Result, bodies::Load};
+use super::{
+    FACE_LOAD, FaceLoad, Frame, Immersed, PlaneFace, WRENCH, Window, corners,
+    face_load::plane_faces, face_sums::FaceSums,
+};
+use crate::{Error, Result, block::Form, bodies::Load};
+use glam::DVec3;
 
 impl Immersed {
     /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_saturated`].
@@ -77,12 +81,35 @@ impl Immersed {
             let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
             let parts = shape.parts().iter().enumerate();
             let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
-            let load = |(face, sums)| FaceLoad::new(&self.frame, face, sums);
+            let load = |(face, sums): (PlaneFace, _)| {
+                let part = &shape.parts()[face.part];
+                let window = self.window(faces.repeated(block, face.part));
+                let corners = match &part.form {
+                    Form::Convex(of) => corners(of, face.face, part.offset, pose),
+                    Form::Sphere { .. } => Vec::new(),
+                };
+                FaceLoad::new(&self.frame, face, &window.clipped(corners), sums)
+            };
             loads[block] = its.zip(&mut sums).map(load).collect();
         }
         let given = self.number.iter();
         Ok(given
             .map(|&place| std::mem::take(&mut loads[place]))
             .collect())
+    }
+
+    /// The domain, without end along periodic axes but those along which a part is `repeated`.
+    fn window(&self, repeated: [bool; 3]) -> Window {
+        let (cells, periodic) = self.domain();
+        let Frame { origin, units } = self.frame;
+        let size = units.cell * DVec3::from_array(cells.map(f64::from));
+        let ends = |axis: usize| !periodic[axis] || repeated[axis];
+        let or = |at: DVec3, end: f64| {
+            DVec3::from_array([0, 1, 2].map(|axis| if ends(axis) { at[axis] } else { end }))
+        };
+        Window {
+            low: or(origin, f64::NEG_INFINITY),
+            high: or(origin + size, f64::INFINITY),
+        }
     }
 }

@@ -27,7 +27,7 @@ mod shell;
 mod tables;
 mod tiles;
 
-pub use face_load::{FaceLoad, PlaneFace, area_of, corners, plane_faces};
+pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{

@@ -7,7 +7,8 @@
 //! dashpots act over the face as the springs do: 3DEC has them in every sub-contact. In one point they
 //! would not damp rocking at all, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
-//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist.
+//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere does not rock on
+//! its contact, it rolls: over a contact that goes with it the springs lose nothing, and no dashpot turns it.
 
 use super::Joint;
 use glam::{DQuat, DVec3};
@@ -34,6 +35,8 @@ pub struct Section {
     pub area: f64,
     /// Area that springs and dashpots count with, m²: A, or more where A is that of a corner.
     pub elastic_area: f64,
+    /// Whether one of the two is a sphere there, which rolls.
+    pub rolls: bool,
 }
 
 /// How two blocks move about their contact, of the second relative to the first.
@@ -82,6 +85,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         overlap,
         area,
         elastic_area,
+        rolls,
     } = *section;
     let normal_stiffness = joint.normal_stiffness * elastic_area;
     let shear_stiffness = joint.shear_stiffness * elastic_area;
@@ -113,7 +117,10 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let damped = capped(shear - viscous, strength);
 
     let twist = motion.spin.dot(normal);
-    let rocking = motion.spin - normal * twist;
+    let rocking = match rolls {
+        true => DVec3::ZERO,
+        false => motion.spin - normal * twist,
+    };
     let side = area.sqrt();
     let mass = motion.mass;
     let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;

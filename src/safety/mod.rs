@@ -1,7 +1,8 @@
 //! Factors of safety of a block that stands: limit equilibrium of what it carries against what its contacts hold.
 //!
 //! A factor is what resists over what drives, from the weight W of the block, the force F of the fluid on it with its
-//! buoyancy and all pressure in joints and under its base, and the contacts that it has: it stands while all are
+//! buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
+//! [`crate::coupling::Coupled::with_closed_joints`]), and the contacts that it has: it stands while all are
 //! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
 //! Where nothing drives, a factor is infinite; where there is no contact, none is known: NaN. Contacts
 //! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a

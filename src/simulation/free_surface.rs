@@ -9,6 +9,7 @@ use crate::{
     particles::{Neighbours, Particles, Water, particle_setup},
     scene::Scene,
 };
+use glam::DVec3;
 
 /// Acoustic steps of a step of the scene: the water takes as many as it wants, and an unequal last one wastes at
 /// most a tenth.
@@ -164,6 +165,9 @@ impl FreeSurface {
         Ok(WaterCheckpoint {
             step: self.step,
             time_step: self.time_step,
+            origin: DVec3::from(self.scene.domain.origin),
+            size: DVec3::from(self.scene.domain.size),
+            spacing: self.pool.particles.setup().spacing,
             particles: self.pool.particles().await?,
             state: self.pool.particles.state(),
             loads: self.pool.last.clone(),
@@ -176,6 +180,20 @@ impl FreeSurface {
     /// # Errors
     /// If it is of other particles or blocks, or of another time step.
     pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
+        let domain = &self.scene.domain;
+        let spacing = self.pool.particles.setup().spacing;
+        let mine = [domain.origin, domain.size].map(DVec3::from);
+        let its = [checkpoint.origin, checkpoint.size];
+        if its != mine || checkpoint.spacing != spacing {
+            return Err(Error::scene(
+                "restart",
+                format!(
+                    "the checkpoint is of a domain from {} m, {} m wide, with particles every {} m, the scene from {} m, \
+                     {} m wide, with particles every {spacing} m; restart with the scene that wrote it",
+                    its[0], its[1], checkpoint.spacing, mine[0], mine[1]
+                ),
+            ));
+        }
         if checkpoint.time_step != self.time_step {
             return Err(Error::scene(
                 "restart",

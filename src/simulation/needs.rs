@@ -43,8 +43,10 @@ impl Needs {
             .most_bindings
             .max(limits.max_storage_buffers_per_shader_stage);
         if scene.has_blocks() {
-            let faces =
-                |probe: &Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
+            let faces = |probe: &Probe| match probe.place {
+                ProbePlace::Block { faces, safety, .. } => faces || safety,
+                _ => false,
+            };
             bindings = bindings.max(match scene.probes.iter().any(faces) {
                 true => immersed::MOST_BINDINGS_WITH_FACES,
                 false => immersed::MOST_BINDINGS,

@@ -225,3 +225,85 @@ fn who_does_not_ask_has_no_loads_on_faces() {
             .all(|(kernel, _)| !kernel.entry().contains("faces"))
     );
 }
+
+/// A bar across a channel that is periodic along z, with flow along x; `length` along z and its middle there.
+fn bar(length: f64, z: f64) -> World {
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        y_min = {{ kind = "wall" }}
+        y_max = {{ kind = "wall" }}
+        [initial]
+        velocity = [0.05, 0, 0]
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.2
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "bar"
+        faces = true
+        [[blocks]]
+        name = "bar"
+        kind = "box"
+        size = [5, 5, {length}]
+        position = [10, 6, {z}]
+        motion = "fixed""#,
+        fluid([40, 24, 8], 0.1),
+        material("rock", 2650.0)
+    ));
+    world.advance(200);
+    world
+}
+
+/// Per period, as the load on the block is; from the first cell on, to some per cent of the drag of ten cells.
+#[test]
+fn faces_longer_than_a_period_feel_one_period() {
+    for (length, z) in [(4.0, 2.0), (14.0, 1.3), (22.0, 2.0)] {
+        let world = bar(length, z);
+        let felt = world.felt(0).flow.force.x;
+        let sum: f64 = faces(&world).iter().map(|load| load.force.x).sum();
+        println!("{length}: {sum} {felt}");
+        assert!((sum / felt - 1.0).abs() < 0.1, "{length}: {sum}, {felt} N");
+        for load in faces(&world) {
+            let normal = load.face.normal;
+            let one = if normal.z.abs() > 0.5 { 0.0 } else { 20.0 };
+            assert!((load.wetted - one).abs() < 1e-9, "{normal}: {load:?}");
+        }
+    }
+}
+
+/// One that lies on both sides of a periodic face has its whole faces.
+#[test]
+fn faces_across_a_periodic_face_are_whole() {
+    let loads = |z: f64| {
+        let world = bar(2.0, z);
+        faces(&world).to_vec()
+    };
+    for (inside, across) in loads(2.0).iter().zip(&loads(4.0)) {
+        assert_eq!(across.wetted, across.face.area);
+        let difference = (inside.force - across.force).length();
+        assert!(
+            difference < 1e-4 * inside.face.area,
+            "{inside:?} {across:?}"
+        );
+    }
+}
+
+/// Nothing of a face counts that sticks out of the domain.
+#[test]
+fn faces_end_at_the_walls() {
+    let mut world = tank([6.0, 6.0, 1.0], 0.0);
+    world.advance(20);
+    for load in faces(&world) {
+        let exact = match load.face.normal {
+            n if n.z > 0.5 => 48.0,
+            n if n.z < -0.5 => 0.0,
+            n if n.x.abs() > 0.5 => 6.0 * 3.5,
+            _ => 8.0 * 3.5,
+        };
+        assert!((load.wetted - exact).abs() < 1e-9, "{load:?}");
+    }
+}

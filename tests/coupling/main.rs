@@ -2,6 +2,7 @@
 
 mod balance;
 mod buoyancy;
+mod closed;
 mod crowd;
 mod density;
 mod faces;

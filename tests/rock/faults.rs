@@ -178,3 +178,22 @@ fn pairs_that_are_none_are_refused() {
     blocks.set_pairs(vec![[0, 1]]).expect("the pair");
     blocks.step().expect("now it runs");
 }
+
+#[test]
+fn a_drive_without_a_value_names_its_formula_and_the_time() {
+    let mut block = Block::new("ram", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
+    let formula = |text: &str| text.parse().expect("a formula");
+    block.motion = Motion::Driven {
+        velocity: [formula("0.1*sqrt(0.02 - t)"), formula("0"), formula("0")],
+        spin: Default::default(),
+    };
+    let mut blocks = blocks(Setup {
+        time_step: Some(1e-3),
+        ..setup(vec![block], joint(1e8, 30.0))
+    });
+    let text = try_run(&mut blocks, 0.1).expect_err("a root of less than nothing");
+    let text = text.to_string();
+    for part in ["ram", "0.1*sqrt(0.02 - t)", "t = 0.02"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}

@@ -19,6 +19,7 @@ const SECTION: Section = Section {
     overlap: 1e-3,
     area: 2.0,
     elastic_area: 2.0,
+    rolls: false,
 };
 
 const REST: Motion = Motion {

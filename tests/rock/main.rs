@@ -16,6 +16,7 @@ mod rebound;
 mod repeat;
 mod rest;
 mod rig;
+mod rolling;
 mod safety;
 mod sleep;
 mod toppling;

@@ -102,6 +102,10 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
 /// Takes `engine` from its start, or from the checkpoint, to the end.
 fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let folder = folder(args);
+    if args.steps == Some(0) {
+        let message = "a run has at least one; `riprap check` looks at a scene without running it";
+        return Err(Error::scene("--steps 0", message).into());
+    }
     let last = args
         .steps
         .unwrap_or_else(|| engine.scene().run.count(engine.time_step()))

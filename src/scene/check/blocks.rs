@@ -113,6 +113,16 @@ fn motion(key: &str, block: &Block) -> Result<()> {
             }
             _ => {}
         }
+        let at_start = |formula: &&Formula| formula.eval(0.0, 0.0, 0.0, 0.0);
+        if let Some(formula) = formulas.iter().find(|f| !at_start(f).is_finite()) {
+            return refuse(
+                key,
+                format!(
+                    "`{formula}` is {} at t = 0; give a formula that is finite at all times",
+                    at_start(&formula)
+                ),
+            );
+        }
         if let Some(formula) = formulas.iter().find(|f| f.uses_place()) {
             return refuse(
                 key,

@@ -86,6 +86,7 @@ fn forces(core: &Core, pile: &Pile, rounds: usize) -> Result<f64> {
             overlap: contact.overlap,
             area: contact.area,
             elastic_area: contact.area,
+            rolls: false,
         };
         let motion = Motion {
             way: 1e-8 * DVec3::ONE,

@@ -150,14 +150,19 @@ fn measure_faces(coupled: &Coupled, block: usize, gravity: DVec3) -> [f64; 2] {
     [down.map(|load| load.force.dot(up)).sum(), force / area]
 }
 
-/// How a block stands.
+/// How a block stands: in its closed joints is the water that is at their rim.
 fn standing(rock: &Rock<'_>, block: usize) -> Standing {
     let felt = rock.felt.get(block).copied().unwrap_or_default();
-    let whole = [
-        felt.flow.force + felt.buoyancy.force,
-        felt.flow.torque() + felt.buoyancy.torque(),
-    ];
-    Standing::of(rock.setup, rock.blocks, block, whole)
+    let fluid = rock
+        .coupled
+        .and_then(|coupled| coupled.with_closed_joints(block));
+    let whole = || {
+        [
+            felt.flow.force + felt.buoyancy.force,
+            felt.flow.torque() + felt.buoyancy.torque(),
+        ]
+    };
+    Standing::of(rock.setup, rock.blocks, block, fluid.unwrap_or_else(whole))
 }
 
 impl<E: Engine> Recorder<E> for BlockProbe {

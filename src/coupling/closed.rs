@@ -1,0 +1,312 @@
+//! What the water in closed joints does to a block: the uplift diagram, linear from rim to rim.
+//!
+//! No fluid reaches cells inside solids, and what is in them is reflected in place: under a block that lies on another
+//! one the lattice keeps the pressure of the start. Water in a closed joint has the pressure of its rim instead. Here
+//! the pressures beside the wet faces at the rim are fitted by a plane, p = p̄ + g·(x − x̄), with the least squares over
+//! their area, above what the weight of the water makes of it; that acts on what of the block is dry.
+//!
+//! ```text
+//!  p_heel  ┌───────┐          The mean of each wet face and, where all of it is wet, the slope along it that its
+//!  ──────▶ │ block │ p_toe    moment shows: beside the heel and the toe these make the line between p_heel and
+//!  ────────┴───────┴───────   p_toe.
+//!           ╲▁▁▁▁▁▁
+//! ```
+
+use super::{Coupled, Felt};
+use crate::{
+    block::{Form, Part},
+    bodies::Pose,
+    contact::Placed,
+    immersed::{FaceLoad, area_of, corners},
+};
+use glam::{DMat3, DVec3};
+
+/// Cells within which a block over a face leaves no cell of fluid between them.
+const HEIGHTS: [f64; 3] = [0.0, 0.25, 1.0];
+/// Share of a face that may stick out of the domain, or be dry without a joint, as the rounding of contacts and of
+/// counting cells is.
+const ROUGH: f64 = 0.1;
+/// Least closed area, as a share of that of the face.
+const SOME: f64 = 0.01;
+/// Share of the spread of places below which a direction has none, of the squares: far above rounding.
+const FLAT: f64 = 1e-9;
+
+/// ∫ 1, r and r rᵀ over an area, r from the centroid of the block, m², m³, m⁴.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Moments {
+    area: f64,
+    first: DVec3,
+    second: DMat3,
+}
+
+impl Moments {
+    const ZERO: Self = Self {
+        area: 0.0,
+        first: DVec3::ZERO,
+        second: DMat3::ZERO,
+    };
+
+    /// Of a convex plane polygon.
+    fn of(corners: &[DVec3], centre: DVec3) -> Self {
+        let mut sum = Self::ZERO;
+        for k in 2..corners.len() {
+            let [a, b, c] = [corners[0], corners[k - 1], corners[k]].map(|x| x - centre);
+            let area = 0.5 * (b - a).cross(c - a).length();
+            let whole = a + b + c;
+            let squares = [a, b, c, whole].map(square).into_iter().sum::<DMat3>();
+            sum = sum.plus(&Self {
+                area,
+                first: area / 3.0 * whole,
+                second: squares * (area / 12.0),
+            });
+        }
+        sum
+    }
+
+    /// All of an area at one place.
+    fn at(area: f64, r: DVec3) -> Self {
+        Self {
+            area,
+            first: area * r,
+            second: square(r) * area,
+        }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            first: self.first + other.first,
+            second: self.second + other.second,
+        }
+    }
+
+    fn times(&self, by: f64) -> Self {
+        Self {
+            area: by * self.area,
+            first: by * self.first,
+            second: self.second * by,
+        }
+    }
+}
+
+/// A face: what of it is closed, open and wet.
+#[derive(Clone, Debug)]
+struct Side<'a> {
+    load: &'a FaceLoad,
+    corners: Vec<DVec3>,
+    closed: Moments,
+    /// The rest of it.
+    open: Moments,
+}
+
+/// ∫ p and ∫ p r over an area of these moments, N and N m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sample {
+    over: Moments,
+    force: f64,
+    first: DVec3,
+}
+
+/// p = value + gradient·r, Pa.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Plane {
+    value: f64,
+    gradient: DVec3,
+}
+
+impl Coupled {
+    /// Force (N) and torque about its centroid (N m) of the fluid on a block with closed joints, buoyancy included:
+    /// what its wet faces feel, and in the joints the pressure of their rim, linear between the faces beside it. None
+    /// where no probe asks for the loads on faces, before the first exchange, of a block without closed joints or with
+    /// spheres, and of one that sticks out of the domain.
+    pub fn with_closed_joints(&self, block: usize) -> Option<[DVec3; 2]> {
+        let loads = self.faces(block);
+        let made = &self.setup().setup.blocks[block];
+        let parts = made.shape.parts();
+        let sphere = |part: &Part| matches!(part.form, Form::Sphere { .. });
+        if loads.is_empty() || parts.iter().any(sphere) {
+            return None;
+        }
+        let pose = self.blocks().poses()[block];
+        let cell = self.immersed().frame().units.cell;
+        let others = self.others(block, cell);
+        let sides: Vec<Side<'_>> = loads
+            .iter()
+            .filter_map(|load| Side::of(load, &parts[load.face.part], &pose, (&others, cell)))
+            .collect();
+        let whole = sides.len() == loads.len();
+        if !whole || !sides.iter().any(Side::is_closed) {
+            return None;
+        }
+        let weight = self.wet.ambient.weight(pose.centre);
+        let plane = fit(&samples(&sides, (pose.centre, cell), weight))?;
+        let plane = Plane {
+            gradient: plane.gradient + weight,
+            ..plane
+        };
+        let [force, torque] = sides
+            .iter()
+            .fold([DVec3::ZERO; 2], |[force, torque], side| {
+                let [push, turn] = side.dry(&plane);
+                [
+                    force + side.load.force + push,
+                    torque + side.load.moment + turn,
+                ]
+            });
+        let Felt { buoyancy, .. } = self.felt()[block];
+        // As in the load on a block: what the body force on the fluid in its place would be is not among the pressures
+        // counted from the hydrostatic one.
+        let entrained = weight * made.shape.volume();
+        Some([
+            force + entrained + buoyancy.force,
+            torque + buoyancy.torque(),
+        ])
+    }
+}
+
+impl<'a> Side<'a> {
+    /// None where it sticks out of the domain and is not closed.
+    fn of(
+        load: &'a FaceLoad,
+        part: &Part,
+        pose: &Pose,
+        (others, cell): (&[Placed], f64),
+    ) -> Option<Self> {
+        let Form::Convex(shape) = &part.form else {
+            return None;
+        };
+        let corners = corners(shape, load.face.face, part.offset, pose);
+        let whole = Moments::of(&corners, pose.centre);
+        let covered = others.iter().map(|other| {
+            let at = |height: &f64| {
+                let way = height * cell * load.face.normal;
+                let mut found = other.clipped(corners.iter().map(|x| x + way).collect());
+                found.iter_mut().for_each(|x| *x -= way);
+                found
+            };
+            let area = |corners: &Vec<DVec3>| area_of(corners).1.length();
+            let most = HEIGHTS
+                .iter()
+                .map(at)
+                .max_by(|a, b| area(a).total_cmp(&area(b)));
+            Moments::of(&most.unwrap_or_default(), pose.centre)
+        });
+        let closed = covered.fold(Moments::ZERO, |sum, one| sum.plus(&one));
+        // Where others lie over each other, or a gap is wet after all.
+        let room = (whole.area - load.wetted).max(0.0);
+        let closed = closed.times((room / closed.area.max(f64::MIN_POSITIVE)).min(1.0));
+        if load.inside + closed.area < (1.0 - ROUGH) * whole.area {
+            return None;
+        }
+        Some(Self {
+            load,
+            corners,
+            open: whole.plus(&closed.times(-1.0)),
+            closed,
+        })
+    }
+
+    fn is_closed(&self) -> bool {
+        self.closed.area > SOME * self.load.face.area
+    }
+
+    /// Whether two faces have an edge in common.
+    fn meets(&self, other: &Self) -> bool {
+        let near = 1e-6 * self.load.face.area.sqrt();
+        let shared = |x: &&DVec3| other.corners.iter().any(|y| x.distance(*y) < near);
+        self.corners.iter().filter(shared).count() >= 2
+    }
+
+    /// What its wet part shows, r from `centre`, of the pressure less that of the `weight` of the fluid (N/m³).
+    fn sample(&self, (centre, cell): (DVec3, f64), weight: DVec3) -> Sample {
+        let load = self.load;
+        let normal = load.face.normal;
+        let force = -load.force.dot(normal);
+        let wet = load.wetted / self.open.area;
+        let (over, first) = if (wet - 1.0).abs() < ROUGH {
+            // M = ∫ r × (τ − p n), r = h n + t: n × M = −∫ p t − h ∫ τ.
+            let height = (load.face.centre - centre).dot(normal);
+            let shear = load.force + force * normal;
+            let along = -normal.cross(load.moment) - height * shear;
+            // The sums are over the centres of cells, whose squares spread less than their area, by h²/12 each way.
+            let lost = (DMat3::IDENTITY - square(normal)) * (load.wetted * cell * cell / 12.0);
+            let mut over = self.open.times(wet);
+            over.second -= lost;
+            (over, along + height * force * normal)
+        } else {
+            let middle = self.open.first / self.open.area;
+            (Moments::at(load.wetted, middle), force * middle)
+        };
+        Sample {
+            over,
+            force: force - weight.dot(over.first),
+            first: first - over.second * weight,
+        }
+    }
+
+    /// Force and torque of a pressure on what of it is dry.
+    fn dry(&self, pressure: &Plane) -> [DVec3; 2] {
+        let share = 1.0 - self.load.wetted / self.open.area.max(f64::MIN_POSITIVE);
+        let over = self.closed.plus(&self.open.times(share.max(0.0)));
+        let normal = self.load.face.normal;
+        let force = pressure.value * over.area + pressure.gradient.dot(over.first);
+        let first = pressure.value * over.first + over.second * pressure.gradient;
+        [-force * normal, normal.cross(first)]
+    }
+}
+
+/// Those of the wet faces, from the centroid and the size of a cell, at the rims of closed joints; of all where these have none.
+fn samples(sides: &[Side<'_>], grid: (DVec3, f64), weight: DVec3) -> Vec<Sample> {
+    let wet = |side: &&Side<'_>| side.load.wetted > SOME * side.load.face.area;
+    let closed: Vec<_> = sides.iter().filter(|side| side.is_closed()).collect();
+    let at_rim = |side: &&Side<'_>| {
+        closed
+            .iter()
+            .any(|closed| std::ptr::eq(*closed, *side) || closed.meets(side))
+    };
+    let sample = |side: &Side<'_>| side.sample(grid, weight);
+    let beside: Vec<_> = sides
+        .iter()
+        .filter(wet)
+        .filter(at_rim)
+        .map(sample)
+        .collect();
+    match beside.is_empty() {
+        true => sides.iter().filter(wet).map(sample).collect(),
+        false => beside,
+    }
+}
+
+/// The plane of least squares through pressures; level along directions along which there is but one place. None
+/// without any.
+fn fit(samples: &[Sample]) -> Option<Plane> {
+    let mut sum = Sample {
+        over: Moments::ZERO,
+        force: 0.0,
+        first: DVec3::ZERO,
+    };
+    for sample in samples {
+        sum.over = sum.over.plus(&sample.over);
+        sum.force += sample.force;
+        sum.first += sample.first;
+    }
+    if sum.over.area <= 0.0 {
+        return None;
+    }
+    let middle = sum.over.first / sum.over.area;
+    let spread = sum.over.second - square(middle) * sum.over.area;
+    let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
+    let slope = sum.first - sum.force * middle;
+    let gradient = match trace > 0.0 {
+        true => (spread + DMat3::IDENTITY * (FLAT * trace)).inverse() * slope,
+        false => DVec3::ZERO,
+    };
+    Some(Plane {
+        value: sum.force / sum.over.area - gradient.dot(middle),
+        gradient,
+    })
+}
+
+fn square(r: DVec3) -> DMat3 {
+    DMat3::from_cols(r * r.x, r * r.y, r * r.z)
+}

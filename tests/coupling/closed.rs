@@ -1,0 +1,102 @@
+//! Closed joints: what a block feels there is the water of their rim, whatever the lattice holds inside.
+
+use crate::world::{DENSITY, World, fluid, material};
+use glam::DVec3;
+
+const SIZE: DVec3 = DVec3::new(8.0, 6.0, 5.0);
+
+/// A closed tank of 12 m an edge with water at rest under `acceleration`, a box on its bottom, and inside the box
+/// another pressure, higher by `stale` (Pa).
+fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64) -> World {
+    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
+        .map(|face| format!("{face} = {{ kind = \"wall\" }}\n"))
+        .concat();
+    let [x, y, z] = acceleration.map(|a| DENSITY * a);
+    // 1 in the box, 0 outside it.
+    let inside = "max(0, sign(4 - abs(x - 6)))*max(0, sign(3 - abs(y - 6)))*max(0, sign(5 - z))";
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        {walls}
+        [initial]
+        pressure = "{x}*x + {y}*y + {z}*(z - 12) + {stale}*{inside}"
+        [rock]
+        gravity = {gravity:?}
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        safety = true
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = {:?}
+        position = [6, 6, 2.5]
+        motion = "fixed""#,
+        fluid([24; 3], 0.1).replace(
+            "viscosity",
+            &format!("acceleration = {acceleration:?}\nviscosity")
+        ),
+        material("rock", 2650.0),
+        SIZE.to_array(),
+    ));
+    world.advance(400);
+    world
+}
+
+/// Archimedes' push along any gravity, also where pressure is counted from the hydrostatic one, to the rounding of
+/// pressures over the head; the load on the block has what was inside at the start.
+#[test]
+fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
+    let heavy = [0.0, 0.0, -0.01];
+    let oblique = [0.003, -0.002, -0.01];
+    let volume = SIZE.element_product();
+    for (acceleration, gravity) in [(heavy, heavy), (oblique, oblique), ([0.0; 3], heavy)] {
+        for stale in [0.0, 40.0] {
+            let world = tank(acceleration, gravity, stale);
+            let coupled = world.sim.coupled().unwrap();
+            let [force, torque] = coupled.with_closed_joints(0).unwrap();
+            let exact = -DENSITY * volume * DVec3::from(gravity);
+            let felt = world.felt(0);
+            let whole = felt.flow.force + felt.buoyancy.force;
+            println!("{acceleration:?}, {stale}: {force}, {torque}; {exact}; {whole}");
+            assert!((force - exact).length() < 1e-4 * exact.length());
+            // A sum over cells misses h²/12 of each face's ∫ r².
+            assert!(torque.length() < 5e-4 * exact.length() * SIZE.x);
+            let wrong = (whole - exact).z - stale * SIZE.x * SIZE.y;
+            assert!(wrong.abs() < 1e-2 * exact.length(), "{wrong}");
+        }
+    }
+}
+
+/// In the open there is nothing to say about joints.
+#[test]
+fn a_block_without_closed_joints_has_none() {
+    let text = format!(
+        r#"{}{}
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        safety = true
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [2, 2, 2]
+        position = [6, 6, 6]
+        motion = "fixed""#,
+        fluid([24; 3], 0.1),
+        material("rock", 2650.0)
+    );
+    let mut world = World::new(&text);
+    world.advance(2);
+    let coupled = world.sim.coupled().unwrap();
+    assert_eq!(coupled.faces(0).len(), 6);
+    assert_eq!(coupled.with_closed_joints(0), None);
+}

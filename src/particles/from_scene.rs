@@ -1,7 +1,8 @@
 //! From a scene to its water.
 
 use super::{
-    Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, shells, speeds::Speeds,
+    Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, placed::Placed, shells,
+    speeds::Speeds,
 };
 use crate::{
     Error, Result,
@@ -34,19 +35,16 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         matches!(boundary, Boundary::FreeSlip).then(|| format!("wall_{}", face.name()))
     };
     let slippery: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
-    let bodies = blocks
-        .setup
-        .blocks
-        .iter()
-        .zip(shells)
-        .map(|(block, shell)| Body {
-            shell,
-            shape: Some(block.shape.clone()),
-            moves: block.motion != Motion::Fixed,
-            loaded: block.motion == Motion::Free || probed(&block.name),
-            accelerates: matches!(block.motion, Motion::Driven { .. }),
-            slips: slippery.contains(&block.name),
-        });
+    let all = &blocks.setup.blocks;
+    let shells = own(all, shells, |block| probed(&block.name));
+    let bodies = all.iter().zip(shells).map(|(block, shell)| Body {
+        shell,
+        shape: Some(block.shape.clone()),
+        moves: block.motion != Motion::Fixed,
+        loaded: block.motion == Motion::Free || probed(&block.name),
+        accelerates: matches!(block.motion, Motion::Driven { .. }),
+        slips: slippery.contains(&block.name),
+    });
     let side = |boundary: &Boundary| match boundary {
         Boundary::Periodic => Side::Periodic,
         Boundary::Open => Side::Open,
@@ -105,6 +103,36 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         setup.scheme = Scheme::Mueller { viscosity };
     }
     Ok((setup, start))
+}
+
+/// The shells of blocks without what fixed ones have in the walls that they stand at: it counts there, so that the load on a
+/// block that is `asked` about is what the water does to its own surface. Fixed blocks that nobody asks about keep it.
+fn own(
+    blocks: &[Block],
+    mut shells: Vec<Vec<DVec3>>,
+    asked: impl Fn(&Block) -> bool,
+) -> Vec<Vec<DVec3>> {
+    let fixed = |block: &Block| block.motion == Motion::Fixed;
+    let other = |block: &Block| fixed(block) && !asked(block);
+    let Some(heir) = blocks.iter().position(other) else {
+        return shells;
+    };
+    for (n, block) in blocks.iter().enumerate() {
+        if !fixed(block) || !asked(block) {
+            continue;
+        }
+        let parts = Placed::of(block);
+        let world = |x: &DVec3| block.centre + block.rotation * *x;
+        let is_own = |x: &DVec3| parts.iter().any(|part| part.depth(world(x)) > 0.0);
+        let (kept, beyond): (Vec<_>, Vec<_>) = shells[n].iter().copied().partition(is_own);
+        shells[n] = kept;
+        let to = &blocks[heir];
+        let moved = beyond
+            .iter()
+            .map(|x| to.rotation.inverse() * (world(x) - to.centre));
+        shells[heir].extend(moved);
+    }
+    shells
 }
 
 /// The largest speed that is expected, m/s: what the scene says, or that of a fall through the height of all

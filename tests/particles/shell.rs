@@ -2,7 +2,13 @@
 
 use crate::{DX, Made, fault, is_on_lattice, nearest, scene, tank};
 use glam::{DQuat, DVec3};
-use riprap::block::Form;
+use riprap::{
+    block::Form,
+    particles::{Body, particle_setup},
+    scene::Scene,
+    simulation::block_setup,
+};
+use std::path::Path;
 
 /// A block in the tank.
 fn block(keys: &str) -> String {
@@ -294,4 +300,45 @@ fn prism(section: &[[f64; 2]]) -> String {
         text += &format!("f {i} {j} {}\nf {j} {} {}\n", i + n, j + n, i + n);
     }
     text
+}
+
+/// A dam that stands on the floor goes on into it, where water finds no corner; what it has there is not its own to
+/// whoever asks about its load.
+#[test]
+fn a_fixed_block_is_asked_about_its_own_surface_only() {
+    let shells = |probe: &str| {
+        let text = format!(
+            r#"
+            domain = {{ size = [2, 0.1, 1] }}
+            fluid = {{ acceleration = [0, 0, -9.81] }}
+            particles = {{ spacing = 0.05, plane = true, largest_speed = 4 }}
+            water = [{{ kind = "box", size = [2, 0.1, 0.6], position = [1, 0.05, 0.3] }}]
+            materials = [{{ name = "rock", density = 2500, normal_stiffness = 1e8, friction = 30 }}]
+            run = {{ duration = 1 }}
+            [boundaries]
+            x_min = {{ kind = "wall" }}
+            x_max = {{ kind = "wall" }}
+            z_min = {{ kind = "wall" }}
+            z_max = {{ kind = "open" }}
+            [[blocks]]
+            name = "dam"
+            kind = "box"
+            size = [0.5, 0.1, 0.4]
+            position = [1, 0.05, 0.2]
+            motion = "fixed"
+            {probe}
+            "#
+        );
+        let scene = Scene::from_toml(&text, Path::new("."), "dam").unwrap();
+        let blocks = block_setup(&scene).unwrap();
+        let (setup, _) = particle_setup(&scene, &blocks).unwrap();
+        setup.bodies
+    };
+    let probe = "[[probes]]\nname = \"dam\"\nkind = \"block\"\nblock = \"dam\"";
+    let [plain, asked] = ["", probe].map(shells);
+    let lowest = |shell: &[DVec3]| shell.iter().map(|x| x.z).fold(0.0, f64::min);
+    assert!(lowest(&plain[0].shell) < -0.3);
+    assert!(lowest(&asked[0].shell) > -0.2);
+    let count = |bodies: &[Body]| bodies.iter().map(|body| body.shell.len()).sum::<usize>();
+    assert_eq!(count(&plain), count(&asked));
 }

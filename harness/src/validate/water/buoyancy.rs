@@ -65,7 +65,7 @@ pub fn submerged(stand: &Stand) -> Outcome {
         records.push(trial.at_most(format!("push across / ρVg, {what}"), across.abs(), 0.01));
     }
     let (trial, [up, _]) = held(stand, (0.5 * EDGE, 0.0), Scheme::Delta)?;
-    records.push(trial.relative("push / ρVg, on the floor", up, 1.0, 0.1));
+    records.push(trial.relative("push / ρVg, on the floor", up, 1.0, 0.05));
     Ok(records)
 }
 

@@ -12,12 +12,12 @@
 //!           ╲▁▁▁▁▁▁
 //! ```
 
-use super::{Coupled, Felt};
+use super::{Coupled, Felt, over::covered};
 use crate::{
     block::{Form, Part},
-    bodies::Pose,
+    bodies::{Pose, outer},
     contact::Placed,
-    immersed::{FaceLoad, area_of, corners},
+    immersed::{FaceLoad, corners},
 };
 use glam::{DMat3, DVec3};
 
@@ -53,7 +53,10 @@ impl Moments {
             let [a, b, c] = [corners[0], corners[k - 1], corners[k]].map(|x| x - centre);
             let area = 0.5 * (b - a).cross(c - a).length();
             let whole = a + b + c;
-            let squares = [a, b, c, whole].map(square).into_iter().sum::<DMat3>();
+            let squares = [a, b, c, whole]
+                .map(|r| outer(r, r))
+                .into_iter()
+                .sum::<DMat3>();
             sum = sum.plus(&Self {
                 area,
                 first: area / 3.0 * whole,
@@ -68,7 +71,7 @@ impl Moments {
         Self {
             area,
             first: area * r,
-            second: square(r) * area,
+            second: outer(r, r) * area,
         }
     }
 
@@ -177,21 +180,12 @@ impl<'a> Side<'a> {
         };
         let corners = corners(shape, load.face.face, part.offset, pose);
         let whole = Moments::of(&corners, pose.centre);
-        let covered = others.iter().map(|other| {
-            let at = |height: &f64| {
-                let way = height * cell * load.face.normal;
-                let mut found = other.clipped(corners.iter().map(|x| x + way).collect());
-                found.iter_mut().for_each(|x| *x -= way);
-                found
-            };
-            let area = |corners: &Vec<DVec3>| area_of(corners).1.length();
-            let most = HEIGHTS
-                .iter()
-                .map(at)
-                .max_by(|a, b| area(a).total_cmp(&area(b)));
-            Moments::of(&most.unwrap_or_default(), pose.centre)
+        let heights = HEIGHTS.map(|height| height * cell);
+        let under = others.iter().map(|other| {
+            let (corners, _) = covered(&corners, load.face.normal, other, heights);
+            Moments::of(&corners, pose.centre)
         });
-        let closed = covered.fold(Moments::ZERO, |sum, one| sum.plus(&one));
+        let closed = under.fold(Moments::ZERO, |sum, one| sum.plus(&one));
         // Where others lie over each other, or a gap is wet after all.
         let room = (whole.area - load.wetted).max(0.0);
         let closed = closed.times((room / closed.area.max(f64::MIN_POSITIVE)).min(1.0));
@@ -229,7 +223,8 @@ impl<'a> Side<'a> {
             let shear = load.force + force * normal;
             let along = -normal.cross(load.moment) - height * shear;
             // The sums are over the centres of cells, whose squares spread less than their area, by h²/12 each way.
-            let lost = (DMat3::IDENTITY - square(normal)) * (load.wetted * cell * cell / 12.0);
+            let lost =
+                (DMat3::IDENTITY - outer(normal, normal)) * (load.wetted * cell * cell / 12.0);
             let mut over = self.open.times(wet);
             over.second -= lost;
             (over, along + height * force * normal)
@@ -294,7 +289,7 @@ fn fit(samples: &[Sample]) -> Option<Plane> {
         return None;
     }
     let middle = sum.over.first / sum.over.area;
-    let spread = sum.over.second - square(middle) * sum.over.area;
+    let spread = sum.over.second - outer(middle, middle) * sum.over.area;
     let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
     let slope = sum.first - sum.force * middle;
     let gradient = match trace > 0.0 {
@@ -305,8 +300,4 @@ fn fit(samples: &[Sample]) -> Option<Plane> {
         value: sum.force / sum.over.area - gradient.dot(middle),
         gradient,
     })
-}
-
-fn square(r: DVec3) -> DMat3 {
-    DMat3::from_cols(r * r.x, r * r.y, r * r.z)
 }

@@ -1,13 +1,15 @@
 //! Which faces of a block are in a joint.
 
-use super::Coupled;
+use super::{
+    Coupled,
+    over::{covered, others},
+};
 use crate::{
     block::{Form, Part},
     bodies::Pose,
     contact::Placed,
     immersed::{area_of, corners},
 };
-use glam::DVec3;
 
 /// Cells within which another block over a face makes it a joint: with less fluid in it pressure is all that a face
 /// feels. The first height finds blocks that touch.
@@ -33,24 +35,10 @@ impl Coupled {
     /// The parts of the other blocks, solids and walls that may be within `far` (m) of a block, next to it where the
     /// domain is periodic.
     pub(super) fn others(&self, block: usize, far: f64) -> Vec<Placed> {
-        let poses = self.blocks().poses();
         let setup = &self.setup().setup.blocks;
-        let mut others = Vec::new();
-        for (other, pose) in poses.iter().enumerate().filter(|(n, _)| *n != block) {
-            let near = setup[block].shape.radius() + setup[other].shape.radius() + far;
-            let apart = pose.centre - poses[block].centre;
-            let period = self.blocks().period();
-            let way = period.map_or(DVec3::ZERO, |period| period.nearest(apart));
-            if (apart + way).length() <= near {
-                let parts = setup[other].shape.parts().iter();
-                let image = Pose {
-                    centre: pose.centre + way,
-                    ..*pose
-                };
-                others.extend(parts.map(|part| Placed::of(part, &image)));
-            }
-        }
-        others
+        let places = (&self.blocks().poses()[..], self.blocks().period());
+        let found = others(|n| &*setup[n].shape, places, block, far);
+        found.into_iter().map(|(_, part)| part).collect()
     }
 }
 
@@ -61,14 +49,9 @@ fn faces_in_joints(part: &Part, pose: &Pose, others: &[Placed], cell: f64) -> Ve
     let own = Placed::of(part, pose);
     let in_joint = |(face, plane): (usize, &crate::block::HalfSpace)| {
         let polygon = corners(shape, face, part.offset, pose);
-        let area = |corners: &[DVec3]| area_of(corners).1.length();
-        let least = COVERED * area(&polygon);
-        let covers = |other: &Placed| {
-            HEIGHTS.iter().any(|height| {
-                let shifted = polygon.iter().map(|x| x + height * cell * plane.normal);
-                area(&other.clipped(shifted.collect())) > least
-            })
-        };
+        let least = COVERED * area_of(&polygon).1.length();
+        let heights = HEIGHTS.map(|height| height * cell);
+        let covers = |other: &Placed| covered(&polygon, plane.normal, other, heights).1 > least;
         others.iter().any(covers)
     };
     own.faces.iter().enumerate().map(in_joint).collect()
@@ -78,7 +61,7 @@ fn faces_in_joints(part: &Part, pose: &Pose, others: &[Placed], cell: f64) -> Ve
 mod tests {
     use super::*;
     use crate::block::Polyhedron;
-    use glam::DQuat;
+    use glam::{DQuat, DVec3};
 
     #[test]
     fn a_face_is_in_a_joint_where_another_block_is_near_over_it() {

@@ -18,6 +18,7 @@ mod inner_fluid;
 mod joints;
 mod loads;
 mod near;
+mod over;
 mod reading;
 mod rock;
 mod sealed;

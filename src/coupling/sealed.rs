@@ -1,5 +1,6 @@
 //! Free water in joints that have no room for its particles.
 
+use super::over::{covered, others};
 use crate::{
     block::{Form, Shape},
     bodies::{Load, Period, Pose, outer},
@@ -17,20 +18,14 @@ const HEIGHTS: [f64; 4] = [1.125, 1.375, 1.625, 1.875];
 const THIN: f64 = 0.25;
 
 /// Where blocks are less than a spacing apart no particle of water comes between them, and none pushes; up to two
-/// spacings what comes there pushes too little. Water does push: a joint carries the pressure that its rim has, between two levels falling linearly from one to the other, as
-/// dam engineers assume for uplift. It is that of the linear field around the two blocks ([`Head`]).
+/// spacings what comes there pushes too little. Water does push: a joint carries the pressure that its rim has, between
+/// two levels falling linearly from one to the other, as dam engineers assume for uplift. It is that of the linear field
+/// around the two blocks ([`Head`]).
 #[derive(Debug)]
 pub(crate) struct Sealed {
     shapes: Vec<Arc<Shape>>,
     period: Option<Period>,
     spacing: f64,
-}
-
-/// A part of a face that another block closes.
-struct Patch {
-    other: usize,
-    corners: Vec<DVec3>,
-    area: f64,
 }
 
 impl Sealed {
@@ -49,7 +44,8 @@ impl Sealed {
             let Some(own) = heads[block] else {
                 continue;
             };
-            let others = self.near(block, poses);
+            let far = 2.0 * self.spacing;
+            let others = others(|n| &*self.shapes[n], (poses, self.period), block, far);
             if others.is_empty() {
                 continue;
             }
@@ -61,72 +57,28 @@ impl Sealed {
                 for (face, plane) in placed.faces.iter().enumerate() {
                     let polygon = corners(shape, face, part.offset, &poses[block]);
                     for height in HEIGHTS {
-                        let patches = self.patches(&polygon, plane.normal, height, &others);
-                        let closed: f64 = patches.iter().map(|patch| patch.area).sum();
+                        let heights = [THIN, height].map(|height| height * self.spacing);
+                        let patches = others.iter().map(|(other, part)| {
+                            let patch = covered(&polygon, plane.normal, part, heights);
+                            (*other, patch)
+                        });
+                        let patches: Vec<_> =
+                            patches.filter(|(_, (_, area))| *area > 0.0).collect();
+                        let closed: f64 = patches.iter().map(|(_, (_, area))| area).sum();
                         // Blocks that overlap do not close it twice.
                         let share = (area_of(&polygon).1.length() / closed).min(1.0);
                         let normal = share / HEIGHTS.len() as f64 * plane.normal;
-                        for patch in patches {
-                            let pressure = |x: DVec3| match heads[patch.other] {
+                        for (other, (corners, _)) in patches {
+                            let pressure = |x: DVec3| match heads[other] {
                                 Some(other) => 0.5 * (own.at(x) + other.at(x)),
                                 None => own.at(x),
                             };
-                            press(load, &patch.corners, normal, poses[block].centre, pressure);
+                            press(load, &corners, normal, poses[block].centre, pressure);
                         }
                     }
                 }
             }
         }
-    }
-
-    /// The parts of the other blocks that may close a face of a block.
-    fn near(&self, block: usize, poses: &[Pose]) -> Vec<(usize, Placed)> {
-        let mut found = Vec::new();
-        for (other, pose) in poses.iter().enumerate().filter(|(n, _)| *n != block) {
-            let reach =
-                self.shapes[block].radius() + self.shapes[other].radius() + 2.0 * self.spacing;
-            let apart = pose.centre - poses[block].centre;
-            let way = self
-                .period
-                .map_or(DVec3::ZERO, |period| period.nearest(apart));
-            if (apart + way).length() > reach {
-                continue;
-            }
-            let image = Pose {
-                centre: pose.centre + way,
-                ..*pose
-            };
-            let parts = self.shapes[other].parts().iter();
-            found.extend(parts.map(|part| (other, Placed::of(part, &image))));
-        }
-        found
-    }
-
-    fn patches(
-        &self,
-        polygon: &[DVec3],
-        normal: DVec3,
-        height: f64,
-        others: &[(usize, Placed)],
-    ) -> Vec<Patch> {
-        let closed = |(other, placed): &(usize, Placed)| {
-            let at = |height: f64| {
-                let shift = height * self.spacing * normal;
-                let mut corners = placed.clipped(polygon.iter().map(|x| *x + shift).collect());
-                corners.iter_mut().for_each(|x| *x -= shift);
-                let area = area_of(&corners).1.length();
-                let other = *other;
-                Patch {
-                    other,
-                    corners,
-                    area,
-                }
-            };
-            let [thin, patch] = [THIN, height].map(at);
-            let patch = if thin.area > patch.area { thin } else { patch };
-            (patch.area > 0.0).then_some(patch)
-        };
-        others.iter().filter_map(closed).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Head, Home, Motion, Numbers, Particle, Scheme, Setup, Water,
+    Clock, Frame, Head, Home, Motion, Numbers, Particle, Scheme, Setup, State, Water,
     followed::Followed,
     hulls,
     kernels::{Kernels, NUMBERS, OF_LOAD},
@@ -478,21 +478,6 @@ impl Particles {
     pub fn steps(&self) -> u64 {
         self.steps
     }
-}
-
-/// What water remembers besides its particles.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
-    /// Longest step that the last one allowed, in the unit of the device.
-    pub limit: f32,
-    /// Particles that have left.
-    pub escaped: u32,
-    /// Steps since the start.
-    pub steps: u64,
-    /// Length of the last exchange, s.
-    pub lasted: f64,
-    /// Velocity (m/s) and Ḟ (1/s) of each body at its start.
-    pub before: Vec<(DVec3, DMat3)>,
 }
 
 /// The longest first step, of water that is pushed by gravity alone and moves at `fastest` (m/s), in units of the

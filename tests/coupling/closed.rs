@@ -3,6 +3,17 @@
 use crate::world::{DENSITY, World, fluid, material};
 use glam::DVec3;
 
+/// The factors of safety of a block called stone.
+const SAFETY: &str = r#"
+    [numerics]
+    time_step = 0.25
+    velocity_scale = 0.1
+    [[probes]]
+    name = "load"
+    kind = "block"
+    block = "stone"
+    safety = true
+"#;
 const SIZE: DVec3 = DVec3::new(8.0, 6.0, 5.0);
 
 /// A closed tank of 12 m an edge with water at rest under `acceleration`, a box on its bottom, and inside the box
@@ -22,14 +33,7 @@ fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64) -> World {
         pressure = "{x}*x + {y}*y + {z}*(z - 12) + {stale}*{inside}"
         [rock]
         gravity = {gravity:?}
-        [numerics]
-        time_step = 0.25
-        velocity_scale = 0.1
-        [[probes]]
-        name = "load"
-        kind = "block"
-        block = "stone"
-        safety = true
+        {SAFETY}
         [[blocks]]
         name = "stone"
         kind = "box"
@@ -77,14 +81,7 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
 fn a_block_without_closed_joints_has_none() {
     let text = format!(
         r#"{}{}
-        [numerics]
-        time_step = 0.25
-        velocity_scale = 0.1
-        [[probes]]
-        name = "load"
-        kind = "block"
-        block = "stone"
-        safety = true
+        {SAFETY}
         [[blocks]]
         name = "stone"
         kind = "box"

@@ -207,6 +207,44 @@ fn a_block_falls_into_water_and_its_books_close() {
     assert!(out.join("blocks.pvd").is_file());
 }
 
+/// It meets the water more often than sound alone would want, or each wave of its own would throw it farther.
+#[test]
+fn a_block_of_cork_floats() {
+    let folder = folder("water_cork");
+    let text = format!(
+        "{STILL}
+    [[materials]]
+    name = \"cork\"
+    density = 100
+    normal_stiffness = 1e6
+    friction = 30
+    [[blocks]]
+    name = \"float\"
+    kind = \"box\"
+    size = [0.4, 1, 0.2]
+    position = [0.6, 0.5, 0.9]
+    [[probes]]
+    name = \"path\"
+    kind = \"block\"
+    block = \"float\"
+    every = 0.05
+"
+    )
+    .replace("steps = 12", "duration = 2");
+    let summary = go(&args(&folder, &text, "out"));
+    let path = Table::read(folder.join("out/path.csv")).unwrap();
+    let times = path.column("time").unwrap();
+    assert_eq!(times.len(), 41);
+    for (n, time) in times.iter().enumerate() {
+        assert!((time - 0.05 * n as f64).abs() < 1e-9, "{time} s");
+    }
+    let fastest = summary.rocks.unwrap().max_speed_seen;
+    assert!(fastest < 0.8, "{fastest} m/s");
+    // Its draft is a fifth of a spacing, the surface within one.
+    let height = last(&folder.join("out"), "path.csv", "position_z");
+    assert!((height - 0.88).abs() < 0.1, "{height} m");
+}
+
 #[test]
 fn water_that_is_too_fast_or_lost_is_told() {
     let folder = folder("water_fast");

@@ -1,7 +1,7 @@
 //! Cells in and beside blocks, on the host.
 
 use super::Coupled;
-use crate::immersed::{NearCell, near, outline};
+use crate::immersed::{NearCell, imaged, near, outline};
 use crate::lattice::State;
 use crate::scene::Domain;
 use glam::DVec3;
@@ -24,9 +24,11 @@ impl Coupled {
         let poses = self.blocks().poses();
         let (mut all, mut found) = (Vec::new(), Vec::new());
         for (block, pose) in poses.iter().enumerate().take(self.in_fluid()) {
-            for part in self.setup().setup.blocks[block].shape.parts() {
-                let outline = outline(frame, part, pose);
-                near(&outline, reach, cells, periodic, &mut found);
+            let parts = self.setup().setup.blocks[block].shape.parts().iter();
+            let outlines: Vec<_> = parts.map(|part| outline(frame, part, pose)).collect();
+            let imaged = imaged(&outlines, cells, periodic);
+            for outline in &outlines {
+                near(outline, reach, cells, imaged, &mut found);
             }
             all.extend(found.drain(..).map(|near| BlockCell { block, near }));
         }

@@ -5,7 +5,7 @@ use super::{
     kernels::{Growing, Kernels, made},
     plan::SKIN,
     program,
-    tiles::Outline,
+    tiles::{Outline, imaged},
 };
 use crate::{Result, kernel::Kernel, lattice::Lattice};
 use glam::DVec3;
@@ -19,9 +19,6 @@ const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "shares"];
 /// cell and the thickness of the layer.
 const REACH: f64 = 1.9;
 
-/// How much longer than a period a part is that lies beside itself, cells: rounding.
-const LONGER: f64 = 1e-6;
-
 /// Sums over the cells beside the faces of the blocks that ask.
 #[derive(Debug)]
 pub(super) struct FaceSums {
@@ -33,8 +30,8 @@ pub(super) struct FaceSums {
     buffers: [Growing; 4],
     jobs: Vec<FaceJob>,
     face_first: Vec<u32>,
-    /// Of each part of the blocks that ask: along which axes it is longer than a period.
-    repeated: HashMap<(usize, usize), [bool; 3]>,
+    /// Of the blocks that ask: along which axes they have images.
+    imaged: HashMap<usize, [bool; 3]>,
 }
 
 impl FaceSums {
@@ -51,7 +48,7 @@ impl FaceSums {
             buffers: NAMES.map(|name| Growing::new(device, name)),
             jobs: Vec::new(),
             face_first: Vec::new(),
-            repeated: HashMap::new(),
+            imaged: HashMap::new(),
         })
     }
 
@@ -71,28 +68,16 @@ impl FaceSums {
         let grid = lattice.grid();
         let brick = grid.brick.map(f64::from);
         let periodic = lattice.setup().periodic_axes();
-        self.repeated.clear();
+        self.imaged.clear();
         for &block in &self.asked {
             let tiles = plan.tiles_of(block);
+            let imaged = imaged(&outlines[block], grid.cells, periodic);
+            self.imaged.insert(block, imaged);
             for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
-                let length = outline.high - outline.low;
-                let repeated = [0, 1, 2].map(|axis| {
-                    periodic[axis] && length[axis] > f64::from(grid.cells[axis]) + LONGER
-                });
-                let number = (part - first_part[block]) as usize;
-                self.repeated.insert((block, number), repeated);
-                // Of a part that lies beside itself, the cells of one period alone.
-                let counts = |tile: &Tile| {
-                    (0..3).all(|axis| {
-                        !repeated[axis] || (0..grid.cells[axis] as i32).contains(&tile.cell[axis])
-                    })
-                };
                 for (face, plane) in (0..).zip(&outline.faces) {
                     let sees = |tile: &u32| {
                         let tile = &plan.tiles[*tile as usize];
-                        tile.part == part
-                            && counts(tile)
-                            && reaches(tile, brick, outline.centre, plane)
+                        tile.part == part && reaches(tile, brick, outline.centre, plane)
                     };
                     let job = |tile| FaceJob { tile, face };
                     self.jobs.extend(tiles.clone().filter(sees).map(job));
@@ -136,10 +121,9 @@ impl FaceSums {
         Ok(())
     }
 
-    /// Along which axes a part of a block that asks was longer than a period when its tiles were laid down.
-    pub fn repeated(&self, block: usize, part: usize) -> [bool; 3] {
-        let known = self.repeated.get(&(block, part));
-        known.copied().unwrap_or_default()
+    /// Along which axes a block that asks had images when its tiles were laid down.
+    pub fn imaged(&self, block: usize) -> [bool; 3] {
+        self.imaged.get(&block).copied().unwrap_or_default()
     }
 
     /// Records the sums.

@@ -83,7 +83,7 @@ impl Immersed {
             let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
             let load = |(face, sums): (PlaneFace, _)| {
                 let part = &shape.parts()[face.part];
-                let window = self.window(faces.repeated(block, face.part));
+                let window = self.window(faces.imaged(block));
                 let corners = match &part.form {
                     Form::Convex(of) => corners(of, face.face, part.offset, pose),
                     Form::Sphere { .. } => Vec::new(),
@@ -98,14 +98,13 @@ impl Immersed {
             .collect())
     }
 
-    /// The domain, without end along periodic axes but those along which a part is `repeated`.
-    fn window(&self, repeated: [bool; 3]) -> Window {
-        let (cells, periodic) = self.domain();
+    /// The domain, without end along the axes along which a block is `imaged`.
+    fn window(&self, imaged: [bool; 3]) -> Window {
+        let (cells, _) = self.domain();
         let Frame { origin, units } = self.frame;
         let size = units.cell * DVec3::from_array(cells.map(f64::from));
-        let ends = |axis: usize| !periodic[axis] || repeated[axis];
         let or = |at: DVec3, end: f64| {
-            DVec3::from_array([0, 1, 2].map(|axis| if ends(axis) { at[axis] } else { end }))
+            DVec3::from_array([0, 1, 2].map(|axis| if imaged[axis] { end } else { at[axis] }))
         };
         Window {
             low: or(origin, f64::NEG_INFINITY),

@@ -39,5 +39,6 @@ pub use tables::{DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part,
 
 pub(crate) use outline::outline;
 pub(crate) use shell::near;
+pub(crate) use tiles::imaged;
 
 use plan::Plan;

@@ -83,19 +83,10 @@ impl Plan {
         if self.stray(block, pose, radius, cell) < 0.5 * SKIN {
             return;
         }
-        let mut tiles = Vec::new();
-        for (part, outline) in (first_part..).zip(outlines) {
-            for (brick, tile) in tiling.tiles(outline, NEIGHBOURS + SKIN) {
-                let block = block as u32;
-                tiles.push((
-                    brick,
-                    Tile {
-                        part,
-                        block,
-                        ..tile
-                    },
-                ));
-            }
+        let mut tiles = tiling.tiles_of_block(outlines, NEIGHBOURS + SKIN);
+        for (_, tile) in &mut tiles {
+            tile.part += first_part;
+            tile.block = block as u32;
         }
         self.found[block] = Found {
             pose: Some(*pose),

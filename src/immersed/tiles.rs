@@ -33,6 +33,25 @@ impl Outline {
     }
 }
 
+/// How much longer than a period a block is that has no images, cells: rounding.
+const LONGER: f64 = 1e-6;
+
+/// Along which of the `periodic` axes of a domain of `cells` cells a block, whose parts are `outlines`, has images:
+/// those that it does not fill. One that is longer than a period is in the domain as it lies there.
+pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bool; 3] {
+    [0, 1, 2].map(|axis| {
+        let ends = |of: &Outline| [of.low, of.high].map(|end| of.centre[axis] + end[axis]);
+        let widen = |[low, high]: [f64; 2], of: &Outline| {
+            let [from, to] = ends(of);
+            [low.min(from), high.max(to)]
+        };
+        let [low, high] = outlines
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], widen);
+        periodic[axis] && high - low <= f64::from(cells[axis]) + LONGER
+    })
+}
+
 /// The bricks of an axis that an interval reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Span {
@@ -62,13 +81,24 @@ impl Tiling {
         (self.grid.cells, self.periodic)
     }
 
-    /// The tiles of a part grown by `margin` cells, without their slots, each with its brick; in the order
-    /// of bricks and lanes.
-    pub fn tiles(&self, outline: &Outline, margin: f64) -> Vec<(u32, Tile)> {
+    /// The tiles of a block's parts, each part with its number from 0 and grown by `margin` cells, without their slots,
+    /// each with its brick; in the order of parts, bricks and lanes.
+    pub fn tiles_of_block(&self, outlines: &[Outline], margin: f64) -> Vec<(u32, Tile)> {
+        let imaged = imaged(outlines, self.grid.cells, self.periodic);
+        let parts = (0..).zip(outlines);
+        let tiles = parts.flat_map(|(part, outline)| {
+            let tiles = self.tiles(outline, margin, imaged).into_iter();
+            tiles.map(move |(brick, tile)| (brick, Tile { part, ..tile }))
+        });
+        tiles.collect()
+    }
+
+    /// The tiles of a part, with its images along axes where it is `imaged`.
+    fn tiles(&self, outline: &Outline, margin: f64, imaged: [bool; 3]) -> Vec<(u32, Tile)> {
         let [x, y, z] = [0, 1, 2].map(|axis| {
             let low = outline.centre[axis] + outline.low[axis] - margin;
             let high = outline.centre[axis] + outline.high[axis] + margin;
-            self.spans(axis, low, high)
+            self.spans(axis, [low, high], imaged[axis])
         });
         let [bx, by, _] = self.grid.bricks();
         let mut tiles = Vec::new();
@@ -97,10 +127,10 @@ impl Tiling {
         tiles
     }
 
-    /// Spans of bricks between `low` and `high` on an axis.
-    fn spans(&self, axis: usize, low: f64, high: f64) -> Vec<Span> {
+    /// Spans of bricks between `low` and `high` on an axis, and periods away where what lies there is `imaged`.
+    fn spans(&self, axis: usize, [low, high]: [f64; 2], imaged: bool) -> Vec<Span> {
         let cells = i64::from(self.grid.cells[axis]);
-        let (first, last) = if self.periodic[axis] {
+        let (first, last) = if imaged {
             let period = cells as f64;
             (
                 (low / period).floor() as i64,

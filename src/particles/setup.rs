@@ -95,7 +95,7 @@ pub struct Setup {
     pub artificial_viscosity: f64,
     /// δ.
     pub density_diffusion: f64,
-    /// Share of the longest step, below 1.
+    /// Courant number C of the acoustic step; beyond 1.4 water may blow up.
     pub courant: f64,
     /// Pressure of a density.
     pub state: StateEquation,
@@ -125,7 +125,7 @@ impl Setup {
             laminar_viscosity: 0.0,
             artificial_viscosity: 0.01,
             density_diffusion: 0.1,
-            courant: 0.2,
+            courant: 0.7,
             state: StateEquation::Linear,
             plane: false,
             scheme: Scheme::Delta,

@@ -151,6 +151,17 @@ impl Scene {
         !self.blocks.is_empty() || !self.rock_masses.is_empty()
     }
 
+    /// Shortest time between two outputs of a kind, s, if any is asked for at intervals.
+    pub fn shortest_interval(&self) -> Option<f64> {
+        let histories = self.output.histories.iter().map(|history| history.every);
+        let slices = self.output.slices.iter().map(|slice| slice.every);
+        let probes = self.probes.iter().map(|probe| probe.every);
+        let views = self.views.iter().map(|view| view.every);
+        let all = histories.chain(slices).chain(probes).chain(views);
+        let all = all.chain([self.output.every]).flatten();
+        all.min_by(f64::total_cmp)
+    }
+
     /// Directory to which the paths of meshes are relative.
     pub fn dir(&self) -> &Path {
         &self.dir

@@ -1,6 +1,6 @@
 //! Free water and the blocks in it.
 
-use super::{BlockSetup, block_setup, pool::Pool};
+use super::{BlockSetup, block_setup, pool::Pool, scene_step::scene_step};
 use crate::{
     Error, Result,
     bodies::Blocks,
@@ -10,10 +10,6 @@ use crate::{
     scene::Scene,
 };
 use glam::DVec3;
-
-/// Acoustic steps of a step of the scene: the water takes as many as it wants, and an unequal last one wastes at
-/// most a tenth.
-const ACOUSTIC_STEPS: f64 = 10.0;
 
 /// A scene of water with a free surface, by particles, and of the blocks in it.
 ///
@@ -38,12 +34,7 @@ impl FreeSurface {
         if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
             water.neighbours = Neighbours::Lists;
         }
-        let usual = ACOUSTIC_STEPS * water.acoustic_step();
-        let time_step = match scene.run.duration {
-            // A whole number of steps, so that the run ends when it is said to.
-            Some(duration) => duration / (duration / usual).ceil().max(1.0),
-            None => usual,
-        };
+        let time_step = scene_step(scene, water.acoustic_step());
         let company = Company {
             time_step,
             // Times of exchanges are rounded.

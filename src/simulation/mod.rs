@@ -12,6 +12,7 @@ mod free_surface;
 mod lattice_setup;
 mod needs;
 mod pool;
+mod scene_step;
 mod wall_units;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};

@@ -4,7 +4,7 @@ use crate::{
     Result,
     bodies::{Load, Pose},
     checkpoint::WaterCheckpoint,
-    coupling::{Felt, Fluid, Pace, Rock, Sealed},
+    coupling::{Felt, Fluid, Pace, Rock, Sealed, longest_exchange},
     particles::{Particle, Particles, Water},
     scene::Scene,
 };
@@ -16,6 +16,8 @@ pub(super) struct Pool {
     queue: wgpu::Queue,
     pub particles: Particles,
     sealed: Sealed,
+    /// Longest time between two exchanges while blocks may move, s.
+    longest: f64,
     time: f64,
     average: bool,
     /// Mean loads of the last exchange, none before the first one.
@@ -64,10 +66,12 @@ impl Pool {
     ) -> Self {
         let shapes = rock.setup().setup.blocks.iter();
         let shapes = shapes.map(|block| block.shape.clone()).collect();
+        let setup = particles.setup();
         Self {
             device: device.clone(),
             queue: queue.clone(),
-            sealed: Sealed::new(shapes, rock.blocks().period(), particles.setup().spacing),
+            sealed: Sealed::new(shapes, rock.blocks().period(), setup.spacing),
+            longest: longest_exchange(rock, setup.density * setup.sound_speed),
             particles,
             time: 0.0,
             average: scene.coupling.average,
@@ -85,10 +89,11 @@ impl Pool {
 
     /// When water and blocks meet next: in parts of equal length until `end`.
     fn next(&self, pace: Pace, end: f64) -> f64 {
-        let (Pace::Asleep(steps) | Pace::Awake(steps)) = pace else {
-            return end;
+        let interval = match pace {
+            Pace::Still => return end,
+            Pace::Asleep(steps) => steps as f64 * self.particles.limit(),
+            Pace::Awake(steps) => (steps as f64 * self.particles.limit()).min(self.longest),
         };
-        let interval = steps as f64 * self.particles.limit();
         let parts = ((end - self.time) / interval * (1.0 - 1e-6))
             .ceil()
             .max(1.0);

@@ -44,7 +44,7 @@ fn a_minimal_tank_has_the_documented_defaults() {
     assert_eq!(particles, Particles::of(0.05));
     assert_eq!(
         (particles.smoothing, particles.courant, particles.plane),
-        (2.0, 0.2, false)
+        (2.0, 0.7, false)
     );
     assert_eq!(particles.largest_speed, None);
     assert_eq!(particles.artificial_viscosity, 0.01);
@@ -203,8 +203,8 @@ fn particles_that_contradict_themselves_are_refused() {
         ),
         (
             "spacing = 0.05",
-            "spacing = 0.05\ncourant = 1",
-            ["particles.courant", "at most 0.4"],
+            "spacing = 0.05\ncourant = 1.1",
+            ["particles.courant", "at most 1,"],
         ),
         (
             "[fluid]",

@@ -141,6 +141,7 @@ pub const CASES: &[Case] = &[
     short("solids/landing", solids::lubrication::landing),
     short("solids/settling", solids::settling::short),
     long("solids/settling-whole", solids::settling::whole),
+    short("solids/cylinder", solids::cylinder::run),
     long("solids/sphere", solids::obstacle::sphere),
     long("solids/cube", solids::obstacle::cube),
     long("solids/incline-flow", solids::incline_flow::run),

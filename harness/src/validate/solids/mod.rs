@@ -5,6 +5,7 @@ pub mod tank;
 pub mod array;
 pub mod buoyancy;
 pub mod crossing;
+pub mod cylinder;
 pub mod incline_flow;
 pub mod lubrication;
 pub mod momentum;

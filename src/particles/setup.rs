@@ -123,7 +123,7 @@ impl Setup {
             density: 1000.0,
             gravity: DVec3::new(0.0, 0.0, -9.81),
             laminar_viscosity: 0.0,
-            artificial_viscosity: 0.01,
+            artificial_viscosity: 0.005,
             density_diffusion: 0.1,
             courant: 0.7,
             state: StateEquation::Linear,

@@ -29,7 +29,7 @@ pub struct Particles {
     /// surface pulls, where sums lack neighbours.
     pub stiffness: Option<f64>,
     /// Artificial viscosity α (Monaghan 1992), no unit, from 0: a kinematic viscosity of
-    /// α h c/10 in space and α h c/8 in a plane. Default 0.01.
+    /// α h c/10 in space and α h c/8 in a plane. Default 0.005.
     #[serde(default = "Particles::usual_viscosity")]
     pub artificial_viscosity: f64,
     /// Diffusion δ of density (Fourtakas et al. 2019), no unit, from 0. Default 0.1.
@@ -84,7 +84,7 @@ impl Particles {
     }
 
     fn usual_viscosity() -> f64 {
-        0.01
+        0.005
     }
 
     fn usual_diffusion() -> f64 {

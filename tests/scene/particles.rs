@@ -47,7 +47,7 @@ fn a_minimal_tank_has_the_documented_defaults() {
         (2.0, 0.7, false)
     );
     assert_eq!(particles.largest_speed, None);
-    assert_eq!(particles.artificial_viscosity, 0.01);
+    assert_eq!(particles.artificial_viscosity, 0.005);
     assert_eq!(particles.density_diffusion, 0.1);
     assert_eq!(particles.equation_of_state, EquationOfState::Linear);
     assert_eq!((particles.layers(), particles.smoothing_length()), (4, 0.1));

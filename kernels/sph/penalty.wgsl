@@ -3,12 +3,14 @@
 
 // A convex part of a body, in the body's frame.
 struct Hull {
-    // Of its circumscribed sphere, spacings.
+    // Of its circumscribed sphere, spacings; a hull without faces is that sphere.
     centre: vec3<f32>,
     radius: f32,
     body: u32,
     first_face: u32,
+    // Number of its faces, and of those, the first ones, that are not inside other parts of the body.
     faces: u32,
+    bare: u32,
 }
 
 @group(0) @binding(6) var<storage, read> motions: array<Motion>;
@@ -29,16 +31,28 @@ fn penalty(hull: Hull, at: vec3<i32>, velocity: vec3<f32>, elapsed: f32) -> vec3
     if (dot(from_centre, from_centre) > hull.radius * hull.radius) {
         return vec3(0.0);
     }
+    // The way out is through the nearest face that water may meet.
     var highest = -1e30;
     var outward = vec3(0.0);
-    for (var k = hull.first_face; k < hull.first_face + hull.faces; k++) {
+    let seams = hull.first_face + hull.bare;
+    for (var k = hull.first_face; k < seams; k++) {
         let height = dot(planes[k].xyz, x) - planes[k].w;
         if (height > highest) {
             highest = height;
             outward = planes[k].xyz;
         }
     }
-    if (highest >= 0.0) {
+    for (var k = seams; k < hull.first_face + hull.faces; k++) {
+        if (dot(planes[k].xyz, x) > planes[k].w) {
+            return vec3(0.0);
+        }
+    }
+    if (hull.faces == 0u) {
+        let distance = length(from_centre);
+        highest = distance - hull.radius;
+        outward = from_centre / max(distance, 1e-6);
+    }
+    if (highest >= 0.0 || highest < -1e29) {
         return vec3(0.0);
     }
     let n = lever(motion, outward);

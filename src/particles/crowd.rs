@@ -12,6 +12,8 @@ pub(super) const NEAREST: f64 = 0.6;
 pub(super) struct Crowd<'a> {
     lattice: &'a Lattice,
     distance: f64,
+    /// Edge of a cell, m.
+    edge: f64,
     cells: HashMap<[i64; 3], Vec<DVec3>>,
 }
 
@@ -21,37 +23,37 @@ impl<'a> Crowd<'a> {
             lattice,
             // Points that stand exactly so far apart may both stay.
             distance: (NEAREST - 1e-6) * lattice.spacing,
+            edge: lattice.spacing,
             cells: HashMap::new(),
         }
     }
 
     /// Whether there is room for `point` (m), which then is there.
     pub fn admit(&mut self, point: DVec3) -> bool {
-        if self.images(point).any(|image| self.is_near(image)) {
-            return false;
+        let admitted = self.nearest(point) >= self.distance;
+        if admitted {
+            self.cells.entry(self.cell(point)).or_default().push(point);
         }
-        self.cells.entry(self.cell(point)).or_default().push(point);
-        true
+        admitted
+    }
+
+    /// Distance from `point` (m) to the nearest of them, m; a spacing if that is farther.
+    pub fn nearest(&self, point: DVec3) -> f64 {
+        let images = self.images(point).map(|image| self.nearest_of_one(image));
+        images.fold(self.edge, f64::min)
     }
 
     fn cell(&self, point: DVec3) -> [i64; 3] {
-        let cell = (point - self.lattice.low) / self.distance;
+        let cell = (point - self.lattice.low) / self.edge;
         cell.to_array().map(|c| c.floor() as i64)
     }
 
-    fn is_near(&self, point: DVec3) -> bool {
+    fn nearest_of_one(&self, point: DVec3) -> f64 {
         let [x, y, z] = self.cell(point);
-        (-1..=1).any(|i| {
-            (-1..=1).any(|j| {
-                (-1..=1).any(|k| {
-                    let there = self.cells.get(&[x + i, y + j, z + k]);
-                    there
-                        .into_iter()
-                        .flatten()
-                        .any(|other| other.distance(point) < self.distance)
-                })
-            })
-        })
+        let around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
+        let there = around.filter_map(|cell| self.cells.get(&cell)).flatten();
+        let distances = there.map(|other| other.distance_squared(point));
+        distances.fold(f64::INFINITY, f64::min).sqrt()
     }
 
     /// The point, and where it is seen once more near the ends of periods.
@@ -59,7 +61,7 @@ impl<'a> Crowd<'a> {
         let (low, high) = (self.lattice.low, self.lattice.high);
         let shifts: [[f64; 3]; 3] = std::array::from_fn(|axis| {
             let period = high[axis] - low[axis];
-            let near = |end: f64| (point[axis] - end).abs() < self.distance;
+            let near = |end: f64| (point[axis] - end).abs() < self.edge;
             let seen = |there: bool, shift: f64| if there { shift } else { 0.0 };
             let periodic = self.lattice.periodic[axis];
             [

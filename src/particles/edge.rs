@@ -1,6 +1,6 @@
 //! Where a layer of shells ends at a seam, beyond which another part of the block is.
 
-use super::{lattice::Lattice, placed::Solid};
+use super::{lattice::Lattice, solid::Solid};
 use crate::block::HalfSpace;
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 //! The plane polygon that is left of a facet some way below it, and rows of points on it.
 
-use super::lattice::Lattice;
+use super::{gaps::Laid, lattice::Lattice};
 use crate::block::HalfSpace;
 use glam::DVec3;
 
@@ -143,7 +143,7 @@ impl Facet {
     /// Points a spacing apart: those of the lattice along an axis that it spans, so that they match the rows
     /// of the fluid and the ends of a period; so too from one end of the domain, where they meet those of a wall, to
     /// an edge of its own; along others evenly from edge to edge, both included.
-    pub fn points(&self, lattice: &Lattice) -> Vec<DVec3> {
+    pub fn points(&self, lattice: &Lattice) -> Vec<Laid> {
         let spanned = (0..3).find(|axis| self.spans(lattice, *axis));
         let along = match spanned {
             Some(axis) => DVec3::AXES[axis],
@@ -177,11 +177,10 @@ impl Facet {
                 Some(axis) => lattice.row(axis, range),
                 None => lattice.fitted(range),
             };
-            points.extend(
-                row_points
-                    .into_iter()
-                    .map(|at| origin + along * at + across * row),
-            );
+            points.extend(row_points.into_iter().map(|at| Laid {
+                at: origin + along * at + across * row,
+                normal: self.plane.normal,
+            }));
         }
         points
     }

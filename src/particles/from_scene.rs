@@ -1,8 +1,8 @@
 //! From a scene to its water.
 
 use super::{
-    Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, placed::Placed, shells,
-    speeds::Speeds,
+    Body, Neighbours, Scheme, Setup, Side, Start, StateEquation, fill, lattice::Lattice,
+    placed::Placed, shells, solid, speeds::Speeds,
 };
 use crate::{
     Error, Result,
@@ -37,9 +37,11 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let slippery: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
     let all = &blocks.setup.blocks;
     let shells = own(all, shells, |block| probed(&block.name));
-    let bodies = all.iter().zip(shells).map(|(block, shell)| Body {
+    let solids = solid::solids(all, &Lattice::of(scene, particles));
+    let bodies = all.iter().zip(shells).zip(solids);
+    let bodies = bodies.map(|((block, shell), solids)| Body {
         shell,
-        shape: Some(block.shape.clone()),
+        solids: solids.into_iter().map(|s| s.seen_from(block)).collect(),
         moves: block.motion != Motion::Fixed,
         loaded: block.motion == Motion::Free || probed(&block.name),
         accelerates: matches!(block.motion, Motion::Driven { .. }),

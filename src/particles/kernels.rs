@@ -55,6 +55,8 @@ pub(super) struct Kernels {
     /// The gate that lists must pass, if there are any.
     admit: Option<(Kernel, wgpu::BindGroup)>,
     load: (Kernel, wgpu::BindGroup),
+    /// `keep_out`, where walls are shells.
+    keep_out: Option<(Kernel, wgpu::BindGroup)>,
     /// `mueller_drift`, where the sums leave the places to it.
     last: Option<(Kernel, wgpu::BindGroup)>,
     /// All by the names of their bindings.
@@ -84,6 +86,7 @@ impl Kernels {
         let forces = buffer("forces on shells", numbers.loaded_shell, 16)?;
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
+        let shelter = buffer("what keeps particles out", numbers.water, 16)?;
         let viscous = setup.laminar_viscosity > 0.0;
         let clinging = buffer(
             "velocities of shells",
@@ -118,6 +121,7 @@ impl Kernels {
             ("loads", &loads),
             ("hulls", &hull_buffer),
             ("planes", &plane_buffer),
+            ("shelter", &shelter),
             ("clinging", &clinging),
             ("clinging_out", &clinging),
         ];
@@ -146,6 +150,10 @@ impl Kernels {
             Neighbours::Cells => None,
             Neighbours::Lists => Some(bound("admit")?),
         };
+        let keep_out = match setup.scheme {
+            Scheme::Delta => Some(bound("keep_out")?),
+            Scheme::Mueller { .. } => None,
+        };
         let least = kernel("least")?;
         let (mut limits, mut count, mut leasts) = (fresh.clone(), numbers.water.max(1), Vec::new());
         while count > 1 {
@@ -165,6 +173,7 @@ impl Kernels {
             near,
             near_shell,
             admit,
+            keep_out,
             buffers: buffers.map(|(name, of)| (name, of.clone())).to_vec(),
             least,
             leasts,
@@ -231,6 +240,10 @@ impl Kernels {
         }
         self.near_shell.record_first(&mut pass);
         self.near.record_first(&mut pass);
+        let water = self.numbers.water.div_ceil(WORKGROUP);
+        if let Some((kernel, bind)) = &self.keep_out {
+            kernel.record(&mut pass, bind, water);
+        }
         if self.numbers.loaded > 0 {
             self.near_shell.record_second(&mut pass);
             let bodies = self.numbers.loaded;
@@ -238,7 +251,6 @@ impl Kernels {
         }
         self.near.record_second(&mut pass);
         if let Some((kernel, bind)) = &self.last {
-            let water = self.numbers.water.div_ceil(WORKGROUP);
             kernel.record(&mut pass, bind, water);
         }
         for (bind, count) in &self.leasts {

@@ -62,7 +62,16 @@ impl Lattice {
         [self.low[axis] - beyond, self.high[axis] + beyond]
     }
 
-    /// The same as half-spaces.
+    /// Whether shells that do not move may be at `x` (m).
+    pub fn is_within(&self, x: DVec3) -> bool {
+        (0..3).all(|axis| {
+            let [low, high] = self.reach(axis);
+            let there = x[axis] >= low && x[axis] <= high;
+            there && (!self.is_row(axis) || (x[axis] - 0.5 * (low + high)).abs() < self.tolerance())
+        })
+    }
+
+    /// Where shells may be along `axis`, as half-spaces.
     pub fn sides(&self, axis: usize) -> [HalfSpace; 2] {
         let [low, high] = self.reach(axis);
         [

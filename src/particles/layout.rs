@@ -119,7 +119,7 @@ pub struct Clock {
 pub struct Hull {
     /// Centre of its circumscribed sphere in the body's frame, spacings.
     pub centre: [f32; 3],
-    /// Radius of that, spacings.
+    /// Radius of that, spacings; where it has no faces it is a sphere.
     pub radius: f32,
     /// Number of the body.
     pub body: u32,
@@ -127,6 +127,6 @@ pub struct Hull {
     pub first_face: u32,
     /// Number of its faces.
     pub faces: u32,
-    /// Nothing: WGSL fills up sixteen bytes.
-    pub unused: u32,
+    /// How many of them, the first ones, water may meet.
+    pub bare: u32,
 }

@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Head, Home, Motion, Numbers, Particle, Scheme, Setup, State, Water,
+    Clock, Frame, Head, Home, Motion, Numbers, Particle, Setup, State, Water,
     followed::Followed,
     hulls,
     kernels::{Kernels, NUMBERS, OF_LOAD},
@@ -107,10 +107,7 @@ impl Particles {
             bodies: order.len() as u32,
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
-        let (hulls, planes) = match setup.scheme {
-            Scheme::Delta => Default::default(),
-            Scheme::Mueller { .. } => hulls::hulls(&setup, &frame, &order)?,
-        };
+        let (hulls, planes) = hulls::hulls(&setup, &frame, &order);
         let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {

@@ -11,8 +11,12 @@ pub const MOST_BINDINGS: u32 = 8;
 /// step; it is damped to half of its critical damping.
 const PENALTY: f64 = 0.5;
 
+/// The same where walls have shells, and only what is in between their particles is to come out: at 2 % of the speed of
+/// sound from a spacing's depth.
+const KEEP_OUT: f64 = 0.1;
+
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 18] = [
+pub const KERNELS: [&str; 19] = [
     "sort_count",
     "sort_list",
     "sort_order",
@@ -22,6 +26,7 @@ pub const KERNELS: [&str; 18] = [
     "shell_neighbours",
     "admit",
     "accelerate",
+    "keep_out",
     "shell_force",
     "body_load",
     "drift",
@@ -102,6 +107,10 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         Scheme::Mueller { viscosity } => viscosity,
     } * frame.unit_time()
         / setup.spacing.powi(2);
+    let stiffness = match setup.scheme {
+        Scheme::Delta => KEEP_OUT,
+        Scheme::Mueller { .. } => PENALTY,
+    };
     let gravity = frame.acceleration(setup.gravity);
     let [from, to] = frame.kept;
     vec![
@@ -125,7 +134,7 @@ pub fn constants(setup: &Setup, frame: &Frame) -> Vec<(&'static str, f64)> {
         ("SPIKY", mueller[1]),
         ("LAPLACIAN", mueller[2]),
         ("VISCOSITY", viscosity),
-        ("PENALTY_STIFFNESS", PENALTY.powi(2)),
+        ("PENALTY_STIFFNESS", stiffness.powi(2)),
         ("PENALTY_DAMPING", PENALTY),
         ("KERNEL_SCALE", scale),
         ("GRAVITY_X", gravity.x),

@@ -1,8 +1,8 @@
 //! What particles of water want to know.
 
-use crate::{Error, Result, block::Shape};
+use super::Solid;
+use crate::{Error, Result};
 use glam::DVec3;
-use std::sync::Arc;
 
 /// A face of the domain, as particles meet it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,8 +57,9 @@ pub enum Neighbours {
 pub struct Body {
     /// Places of its particles from its centroid, in its own frame, m.
     pub shell: Vec<DVec3>,
-    /// Its shape, which walls that are springs are made of.
-    pub shape: Option<Arc<Shape>>,
+    /// Its convex parts in its own frame, which push out what is in them: all that the scheme of Geraili Mikola & Sitar
+    /// has for walls, and what shells need where pressures alone leave water between their particles.
+    pub solids: Vec<Solid>,
     /// Whether it moves at all.
     pub moves: bool,
     /// Whether somebody wants to know what the water does to it.

@@ -4,8 +4,10 @@ use super::{
     crowd::Crowd,
     edge::Edge,
     facet::Facet,
+    gaps::{Depths, Laid, gap},
     lattice::Lattice,
-    placed::{Faces, Placed, Solid},
+    placed::Placed,
+    solid::{Faces, Solid, solids},
     sphere::spiral,
 };
 use crate::{
@@ -24,8 +26,8 @@ use glam::DVec3;
 /// by (k + ½) Δx is filled with rows of points; they belong to the lattice of the fluid where the part spans
 /// the domain. Where a part stands on another, the rows of both follow each other as if they were of one. No two
 /// points of a block are nearer than 0.6 Δx, nor two of fixed blocks, which share what they have in common by
-/// depth: who of them is deeper there. The faces of the domain give lattice points outside of it, in corners too.
-/// Fixed blocks have none farther beyond the domain than its walls.
+/// depth: who of them is deeper there, and points fill what gaps that leaves in their layers. The faces of the domain
+/// give lattice points outside of it, in corners too. Fixed blocks have none farther beyond the domain than its walls.
 ///
 /// # Errors
 /// If the scene has no particles, a block is thinner than Δx, or, in a plane, is no prism across the domain.
@@ -42,58 +44,71 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
         .filter(|(_, boundary)| matches!(boundary, Boundary::Wall { .. } | Boundary::FreeSlip))
         .map(|(face, _)| face)
         .collect();
-    let mut solids = Vec::with_capacity(blocks.len());
-    for (index, block) in blocks.iter().enumerate() {
-        let parts = Placed::of(block);
-        if index < walls {
-            check(block, &parts, &lattice)?;
-        }
-        let fixed = block.motion == Motion::Fixed;
-        let solid = |(index, part): (usize, &Placed<'_>)| {
-            let mut solid = Solid::of(part, &lattice, fixed);
-            let others = parts
-                .iter()
-                .enumerate()
-                .filter(|(other, _)| *other != index);
-            let others: Vec<&Placed<'_>> = others.map(|(_, other)| other).collect();
-            solid.sew(part, &others, &lattice);
-            solid
-        };
-        solids.push(parts.iter().enumerate().map(solid).collect::<Vec<_>>());
+    for block in &blocks[..walls.min(blocks.len())] {
+        check(block, &Placed::of(block), &lattice)?;
     }
+    let solids = solids(blocks, &lattice);
     let still: Vec<usize> = (0..blocks.len())
         .filter(|index| blocks[*index].motion == Motion::Fixed)
         .collect();
+    let deepest = |index: usize, point: DVec3| {
+        let depths = solids[index].iter().map(|solid| solid.depth(point));
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let depths = |own: usize, point: DVec3| {
+        let depths = still.iter().map(|block| (deepest(*block, point), *block));
+        let mine = (deepest(own, point) + lattice.tolerance(), own);
+        // Where some are as deep it is its own.
+        let (deepest, block) = depths.fold(mine, |a, b| if b.0 > a.0 { b } else { a });
+        Depths {
+            own: mine.0,
+            deepest,
+            block,
+        }
+    };
     let mut crowd = Crowd::new(&lattice);
+    let mut refused = Vec::new();
     let mut shells = Vec::with_capacity(blocks.len());
     for (index, block) in blocks.iter().enumerate() {
-        let fixed = block.motion == Motion::Fixed;
         let points = match faces.get(index.wrapping_sub(walls)) {
             Some(face) => wall(&lattice, *face),
-            None => layers(block, &solids[index], &lattice, fixed),
+            None => layers(block, &solids[index], &lattice),
         };
-        let mut own = Crowd::new(&lattice);
-        let crowd = if fixed { &mut crowd } else { &mut own };
-        let deepest = |index: usize, point: DVec3| {
-            let depths = solids[index].iter().map(|solid| solid.depth(point));
-            depths.fold(f64::NEG_INFINITY, f64::max)
-        };
-        let mine = |point: DVec3| {
-            let depth = deepest(index, point) + lattice.tolerance();
-            let others = |other: &usize| *other == index || deepest(*other, point) <= depth;
-            still.iter().all(others)
-        };
-        let kept = points
-            .into_iter()
-            .filter(|point| (!fixed || mine(*point)) && crowd.admit(*point));
+        let places = points.iter().map(|point| point.at);
+        if block.motion == Motion::Fixed {
+            let mut kept = Vec::with_capacity(points.len());
+            for point in points {
+                if depths(index, point.at).block == index && crowd.admit(point.at) {
+                    kept.push(point.at);
+                } else {
+                    refused.push((index, point));
+                }
+            }
+            shells.push(kept);
+        } else {
+            let mut own = Crowd::new(&lattice);
+            shells.push(places.filter(|point| own.admit(*point)).collect());
+        }
+    }
+    for (index, point) in refused {
+        let there = |x: DVec3| lattice.is_within(x).then(|| depths(index, x));
+        if let Some((place, block)) = gap(point, there, &crowd, &lattice)
+            && crowd.admit(place)
+        {
+            shells[block].push(place);
+        }
+    }
+    for (block, shell) in blocks.iter().zip(&mut shells) {
         let back = block.rotation.inverse();
-        shells.push(kept.map(|x| back * (x - block.centre)).collect());
+        for point in shell {
+            *point = back * (*point - block.centre);
+        }
     }
     Ok(shells)
 }
 
 /// The lattice outside the domain through one of its faces, corners included, m.
-fn wall(lattice: &Lattice, face: Face) -> Vec<DVec3> {
+fn wall(lattice: &Lattice, face: Face) -> Vec<Laid> {
     let normal = face.axis().index();
     if lattice.plane && normal == 1 {
         return Vec::new();
@@ -114,14 +129,18 @@ fn wall(lattice: &Lattice, face: Face) -> Vec<DVec3> {
     let mut points = Vec::with_capacity(x.len() * y.len() * z.len());
     for z in z {
         for y in y {
-            points.extend(x.iter().map(|x| DVec3::new(*x, *y, *z)));
+            points.extend(x.iter().map(|x| Laid {
+                at: DVec3::new(*x, *y, *z),
+                normal: DVec3::AXES[normal],
+            }));
         }
     }
     points
 }
 
 /// The layers of a block, the outermost of all its facets first, and what goes on behind re-entrant edges last, m.
-fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Vec<DVec3> {
+fn layers(block: &Block, solids: &[Solid], lattice: &Lattice) -> Vec<Laid> {
+    let fixed = block.motion == Motion::Fixed;
     let (mut points, mut behind) = (Vec::new(), Vec::new());
     let deepest = |x: DVec3| {
         let depths = solids.iter().map(|solid| solid.depth(x));
@@ -135,30 +154,29 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice, fixed: bool) -> Ve
                     let others = solids.iter().enumerate().filter(|(i, _)| *i != index);
                     let others: Vec<&Solid> = others.map(|(_, other)| other).collect();
                     for facet in facets(block, (faces, &others), depth, lattice, fixed) {
-                        let (own, rest): (Vec<DVec3>, Vec<DVec3>) =
+                        let (own, rest): (Vec<Laid>, Vec<Laid>) =
                             facet.points(lattice).into_iter().partition(|x| {
                                 let mut seams = faces.seams.iter();
-                                seams.all(|seam| seam.height(*x) <= lattice.tolerance())
+                                seams.all(|seam| seam.height(x.at) <= lattice.tolerance())
                             });
                         points.extend(own);
                         let least = lattice.depth(0) - lattice.tolerance();
-                        behind.extend(rest.into_iter().filter(|x| deepest(*x) >= least));
+                        behind.extend(rest.into_iter().filter(|x| deepest(x.at) >= least));
                     }
                 }
                 Solid::Sphere { centre, radius } if *radius >= depth - lattice.tolerance() => {
                     let sphere = spiral((radius - depth).max(0.0), lattice.spacing);
-                    points.extend(sphere.map(|point| *centre + point));
+                    points.extend(sphere.map(|point| Laid {
+                        at: *centre + point,
+                        normal: point.normalize_or(DVec3::Z),
+                    }));
                 }
                 Solid::Sphere { .. } => {}
             }
         }
     }
     points.extend(behind);
-    let reach = [0, 1, 2].map(|axis| lattice.reach(axis));
-    points.retain(|x| {
-        let inside = |axis: usize| x[axis] >= reach[axis][0] && x[axis] <= reach[axis][1];
-        !fixed || (0..3).all(inside)
-    });
+    points.retain(|x| !fixed || lattice.is_within(x.at));
     points
 }
 

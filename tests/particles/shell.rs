@@ -153,7 +153,9 @@ fn ramps_keep_the_rows_of_the_water_and_share_the_ground_with_the_floor() {
     let shell = made.shell("ramp");
     let normal = DVec3::new(-0.5, 0.0, 0.75_f64.sqrt());
     let depth = |x: &DVec3| -normal.dot(*x - DVec3::X);
-    assert!(shell.iter().all(|x| is_on_lattice(x.y, 0.0)));
+    // But for what fills gaps where the floor or the wall is about as deep.
+    let beside = |x: &DVec3| (depth(x) - (-x.z).max(x.x - 2.0)).abs() < 0.26 * DX;
+    assert!(shell.iter().all(|x| is_on_lattice(x.y, 0.0) || beside(x)));
     for layer in 0..4 {
         let at = (f64::from(layer) + 0.5) * DX;
         let rows = shell.iter().filter(|x| (depth(x) - at).abs() < 1e-7);
@@ -341,4 +343,57 @@ fn a_fixed_block_is_asked_about_its_own_surface_only() {
     assert!(lowest(&asked[0].shell) > -0.2);
     let count = |bodies: &[Body]| bodies.iter().map(|body| body.shell.len()).sum::<usize>();
     assert_eq!(count(&plain), count(&asked));
+}
+
+/// A flat beach meets the floor and side walls, whose rows have other phases.
+#[test]
+fn layers_of_blocks_that_meet_leave_no_gaps() {
+    let text = r#"
+        domain = { size = [2, 0.4, 1] }
+        fluid = { acceleration = [0, 0, -9.81] }
+        particles = { spacing = 0.05, largest_speed = 4 }
+        water = [{ kind = "box", size = [2, 0.4, 0.6], position = [1, 0.2, 0.3] }]
+        materials = [{ name = "rock", density = 2500, normal_stiffness = 1e8, friction = 30 }]
+        run = { duration = 1 }
+        [boundaries]
+        x_min = { kind = "wall" }
+        x_max = { kind = "wall" }
+        y_min = { kind = "wall" }
+        y_max = { kind = "wall" }
+        z_min = { kind = "wall" }
+        z_max = { kind = "open" }
+        [[blocks]]
+        name = "beach"
+        kind = "vertices"
+        vertices = [[0.51, 0, 0], [4, 0, 0], [4, 0, 0.1396], [0.51, 0.4, 0], [4, 0.4, 0], [4, 0.4, 0.1396]]
+        motion = "fixed"
+    "#;
+    let made = Made::of(&Scene::from_toml(text, Path::new("."), "beach").unwrap());
+    let shells = made.all_shells();
+    assert!(nearest(&shells) >= 0.599 * DX);
+    let (toe, slope) = (
+        DVec3::new(0.51, 0.0, 0.0),
+        DVec3::new(1.0, 0.0, 0.04).normalize(),
+    );
+    let down = DVec3::Y.cross(slope);
+    let mut places = Vec::new();
+    for i in 0..300 {
+        // Half a spacing below the floor and the beach, and behind a side wall some way up from them.
+        let along = -0.4 + 1.8 * f64::from(i) / 300.0;
+        let (surface, into) = if along < 0.0 {
+            (toe + along * DVec3::X, -DVec3::Z)
+        } else {
+            (toe + along * slope, down)
+        };
+        let behind = (0..20).map(|j| into * (0.5 * DX) + DVec3::Y * (f64::from(j) * 0.02));
+        let beside = (0..20).map(|k| DVec3::new(0.0, -0.5 * DX, (f64::from(k) - 5.0) * 0.01));
+        places.extend(behind.chain(beside).map(|x| surface + x));
+    }
+    let far = |x: &DVec3| {
+        let apart = shells.iter().map(|s| s.distance_squared(*x));
+        apart.fold(f64::INFINITY, f64::min).sqrt() / DX
+    };
+    let widest = places.iter().map(far).fold(0.0, f64::max);
+    // Half the diagonal of a square is 0.71; gaps of 1.6 spacings have 0.94.
+    assert!(widest < 0.8, "{widest} spacings");
 }

@@ -3,8 +3,10 @@
 #[path = "../rig/mod.rs"]
 mod rig;
 
+mod held;
 mod mueller;
 mod programs;
+mod push;
 mod step;
 mod still;
 mod tank;

@@ -1,6 +1,7 @@
 //! The scheme of Müller, Charypar & Gross (2003) and Geraili Mikola & Sitar (2014) against its twin in f64 and SI.
 
 use crate::{
+    push::{Spring, push},
     rig::Rig,
     step::Noise,
     tank::{lattice, resting},
@@ -8,11 +9,11 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Form, Polyhedron, Shape},
+    block::{Polyhedron, Shape},
     bodies::Pose,
-    particles::{Body, Neighbours, Particles, Scheme, Setup, Side, Water},
+    particles::{Body, Neighbours, Particles, Scheme, Setup, Side, Solid, Water},
 };
-use std::{f64::consts::PI, sync::Arc};
+use std::f64::consts::PI;
 
 const VISCOSITY: f64 = 0.02;
 
@@ -56,31 +57,14 @@ impl Twin<'_> {
 
     /// Acceleration by the springs of a body: frequency c/(2Δx), half of critical damping.
     fn penalty(&self, body: usize, x: DVec3, v: DVec3) -> DVec3 {
-        let (pose, Some(shape)) = (&self.poses[body], &self.setup.bodies[body].shape) else {
-            return DVec3::ZERO;
+        let omega = 0.5 * self.setup.sound_speed / self.setup.spacing;
+        let spring = Spring {
+            stiffness: omega.powi(2),
+            damping: omega,
         };
-        let place = pose.deformation.transpose() * (x - pose.centre);
-        let mut sum = DVec3::ZERO;
-        for part in shape.parts() {
-            let Form::Convex(polyhedron) = &part.form else {
-                panic!("a sphere")
-            };
-            let height =
-                |n: &riprap::block::HalfSpace| n.normal.dot(place - part.offset) - n.distance;
-            let face = polyhedron
-                .faces()
-                .iter()
-                .max_by(|a, b| height(a).total_cmp(&height(b)))
-                .unwrap();
-            if height(face) < 0.0 {
-                let n = pose.deformation * face.normal;
-                let relative = v - pose.point_velocity(place);
-                let omega = 0.5 * self.setup.sound_speed / self.setup.spacing;
-                let push = -omega.powi(2) * height(face) - omega * relative.dot(n);
-                sum += push.max(0.0) * n;
-            }
-        }
-        sum
+        let solids = self.setup.bodies[body].solids.iter();
+        let pushes = solids.map(|solid| push(spring, &self.poses[body], solid, x, v));
+        pushes.sum()
     }
 
     /// Velocities after `dt`, and the force of each particle on the body.
@@ -125,7 +109,7 @@ fn check(plane: bool) {
     } else {
         DVec3::splat(0.17)
     };
-    let cube = |half: DVec3| Arc::new(Shape::from(Polyhedron::cuboid(2.0 * half).unwrap()));
+    let cube = |half: DVec3| Shape::from(Polyhedron::cuboid(2.0 * half).unwrap());
     let mut noise = Noise(11);
     let setup = |neighbours| {
         let mut setup = Setup::tank(size, spacing, 20.0);
@@ -137,7 +121,7 @@ fn check(plane: bool) {
         };
         setup.faces[2][1] = Side::Open;
         let body = |half, loaded| Body {
-            shape: Some(cube(half)),
+            solids: Solid::parts(&cube(half)),
             moves: loaded,
             loaded,
             ..Body::default()

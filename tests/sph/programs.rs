@@ -107,6 +107,7 @@ fn structures_lie_as_on_the_device() {
         ("body", offset_of!(Hull, body)),
         ("first_face", offset_of!(Hull, first_face)),
         ("faces", offset_of!(Hull, faces)),
+        ("bare", offset_of!(Hull, bare)),
     ];
     let load = program(&setup, &frame, "mueller_load").link().unwrap();
     layout::check::<Hull>(&load.module, "Hull", &hull).unwrap();

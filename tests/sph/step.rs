@@ -7,8 +7,9 @@ use crate::{
 };
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
+    block::{HalfSpace, Polyhedron},
     bodies::Pose,
-    particles::{Body, Neighbours, Particles, Setup, Side, StateEquation},
+    particles::{Body, Faces, Neighbours, Particles, Setup, Side, Solid, StateEquation},
 };
 
 /// Numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
@@ -60,6 +61,34 @@ fn check(setup: Setup) {
     }
 }
 
+/// A cylinder, as nothing varies along y, or a cube of two halves, m.
+fn solids(plane: bool) -> Vec<Solid> {
+    if plane {
+        return vec![Solid::Sphere {
+            centre: DVec3::ZERO,
+            radius: 0.15,
+        }];
+    }
+    let cube = Polyhedron::cuboid(DVec3::splat(0.3)).unwrap();
+    let half = |side: f64| {
+        Solid::Faces(Faces {
+            centre: DVec3::ZERO,
+            radius: cube.radius(),
+            bare: cube
+                .faces()
+                .iter()
+                .filter(|face| face.normal.x * side < 0.5)
+                .copied()
+                .collect(),
+            seams: vec![HalfSpace {
+                normal: side * DVec3::X,
+                distance: 0.0,
+            }],
+        })
+    };
+    vec![half(-1.0), half(1.0)]
+}
+
 fn check_with(setup: Setup) {
     let plane = setup.plane;
     let mut setup = setup;
@@ -89,6 +118,7 @@ fn check_with(setup: Setup) {
         Body { slips, ..fixed },
         Body {
             shell: block.clone(),
+            solids: solids(plane),
             moves: true,
             loaded: true,
             ..Body::default()
@@ -99,7 +129,7 @@ fn check_with(setup: Setup) {
         .to_array()
         .map(|n| n as i32);
     let mut places = lattice(&setup, [0; 3], [cells[0], cells[1], cells[2] - 2]);
-    places.retain(|x| (*x - middle).abs().max_element() > 0.3 || noise.number() > 0.9);
+    places.retain(|x| (*x - middle).abs().max_element() > 0.3 || noise.number() > 0.5);
     let positions: Vec<DVec3> = places
         .iter()
         .map(|x| *x + 0.01 * noise.vector(plane))
@@ -130,6 +160,8 @@ fn check_with(setup: Setup) {
         })
         .collect();
     let poses = [resting(DVec3::ZERO), pose];
+    let within = |wet: &&Wet| (wet.x - middle).abs().max_element() < 0.12;
+    assert!(water.iter().filter(within).count() > 0);
     let mut dummies: Vec<Dummy> = setup.bodies[0]
         .shell
         .iter()
@@ -153,7 +185,7 @@ fn check_with(setup: Setup) {
         .unwrap();
     assert_eq!(done.steps, 1);
     let after = rig.wait(particles.water(device, queue)).unwrap();
-    let exact = Twin(&setup).step(&water, &dummies, dt);
+    let exact = Twin(&setup, &poses).step(&water, &dummies, dt);
     let change = |a: f64, b: f64| (a - b).abs();
     let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, [0.0f64; 2]);
     for n in 0..after.len() {

@@ -1,9 +1,13 @@
 //! A step of the scheme in f64 and SI units, each particle with each other: Wendland C2; momentum with artificial
 //! viscosity from the old state, continuity with diffusion and the way with the new velocity; dummy particles with
-//! the pressure of the water before them.
+//! the pressure of the water before them, and the push of bodies on what is in them.
 
+use crate::push::{Spring, push};
 use glam::{DMat3, DVec3};
-use riprap::particles::{Setup, Side, StateEquation};
+use riprap::{
+    bodies::Pose,
+    particles::{Setup, Side, StateEquation},
+};
 use std::f64::consts::PI;
 
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +34,8 @@ pub struct Outcome {
     pub limit: f64,
 }
 
-pub struct Twin<'a>(pub &'a Setup);
+/// The water's constants, and where the bodies are.
+pub struct Twin<'a>(pub &'a Setup, pub &'a [Pose]);
 
 impl Twin<'_> {
     fn h(&self) -> f64 {
@@ -144,6 +149,32 @@ impl Twin<'_> {
         self.mass() * both / (a * b) * r.dot(self.gradient(r)) / r.length_squared() * v
     }
 
+    /// What all bodies do to water that is in them: nothing if no dummy particle is near.
+    fn kept_out(&self, at: &Wet, walls: &[Dummy]) -> f64 {
+        let rate = self.0.sound_speed / self.0.spacing;
+        let spring = Spring {
+            stiffness: (0.1 * rate).powi(2),
+            damping: 0.5 * rate,
+        };
+        let (mut outward, mut nearest, mut pushes) = (DVec3::ZERO, f64::INFINITY, DVec3::ZERO);
+        for wall in walls {
+            let r = self.between(at.x, wall.x);
+            outward -= self.gradient(r);
+            nearest = nearest.min(r.length());
+        }
+        if nearest >= 0.95 * self.0.spacing {
+            return 0.0;
+        }
+        for (pose, body) in self.1.iter().zip(&self.0.bodies) {
+            let pushed = body
+                .solids
+                .iter()
+                .map(|s| push(spring, pose, s, at.x, at.v));
+            pushes += pushed.sum::<DVec3>();
+        }
+        (pushes.dot(outward) / outward.length_squared()).max(0.0)
+    }
+
     pub fn step(&self, water: &[Wet], walls: &[Dummy], dt: f64) -> Outcome {
         let (m, h, c) = (self.mass(), self.h(), self.0.sound_speed);
         let pressures: Vec<f64> = walls.iter().map(|w| self.wall_pressure(water, w)).collect();
@@ -168,6 +199,8 @@ impl Twin<'_> {
                 a -= m * push * self.gradient(r);
                 a += self.friction([i.rho, j.rho], r, i.v - j.v);
             }
+            let kept_out = self.kept_out(i, walls);
+            let mut out = DVec3::ZERO;
             for (k, w) in walls.iter().enumerate() {
                 let rho = self.density(pressures[k]);
                 let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
@@ -177,14 +210,16 @@ impl Twin<'_> {
                     pull -= self.friction([i.rho, rho], r, i.v - velocities[k]);
                 }
                 a -= pull;
-                forces[k] += m * pull;
+                let hold = kept_out * self.gradient(r);
+                out -= hold;
+                forces[k] += m * (pull + hold);
             }
             let v = i.v + a * dt;
             let by_force = (h / a.length()).sqrt();
             let by_sound = h / (c.max(10.0 * v.length()) + steepest);
             let by_friction = h * h / (8.0 * self.0.laminar_viscosity);
             limit = limit.min((self.0.courant * by_force.min(by_sound)).min(by_friction));
-            fresh.push(v);
+            fresh.push(v + out * dt);
         }
         let mut out = Vec::new();
         for (n, i) in water.iter().enumerate() {

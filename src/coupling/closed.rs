@@ -14,7 +14,7 @@
 
 use super::{Coupled, Felt, over::covered};
 use crate::{
-    block::{Form, Part},
+    block::{Form, Part, Shape},
     bodies::{Pose, outer},
     contact::Placed,
     immersed::{FaceLoad, corners},
@@ -117,49 +117,84 @@ struct Plane {
     gradient: DVec3,
 }
 
+/// The faces of a block with closed joints, and the pressure at the rim of these.
+pub(super) struct Rim<'a> {
+    sides: Vec<Side<'a>>,
+    /// Where r is counted from, m.
+    centre: DVec3,
+    plane: Plane,
+}
+
+impl<'a> Rim<'a> {
+    /// Of the `loads` on all faces of a block at `pose`, beside the parts of others, in cells of so many m and under this
+    /// weight of the fluid (N/m³). None of a block without closed joints or with spheres, and of one that sticks out of
+    /// the domain.
+    pub fn of(
+        loads: &'a [FaceLoad],
+        shape: &Shape,
+        pose: &Pose,
+        (others, cell, weight): (&[Placed], f64, DVec3),
+    ) -> Option<Self> {
+        let parts = shape.parts();
+        let sphere = |part: &Part| matches!(part.form, Form::Sphere { .. });
+        if loads.is_empty() || parts.iter().any(sphere) {
+            return None;
+        }
+        let sides: Vec<Side<'_>> = loads
+            .iter()
+            .filter_map(|load| Side::of(load, &parts[load.face.part], pose, (others, cell)))
+            .collect();
+        let whole = sides.len() == loads.len();
+        if !whole || !sides.iter().any(Side::is_closed) {
+            return None;
+        }
+        let plane = fit(&samples(&sides, (pose.centre, cell), weight))?;
+        let plane = Plane {
+            gradient: plane.gradient + weight,
+            ..plane
+        };
+        Some(Self {
+            sides,
+            centre: pose.centre,
+            plane,
+        })
+    }
+
+    /// The pressure at a place of a joint, Pa.
+    pub fn pressure(&self, x: DVec3) -> f64 {
+        self.plane.value + self.plane.gradient.dot(x - self.centre)
+    }
+
+    /// Force (N) and torque (N m) on the wet faces and of the pressure of the rim on the dry ones.
+    fn push(&self) -> [DVec3; 2] {
+        let add = |[force, torque]: [DVec3; 2], side: &Side<'_>| {
+            let [push, turn] = side.dry(&self.plane);
+            [
+                force + side.load.force + push,
+                torque + side.load.moment + turn,
+            ]
+        };
+        self.sides.iter().fold([DVec3::ZERO; 2], add)
+    }
+}
+
 impl Coupled {
     /// Force (N) and torque about its centroid (N m) of the fluid on a block with closed joints, buoyancy included:
     /// what its wet faces feel, and in the joints the pressure of their rim, linear between the faces beside it. None
     /// where no probe asks for the loads on faces, before the first exchange, of a block without closed joints or with
     /// spheres, and of one that sticks out of the domain.
     pub fn with_closed_joints(&self, block: usize) -> Option<[DVec3; 2]> {
-        let loads = self.faces(block);
-        let made = &self.setup().setup.blocks[block];
-        let parts = made.shape.parts();
-        let sphere = |part: &Part| matches!(part.form, Form::Sphere { .. });
-        if loads.is_empty() || parts.iter().any(sphere) {
-            return None;
-        }
+        let shape = &self.setup().setup.blocks[block].shape;
         let pose = self.blocks().poses()[block];
         let cell = self.immersed().frame().units.cell;
-        let others = self.others(block, cell);
-        let sides: Vec<Side<'_>> = loads
-            .iter()
-            .filter_map(|load| Side::of(load, &parts[load.face.part], &pose, (&others, cell)))
-            .collect();
-        let whole = sides.len() == loads.len();
-        if !whole || !sides.iter().any(Side::is_closed) {
-            return None;
-        }
         let weight = self.wet.ambient.weight(pose.centre);
-        let plane = fit(&samples(&sides, (pose.centre, cell), weight))?;
-        let plane = Plane {
-            gradient: plane.gradient + weight,
-            ..plane
-        };
-        let [force, torque] = sides
-            .iter()
-            .fold([DVec3::ZERO; 2], |[force, torque], side| {
-                let [push, turn] = side.dry(&plane);
-                [
-                    force + side.load.force + push,
-                    torque + side.load.moment + turn,
-                ]
-            });
+        let others = self.others(block, cell);
+        let rim = Rim::of(self.faces(block), shape, &pose, (&others, cell, weight))?;
+        let [force, torque] = rim.push();
         let Felt { buoyancy, .. } = self.felt()[block];
         // As in the load on a block: what the body force on the fluid in its place would be is not among the pressures
         // counted from the hydrostatic one.
-        let entrained = weight * made.shape.volume();
+        let entrained = weight * shape.volume();
         Some([
             force + entrained + buoyancy.force,
             torque + buoyancy.torque(),

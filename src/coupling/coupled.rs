@@ -1,6 +1,8 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Company, Felt, Gap, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet};
+use super::{
+    Company, Felt, Gap, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet, stale::Stale,
+};
 use crate::{
     Result,
     bodies::{Blocks, Motion},
@@ -30,6 +32,8 @@ pub struct Coupled {
     in_fluid: usize,
     /// Those narrower than a cell at the start.
     gaps: Vec<Gap>,
+    /// Blocks in the fluid about whose faces a probe asks.
+    pub(super) asked: Vec<bool>,
     /// Blocks that lie where fluid enters at the start.
     pub(super) began: Vec<AtInlet>,
 }
@@ -65,19 +69,37 @@ impl Coupled {
             &mut rock.finder,
         )
         .await?;
-        let submerged = rock.setup.setup.blocks[..in_fluid].iter().map(|block| {
-            let [followed, faces] = asked(scene, &block.name);
-            Submerged {
-                shape: block.shape.clone(),
-                loaded: block.motion != Motion::Fixed || followed,
-                faces,
+        let all = &rock.setup.setup.blocks;
+        let blocks = &all[..in_fluid];
+        let mut stale = Stale {
+            shapes: all.iter().map(|block| block.shape.clone()).collect(),
+            period: rock.blocks.period(),
+            start: rock.blocks.poses(),
+            pressure: scene.start_pressure(),
+            closed: vec![false; in_fluid],
+        };
+        for gap in gaps.iter().filter(|gap| gap.is_closed(units.cell)) {
+            for block in gap.blocks {
+                if let Some(closed) = stale.closed.get_mut(block) {
+                    *closed = true;
+                }
             }
+        }
+        let probes = blocks.iter().map(|block| asked(scene, &block.name));
+        let probes: Vec<[bool; 2]> = probes.collect();
+        let closed = stale.closed.iter().zip(blocks).zip(&probes);
+        let submerged = closed.map(|((closed, block), [followed, faces])| Submerged {
+            shape: block.shape.clone(),
+            loaded: block.motion != Motion::Fixed || *followed,
+            faces: *faces || *closed && block.motion == Motion::Free,
         });
+        let submerged = submerged.collect();
         let mut coupled = Self {
-            wet: Wet::new(device, lattice, (scene, units), submerged.collect())?,
+            wet: Wet::new(device, lattice, (scene, units), submerged, stale)?,
             rock,
             in_fluid,
             gaps,
+            asked: probes.into_iter().map(|[_, faces]| faces).collect(),
             began: Vec::new(),
         };
         coupled.began = coupled.will_be_at_inlets(scene, units);

@@ -64,6 +64,9 @@ impl Coupled {
     /// The loads of the fluid on the faces of a block at the last exchange, part by part; none where no probe asks
     /// for them, or before the first exchange.
     pub fn faces(&self, block: usize) -> &[FaceLoad] {
-        self.wet.faces.get(block).map_or(&[], Vec::as_slice)
+        match self.asked.get(block) {
+            Some(true) => self.wet.faces.get(block).map_or(&[], Vec::as_slice),
+            _ => &[],
+        }
     }
 }

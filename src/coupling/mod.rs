@@ -23,6 +23,7 @@ mod over;
 mod reading;
 mod rock;
 mod sealed;
+mod stale;
 mod state;
 mod wet;
 

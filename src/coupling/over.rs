@@ -2,7 +2,7 @@
 
 use crate::{
     block::Shape,
-    bodies::{Period, Pose},
+    bodies::{Load, Period, Pose, outer},
     contact::Placed,
     immersed::area_of,
 };
@@ -51,4 +51,25 @@ pub(super) fn covered(
         }
     }
     most
+}
+
+/// Adds a pressure on a polygon with the outward normal `normal` to the load on a block at `centre`: by three points a
+/// triangle, exact for the moment of a linear pressure.
+pub(super) fn press(
+    load: &mut Load,
+    corners: &[DVec3],
+    normal: DVec3,
+    centre: DVec3,
+    pressure: impl Fn(DVec3) -> f64,
+) {
+    for pair in corners.windows(2).skip(1) {
+        let [a, b, c] = [corners[0], pair[0], pair[1]];
+        let third = (b - a).cross(c - a).length() / 6.0;
+        let whole = a + b + c;
+        for x in [a, b, c].map(|corner| (3.0 * corner + whole) / 6.0) {
+            let force = -third * pressure(x) * normal;
+            load.force += force;
+            load.moment += outer(force, x - centre);
+        }
+    }
 }

@@ -1,9 +1,9 @@
 //! Free water in joints that have no room for its particles.
 
-use super::over::{covered, others};
+use super::over::{covered, others, press};
 use crate::{
     block::{Form, Shape},
-    bodies::{Load, Period, Pose, outer},
+    bodies::{Load, Period, Pose},
     contact::Placed,
     immersed::{area_of, corners},
     particles::Head,
@@ -78,26 +78,6 @@ impl Sealed {
                     }
                 }
             }
-        }
-    }
-}
-
-/// Adds a pressure on a polygon with the outward normal `normal` to the load on a block at `centre`: by three points a
-/// triangle, exact for the moment of a linear pressure.
-fn press(
-    load: &mut Load,
-    corners: &[DVec3],
-    normal: DVec3,
-    centre: DVec3,
-    pressure: impl Fn(DVec3) -> f64,
-) {
-    for pair in corners.windows(2).skip(1) {
-        let [a, b, c] = [corners[0], pair[0], pair[1]];
-        let third = (b - a).cross(c - a).length() / 6.0;
-        for x in [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)] {
-            let force = -third * pressure(x) * normal;
-            load.force += force;
-            load.moment += outer(force, x - centre);
         }
     }
 }

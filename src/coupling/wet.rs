@@ -1,6 +1,6 @@
 //! The side of blocks on which a lattice feels them.
 
-use super::{Ambient, Felt, Gathered, Pace, Reading, loads::sum};
+use super::{Ambient, Felt, Gathered, Pace, Reading, loads::sum, stale::Stale};
 use crate::{
     Error, Result,
     bodies::{Load, Pose},
@@ -10,6 +10,7 @@ use crate::{
     units::Units,
 };
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// The cells of blocks in a lattice, and what it does to these.
 #[derive(Debug)]
@@ -20,6 +21,7 @@ pub(crate) struct Wet {
     /// Of the blocks in the fluid; empty before the first exchange.
     pub(super) faces: Vec<Vec<FaceLoad>>,
     pub(super) ambient: Ambient,
+    pub(super) stale: Stale,
     pub(super) gathered: Gathered,
     average: bool,
     /// Number of blocks in the fluid, the first ones.
@@ -29,11 +31,12 @@ pub(crate) struct Wet {
 }
 
 impl Wet {
-    pub fn new(
+    pub(super) fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
         (scene, units): (&Scene, &Units),
         blocks: Vec<Submerged>,
+        stale: Stale,
     ) -> Result<Self> {
         let frame = Frame {
             origin: DVec3::from(scene.domain.origin),
@@ -50,6 +53,7 @@ impl Wet {
                 acceleration: scene.fluid.acceleration.clone(),
                 gravity: DVec3::from(scene.rock.gravity),
             },
+            stale,
             gathered: Gathered::default(),
             average: scene.coupling.average,
             placed: None,
@@ -144,11 +148,17 @@ impl Wet {
 
     /// Ends the time since the last exchange: the blocks feel the mean of its loads.
     pub fn exchange(&mut self) -> Vec<Felt> {
-        let felt = |flow: Load| Felt {
-            flow,
-            buoyancy: self.ambient.buoyancy(&flow),
-        };
         let flows = self.gathered.take().unwrap_or_default();
-        flows.into_iter().map(felt).collect()
+        let none = Vec::new();
+        let poses = self.placed.as_ref().unwrap_or(&none);
+        let grid = (self.immersed.frame().units.cell, &self.ambient);
+        let felt = |(block, flow): (usize, Load)| {
+            let faces = self.faces.get(block).map_or(&[][..], Vec::as_slice);
+            Felt {
+                flow: sum(flow, self.stale.load(block, faces, poses, grid)),
+                buoyancy: self.ambient.buoyancy(&flow),
+            }
+        };
+        flows.into_par_iter().enumerate().map(felt).collect()
     }
 }

@@ -53,7 +53,7 @@ pub use probes::{Probe, ProbePlace};
 pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::Run;
-pub use sample::{BodyForce, InitialFields};
+pub use sample::{BodyForce, InitialFields, StartPressure};
 pub use solids::{Shape, Solid};
 pub use views::{View, ViewSlice};
 pub use water::Water;

@@ -13,6 +13,32 @@ pub struct InitialFields {
     pub pressure: Vec<f32>,
 }
 
+/// Pressure above the reference pressure at the time 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StartPressure {
+    /// A formula of the place, Pa.
+    Given(Formula),
+    /// p = zero + gradient·x.
+    Linear {
+        /// Pa.
+        zero: f64,
+        /// Pa/m.
+        gradient: [f64; 3],
+    },
+}
+
+impl StartPressure {
+    /// At a place (m), Pa.
+    pub fn at(&self, x: [f64; 3]) -> f64 {
+        match self {
+            Self::Given(formula) => formula.eval_at(x, 0.0),
+            Self::Linear { zero, gradient } => {
+                zero + (0..3).map(|axis| gradient[axis] * x[axis]).sum::<f64>()
+            }
+        }
+    }
+}
+
 /// Body force per mass.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyForce {
@@ -33,18 +59,26 @@ impl Scene {
         let pressure = match &self.initial.pressure {
             InitialPressure::Given(formula) => self.on_cells("initial.pressure", formula)?,
             InitialPressure::Hydrostatic => {
-                let (zero, gradient) = self.hydrostatic();
-                let at = |x: [f64; 3]| (0..3).map(|a| gradient[a] * x[a]).sum::<f64>();
-                self.domain
-                    .centres()
-                    .map(|x| (zero + at(x)) as f32)
-                    .collect()
+                let start = self.start_pressure();
+                let centres = self.domain.centres();
+                centres.map(|x| start.at(x) as f32).collect()
             }
         };
         Ok(InitialFields {
             velocity: self.vector_on_cells("initial.velocity", &self.initial.velocity)?,
             pressure,
         })
+    }
+
+    /// The pressure at the time 0.
+    pub fn start_pressure(&self) -> StartPressure {
+        match &self.initial.pressure {
+            InitialPressure::Given(formula) => StartPressure::Given(formula.clone()),
+            InitialPressure::Hydrostatic => {
+                let (zero, gradient) = self.hydrostatic();
+                StartPressure::Linear { zero, gradient }
+            }
+        }
     }
 
     /// Pressure `p = a + g·x` of the fluid at rest: `a` in Pa, `g` in Pa/m.

@@ -56,6 +56,19 @@ const MEASURED: &str = r#"
     max = [1.2, 1, 1.2]
     direction = "+x"
     [[probes]]
+    name = "column"
+    kind = "line"
+    from = [0.5, 0.5, 0.1]
+    to = [0.5, 0.5, 0.5]
+    count = 3
+    fields = ["pressure", "density"]
+    [[probes]]
+    name = "left"
+    kind = "box"
+    min = [0, 0, 0]
+    max = [0.6, 1, 1.2]
+    fields = ["velocity", "pressure"]
+    [[probes]]
     name = "dry"
     kind = "gauge"
     at = [0.5, 0.5]
@@ -89,6 +102,19 @@ fn still_water_is_measured_where_it_is() {
     let pressure = last(&out, "bed.csv", "pressure");
     assert!((pressure / bottom - 1.0).abs() < 0.03, "{pressure}");
     assert!((last(&out, "edge.csv", "x") - 1.15).abs() < 0.01);
+    let column = Table::read(out.join("column.csv")).unwrap();
+    let [places, pressures] = ["z", "pressure"].map(|name| column.column(name).unwrap());
+    assert_eq!(places, [0.1, 0.3, 0.5]);
+    for (z, pressure) in places.iter().zip(pressures) {
+        let still = 1000.0 * 9.81 * (0.8 - z);
+        assert!((pressure - still).abs() < 0.03 * bottom, "{z}: {pressure}");
+    }
+    // Half of the particles, those of the upper layer with the least pressure.
+    assert!((last(&out, "left.csv", "volume") - 0.48).abs() < 1e-9);
+    let [mean, least, most] =
+        ["mean", "min", "max"].map(|what| last(&out, "left.csv", &format!("pressure_{what}")));
+    assert!((mean / bottom - 0.5).abs() < 0.03 && least < 0.15 * bottom && most > 0.85 * bottom);
+    assert!(last(&out, "left.csv", "velocity_y_max").abs() < 1e-6);
     assert!((last(&out, "history.csv", "mass") - 960.0).abs() < 1e-9);
     // At rest, to what the start of a lattice beside walls leaves.
     assert!(last(&out, "history.csv", "kinetic_energy") < 1e-4 * 960.0 * 9.81 * 0.4);

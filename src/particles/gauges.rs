@@ -135,11 +135,18 @@ impl<'a> Gauges<'a> {
         Some(above - (first as f64 - 1.0 + part) * step)
     }
 
+    /// The particles in the box between two corners (m).
+    pub fn inside(&self, min: DVec3, max: DVec3) -> impl Iterator<Item = usize> {
+        let inside = move |x: &DVec3| x.cmpge(min).all() && x.cmple(max).all();
+        let all = self.positions.iter().enumerate();
+        all.filter_map(move |(n, x)| inside(x).then_some(n))
+    }
+
     /// The particle in the box between two corners (m) that is farthest along `direction`, drops aside; None if
     /// there is none.
     pub fn farthest(&self, min: DVec3, max: DVec3, direction: DVec3) -> Option<DVec3> {
-        let inside = |p: &&DVec3| p.cmpge(min).all() && p.cmple(max).all();
-        let mut there: Vec<DVec3> = self.positions.iter().filter(inside).copied().collect();
+        let inside = self.inside(min, max);
+        let mut there: Vec<DVec3> = inside.map(|n| self.positions[n]).collect();
         there.sort_unstable_by(|a, b| direction.dot(*b).total_cmp(&direction.dot(*a)));
         there.into_iter().find(|p| self.share(*p) >= DROP)
     }

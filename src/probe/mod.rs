@@ -70,8 +70,8 @@ impl Gauge {
                 let (points, chosen) = Points::single(&cells, *at);
                 (vec![], Place::Points(points), chosen)
             }
-            ProbePlace::Line { from, to, count } => {
-                let (points, chosen) = Points::line(&cells, *from, *to, *count);
+            ProbePlace::Line { .. } => {
+                let (points, chosen) = Points::line(&cells, probe.place.stations());
                 (vec!["s", "x", "y", "z"], Place::Points(points), chosen)
             }
             ProbePlace::Plane { axis, position } => {

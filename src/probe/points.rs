@@ -27,24 +27,10 @@ impl Points {
         numbered(vec![point(cells, at, vec![])])
     }
 
-    /// `count` points from `from` to `to` (m).
-    pub(super) fn line(
-        cells: &Cells<'_>,
-        from: [f64; 3],
-        to: [f64; 3],
-        count: u32,
-    ) -> (Self, Vec<u32>) {
-        let length = (0..3)
-            .map(|a| (to[a] - from[a]).powi(2))
-            .sum::<f64>()
-            .sqrt();
-        let along = |n: u32| f64::from(n) / f64::from(count - 1);
-        let points = (0..count).map(|n| {
-            let part = along(n);
-            // Exact at both ends.
-            let [x, y, z] = [0, 1, 2].map(|a| from[a] * (1.0 - part) + to[a] * part);
-            point(cells, [x, y, z], vec![part * length, x, y, z])
-        });
+    /// The points of a line with their distances from its beginning (m).
+    pub(super) fn line(cells: &Cells<'_>, stations: Vec<(f64, [f64; 3])>) -> (Self, Vec<u32>) {
+        let points = stations.into_iter();
+        let points = points.map(|(s, [x, y, z])| point(cells, [x, y, z], vec![s, x, y, z]));
         numbered(points.collect())
     }
 

@@ -34,7 +34,7 @@ pub enum ProbePlace {
         /// The point, m.
         at: [f64; 3],
     },
-    /// Equally spaced points of a line, both ends included, interpolated.
+    /// Equally spaced points of a line, both ends included, interpolated, or by the kernel.
     Line {
         /// First point, m.
         from: [f64; 3],
@@ -50,7 +50,8 @@ pub enum ProbePlace {
         /// Where the plane cuts the axis, m.
         position: f64,
     },
-    /// Mean, least and largest value over the fluid cells whose centres lie in a box.
+    /// Mean, least and largest value over the fluid cells whose centres lie in a box, or over the particles in it,
+    /// of these the volume too (m³).
     Box {
         /// Lower corner, m.
         min: [f64; 3],
@@ -106,6 +107,26 @@ pub enum ProbePlace {
         /// The direction.
         direction: Direction,
     },
+}
+
+impl ProbePlace {
+    /// The points of a line, each with its distance from the first, m; none of another kind.
+    pub fn stations(&self) -> Vec<(f64, [f64; 3])> {
+        let Self::Line { from, to, count } = self else {
+            return Vec::new();
+        };
+        let length = (0..3)
+            .map(|axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        let station = |n: u32| {
+            let part = f64::from(n) / f64::from(count - 1);
+            // Exact at both ends.
+            let at = |axis: usize| from[axis] * (1.0 - part) + to[axis] * part;
+            (part * length, [0, 1, 2].map(at))
+        };
+        (0..*count).map(station).collect()
+    }
 }
 
 #[derive(Deserialize)]

@@ -194,7 +194,7 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             let key = format!("probes[{index}]");
             match &probe.place {
-                ProbePlace::Point { .. } => {
+                ProbePlace::Point { .. } | ProbePlace::Line { .. } | ProbePlace::Box { .. } => {
                     if let Some(field) = probe.fields.iter().find(known) {
                         return refuse(format!("{key}.fields"), unknown(field));
                     }
@@ -209,8 +209,8 @@ impl Scene {
                 _ => {
                     return refuse(
                         key,
-                        "measures cells, and here are particles; give kind = \"point\", \"gauge\", \"run_up\" or \
-                         \"block\"",
+                        "measures cells, and here are particles; give kind = \"point\", \"line\", \"box\", \"gauge\", \
+                         \"run_up\" or \"block\"",
                     );
                 }
             }

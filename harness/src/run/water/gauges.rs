@@ -27,11 +27,23 @@ impl GaugeTable {
     /// Begins the table, or goes on with it after a restart.
     pub fn new(engine: &Pond, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
         let path = folder.join(format!("{}.csv", probe.name));
-        let columns: Vec<String> = match &probe.place {
+        let mut columns: Vec<String> = match &probe.place {
             ProbePlace::Gauge { .. } => vec!["level".into()],
             ProbePlace::RunUp { .. } => ["x", "y", "z"].map(Into::into).into(),
-            _ => probe.fields.iter().flat_map(|f| f.columns()).collect(),
+            ProbePlace::Line { .. } => ["s", "x", "y", "z"].map(Into::into).into(),
+            ProbePlace::Box { .. } => vec!["volume".into()],
+            _ => Vec::new(),
         };
+        let of_fields = probe.fields.iter().flat_map(|field| field.columns());
+        match &probe.place {
+            ProbePlace::Point { .. } | ProbePlace::Line { .. } => columns.extend(of_fields),
+            ProbePlace::Box { .. } => {
+                columns.extend(of_fields.flat_map(|column| {
+                    ["mean", "min", "max"].map(|what| format!("{column}_{what}"))
+                }))
+            }
+            _ => {}
+        }
         Ok(Self {
             schedule: Schedule::of(probe.every, engine.time_step(), last),
             table: table(engine, &path, &columns)?,
@@ -50,8 +62,9 @@ impl Recorder<Pond> for GaugeTable {
         let water = engine.water()?;
         let setup = engine.simulation.particles().setup();
         let gauges = Gauges::new(setup, &water.positions);
-        let row = match &self.probe.place {
-            ProbePlace::Gauge { at } => vec![gauges.level(*at).unwrap_or(f64::NAN)],
+        let at = |place: [f64; 3]| at_point(&gauges, setup, &water, &self.probe.fields, place);
+        let rows = match &self.probe.place {
+            ProbePlace::Gauge { at } => vec![vec![gauges.level(*at).unwrap_or(f64::NAN)]],
             ProbePlace::RunUp {
                 min,
                 max,
@@ -59,40 +72,73 @@ impl Recorder<Pond> for GaugeTable {
             } => {
                 let along = DVec3::AXES[direction.axis().index()] * f64::from(direction.sign());
                 let found = gauges.farthest((*min).into(), (*max).into(), along);
-                found.unwrap_or(DVec3::NAN).to_array().into()
+                vec![found.unwrap_or(DVec3::NAN).to_array().into()]
             }
-            ProbePlace::Point { at } => {
-                let fields = self.probe.fields.iter();
-                fields
-                    .flat_map(|field| at_point(&gauges, setup, &water, *field, (*at).into()))
-                    .collect()
+            ProbePlace::Point { at: place } => vec![at(*place)],
+            ProbePlace::Line { .. } => {
+                let station =
+                    |(s, [x, y, z]): (f64, [f64; 3])| [vec![s, x, y, z], at([x, y, z])].concat();
+                let stations = self.probe.place.stations();
+                stations.into_iter().map(station).collect()
+            }
+            ProbePlace::Box { min, max } => {
+                let inside: Vec<usize> = gauges.inside((*min).into(), (*max).into()).collect();
+                vec![in_box(&inside, setup, &water, &self.probe.fields)]
             }
             // A scene of particles has no others.
             _ => Vec::new(),
         };
-        self.table.append(engine.step(), engine.time(), &row)?;
+        for row in rows {
+            self.table.append(engine.step(), engine.time(), &row)?;
+        }
         notes.file(self.path.clone());
         Ok(())
     }
 }
 
-/// The components of a field at a point.
+/// The components of a field of all particles, and what they grow by a metre in water at rest.
+fn components(setup: &Setup, water: &Water, field: Field) -> Vec<(Vec<f64>, DVec3)> {
+    match field {
+        Field::Velocity => (0..3)
+            .map(|axis| {
+                let along = water.velocities.iter().map(|v| v[axis].into());
+                (along.collect(), DVec3::ZERO)
+            })
+            .collect(),
+        Field::Pressure => vec![(water.pressures.clone(), setup.density * setup.gravity)],
+        _ => vec![(water.densities.clone(), DVec3::ZERO)],
+    }
+}
+
+/// The components of fields at a point.
 fn at_point(
     gauges: &Gauges<'_>,
     setup: &Setup,
     water: &Water,
-    field: Field,
-    at: DVec3,
+    fields: &[Field],
+    at: [f64; 3],
 ) -> Vec<f64> {
-    let mean = |values: &[f64], gradient| gauges.mean(at, values, gradient).unwrap_or(f64::NAN);
-    match field {
-        Field::Velocity => (0..3)
-            .map(|axis| {
-                let along: Vec<f64> = water.velocities.iter().map(|v| v[axis].into()).collect();
-                mean(&along, DVec3::ZERO)
-            })
-            .collect(),
-        Field::Pressure => vec![mean(&water.pressures, setup.density * setup.gravity)],
-        _ => vec![mean(&water.densities, DVec3::ZERO)],
+    let all = fields
+        .iter()
+        .flat_map(|field| components(setup, water, *field));
+    let mean = |(values, gradient): (Vec<f64>, DVec3)| gauges.mean(at.into(), &values, gradient);
+    all.map(|field| mean(field).unwrap_or(f64::NAN)).collect()
+}
+
+/// The volume of these particles, and of each component of fields the mean, the least and the largest value.
+fn in_box(inside: &[usize], setup: &Setup, water: &Water, fields: &[Field]) -> Vec<f64> {
+    let count = inside.len() as f64;
+    let mut row = vec![count * setup.particle_mass() / setup.density];
+    for (values, _) in fields
+        .iter()
+        .flat_map(|field| components(setup, water, *field))
+    {
+        let values = || inside.iter().map(|n| values[*n]);
+        row.extend([
+            values().sum::<f64>() / count,
+            values().fold(f64::NAN, f64::min),
+            values().fold(f64::NAN, f64::max),
+        ]);
     }
+    row
 }

@@ -6,11 +6,8 @@ use crate::{lattice::Grid, link::Program};
 /// cell that many faces cut takes four columns through all of them.
 pub const MOST_FACES: u32 = 8192;
 
-/// Storage buffers of the kernel that has the most of them, `saturate_cells`.
-pub const MOST_BINDINGS: u32 = 7;
-
-/// The same where faces are asked for: `reduce_faces`.
-pub const MOST_BINDINGS_WITH_FACES: u32 = 8;
+/// Storage buffers of the kernel that has the most of them, `reduce_faces`.
+pub const MOST_BINDINGS: u32 = 8;
 
 /// Who adds up a tile. Both give the same numbers up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

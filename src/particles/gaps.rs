@@ -23,12 +23,11 @@ pub(super) struct Laid {
     pub normal: DVec3,
 }
 
-/// The fixed blocks at a point: whether a shell may be there, how deep it is below its own layer's surface, and
-/// below that of the block that is deepest there, m, with the number of that block.
+/// How deep a point lies in fixed blocks.
 pub(super) struct Depths {
-    /// m; below 0 outside the block.
+    /// Below the surface of the block whose layer it is in, m; below 0 outside.
     pub own: f64,
-    /// m.
+    /// Below that of the block in which it is deepest, m.
     pub deepest: f64,
     /// Whose that is.
     pub block: usize,

@@ -4,7 +4,7 @@ use super::lattice_setup;
 use crate::{
     Result, immersed,
     lattice::{Grid, Memory, Setup, memory},
-    scene::{Probe, ProbePlace, Scene},
+    scene::Scene,
     units::Units,
 };
 
@@ -43,14 +43,8 @@ impl Needs {
             .most_bindings
             .max(limits.max_storage_buffers_per_shader_stage);
         if scene.has_blocks() {
-            let faces = |probe: &Probe| match probe.place {
-                ProbePlace::Block { faces, safety, .. } => faces || safety,
-                _ => false,
-            };
-            bindings = bindings.max(match scene.probes.iter().any(faces) {
-                true => immersed::MOST_BINDINGS_WITH_FACES,
-                false => immersed::MOST_BINDINGS,
-            });
+            // Of faces where somebody asks, and of free blocks in closed joints.
+            bindings = bindings.max(immersed::MOST_BINDINGS);
             // What they take is known once they are placed, and changes as they move.
             limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
             limits.max_buffer_size = has.max_buffer_size;

@@ -1,15 +1,20 @@
 //! The faces of bodies, behind which no water may be.
 
-use super::{Frame, Hull, Setup, Solid};
+use super::{Frame, Hull, Scheme, Setup, Solid};
 use glam::DVec3;
 
-/// The convex parts of all bodies in the `order` of the device, and their faces, bare ones first: outward normal, and
-/// distance from the body's centroid in spacings.
+/// The convex parts of bodies in the `order` of the device, and their faces, bare ones first: outward normal, and
+/// distance from the body's centroid in spacings. Where walls are shells, only those of bodies that do not move: the
+/// reaction is shared by all shells around, and what a moving body does not feel would be energy from nowhere.
 pub(super) fn hulls(setup: &Setup, frame: &Frame, order: &[usize]) -> (Vec<Hull>, Vec<[f32; 4]>) {
     let (mut hulls, mut planes) = (Vec::new(), Vec::new());
     let length = |length: f64| frame.length(DVec3::X * length).x as f32;
     for (number, &body) in order.iter().enumerate() {
-        for solid in &setup.bodies[body].solids {
+        let body = &setup.bodies[body];
+        if setup.scheme == Scheme::Delta && body.moves {
+            continue;
+        }
+        for solid in &body.solids {
             let (centre, radius) = match solid {
                 Solid::Sphere { centre, radius } => (*centre, *radius),
                 Solid::Faces(faces) => (faces.centre, faces.radius),

@@ -58,7 +58,7 @@ pub struct Body {
     /// Places of its particles from its centroid, in its own frame, m.
     pub shell: Vec<DVec3>,
     /// Its convex parts in its own frame, which push out what is in them: all that the scheme of Geraili Mikola & Sitar
-    /// has for walls, and what shells need where pressures alone leave water between their particles.
+    /// has for walls, and what shells of bodies that do not move need where pressures alone leave water in them.
     pub solids: Vec<Solid>,
     /// Whether it moves at all.
     pub moves: bool,

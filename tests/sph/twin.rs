@@ -149,7 +149,7 @@ impl Twin<'_> {
         self.mass() * both / (a * b) * r.dot(self.gradient(r)) / r.length_squared() * v
     }
 
-    /// What all bodies do to water that is in them: nothing if no dummy particle is near.
+    /// What bodies that do not move do to water that is in them: nothing if no dummy particle is near.
     fn kept_out(&self, at: &Wet, walls: &[Dummy]) -> f64 {
         let rate = self.0.sound_speed / self.0.spacing;
         let spring = Spring {
@@ -165,7 +165,8 @@ impl Twin<'_> {
         if nearest >= 0.95 * self.0.spacing {
             return 0.0;
         }
-        for (pose, body) in self.1.iter().zip(&self.0.bodies) {
+        let still = self.1.iter().zip(&self.0.bodies).filter(|(_, b)| !b.moves);
+        for (pose, body) in still {
             let pushed = body
                 .solids
                 .iter()

@@ -7,9 +7,8 @@
 // Velocity, and the longest step.
 @group(0) @binding(4) var<storage, read_write> fresh: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
-// Sum of slope times distance over the shells around each particle, which points out of them, and 1 if one of them is
-// near.
-@group(0) @binding(6) var<storage, read_write> shelter: array<vec4<f32>>;
+// 1 for each particle that has one of a shell near it.
+@group(0) @binding(6) var<storage, read_write> shelter: array<u32>;
 
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = 0.0;
@@ -29,7 +28,6 @@ var<private> here: Particle;
 var<private> pressure: f32;
 var<private> rate: vec3<f32>;
 var<private> shear: f32;
-var<private> outward: vec3<f32>;
 var<private> nearest: f32;
 
 fn meet_water(j: u32) {
@@ -58,7 +56,6 @@ fn meet_shell(j: u32) {
     if (square < SUPPORT_SQUARED) {
         let steep = slope(sqrt(square));
         rate += push * steep * r;
-        outward += steep * r;
         nearest = min(nearest, square);
         rub_shell(j, steep / densities);
     }
@@ -77,16 +74,15 @@ fn accelerate(
     here = particles[n];
     if (here.at.x < 0) {
         fresh[n] = vec4(0.0, 0.0, 0.0, ENDLESS);
-        shelter[n] = vec4(0.0);
+        shelter[n] = 0u;
         return;
     }
     pressure = pressure_of(here.excess);
     rate = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
     shear = 0.0;
-    outward = vec3(0.0);
     nearest = ENDLESS;
     around(n, here.at);
-    shelter[n] = vec4(outward, select(0.0, 1.0, nearest < NEAR * NEAR));
+    shelter[n] = select(0u, 1u, nearest < NEAR * NEAR);
     let velocity = here.velocity + clock.step * rate;
     let by_force = sqrt(SMOOTHING / max(length(rate), 1e-30));
     let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + shear);

@@ -3,9 +3,8 @@
 // needs invocation, penalty
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
-// Sum of slope times distance over the shells around each particle, which points out of them, and 1 if one of them is
-// near; the last becomes what the former is to be multiplied with for the push.
-@group(0) @binding(3) var<storage, read_write> shelter: array<vec4<f32>>;
+// 1 for each particle that has one of a shell near it.
+@group(0) @binding(3) var<storage, read> shelter: array<u32>;
 // Velocity, and the longest step.
 @group(0) @binding(4) var<storage, read_write> fresh: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
@@ -17,17 +16,13 @@ fn keep_out(
     @builtin(local_invocation_index) local: u32,
 ) {
     let n = invocation(group, groups, local);
-    if (n >= arrayLength(&particles) || clock.step == 0.0 || shelter[n].w == 0.0) {
+    if (n >= arrayLength(&particles) || clock.step == 0.0 || shelter[n] == 0u) {
         return;
     }
     let here = particles[n];
-    let outward = shelter[n].xyz;
     var push = vec3(0.0);
     for (var k = 0u; k < arrayLength(&hulls); k++) {
         push += penalty(hulls[k], here.at, here.velocity, clock.elapsed);
     }
-    // Along what the shells are pushed back by, which is where they end.
-    let share = max(dot(push, outward), 0.0) / max(dot(outward, outward), 1e-12);
-    shelter[n].w = share;
-    fresh[n] += vec4(clock.step * share * outward, 0.0);
+    fresh[n] += vec4(clock.step * push, 0.0);
 }

@@ -7,8 +7,6 @@
 // Force and pressure, one a particle of a shell, by its number; the shells that are asked about come first.
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
-// In w how strongly each particle of the water is kept out, a factor of the slope of the kernel function.
-@group(0) @binding(6) var<storage, read> shelter: array<vec4<f32>>;
 
 // The particle, its place in the shells, its density, and the sum over the water around it.
 var<private> here: Particle;
@@ -21,7 +19,7 @@ fn meet_water(j: u32) {
     let r = between(here.at, other.at);
     let square = dot(r, r);
     let densities = density * (1.0 + other.excess);
-    let push = (pressure_of(other.excess) + here.excess) / densities + shelter[j].w;
+    let push = (pressure_of(other.excess) + here.excess) / densities;
     if (square < SUPPORT_SQUARED) {
         let steep = slope(sqrt(square));
         force += push * steep * r;

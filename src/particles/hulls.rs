@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// The convex parts of bodies in the `order` of the device, and their faces, bare ones first: outward normal, and
 /// distance from the body's centroid in spacings. Where walls are shells, only those of bodies that do not move: the
-/// reaction is shared by all shells around, and what a moving body does not feel would be energy from nowhere.
+/// push has no reaction, which would be energy from nowhere beside a moving one.
 pub(super) fn hulls(setup: &Setup, frame: &Frame, order: &[usize]) -> (Vec<Hull>, Vec<[f32; 4]>) {
     let (mut hulls, mut planes) = (Vec::new(), Vec::new());
     let length = |length: f64| frame.length(DVec3::X * length).x as f32;

@@ -86,7 +86,7 @@ impl Kernels {
         let forces = buffer("forces on shells", numbers.loaded_shell, 16)?;
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
-        let shelter = buffer("what keeps particles out", numbers.water, 16)?;
+        let shelter = buffer("particles beside shells", numbers.water, 4)?;
         let viscous = setup.laminar_viscosity > 0.0;
         let clinging = buffer(
             "velocities of shells",

@@ -150,30 +150,25 @@ impl Twin<'_> {
     }
 
     /// What bodies that do not move do to water that is in them: nothing if no dummy particle is near.
-    fn kept_out(&self, at: &Wet, walls: &[Dummy]) -> f64 {
+    fn kept_out(&self, at: &Wet, walls: &[Dummy]) -> DVec3 {
         let rate = self.0.sound_speed / self.0.spacing;
         let spring = Spring {
             stiffness: (0.1 * rate).powi(2),
             damping: 0.5 * rate,
         };
-        let (mut outward, mut nearest, mut pushes) = (DVec3::ZERO, f64::INFINITY, DVec3::ZERO);
-        for wall in walls {
-            let r = self.between(at.x, wall.x);
-            outward -= self.gradient(r);
-            nearest = nearest.min(r.length());
-        }
-        if nearest >= 0.95 * self.0.spacing {
-            return 0.0;
+        let near = 0.95 * self.0.spacing;
+        if walls
+            .iter()
+            .all(|wall| self.between(at.x, wall.x).length() >= near)
+        {
+            return DVec3::ZERO;
         }
         let still = self.1.iter().zip(&self.0.bodies).filter(|(_, b)| !b.moves);
-        for (pose, body) in still {
-            let pushed = body
-                .solids
-                .iter()
-                .map(|s| push(spring, pose, s, at.x, at.v));
-            pushes += pushed.sum::<DVec3>();
-        }
-        (pushes.dot(outward) / outward.length_squared()).max(0.0)
+        let pushes = still.flat_map(|(pose, body)| {
+            let solids = body.solids.iter();
+            solids.map(|solid| push(spring, pose, solid, at.x, at.v))
+        });
+        pushes.sum()
     }
 
     pub fn step(&self, water: &[Wet], walls: &[Dummy], dt: f64) -> Outcome {
@@ -200,8 +195,6 @@ impl Twin<'_> {
                 a -= m * push * self.gradient(r);
                 a += self.friction([i.rho, j.rho], r, i.v - j.v);
             }
-            let kept_out = self.kept_out(i, walls);
-            let mut out = DVec3::ZERO;
             for (k, w) in walls.iter().enumerate() {
                 let rho = self.density(pressures[k]);
                 let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
@@ -211,16 +204,14 @@ impl Twin<'_> {
                     pull -= self.friction([i.rho, rho], r, i.v - velocities[k]);
                 }
                 a -= pull;
-                let hold = kept_out * self.gradient(r);
-                out -= hold;
-                forces[k] += m * (pull + hold);
+                forces[k] += m * pull;
             }
             let v = i.v + a * dt;
             let by_force = (h / a.length()).sqrt();
             let by_sound = h / (c.max(10.0 * v.length()) + steepest);
             let by_friction = h * h / (8.0 * self.0.laminar_viscosity);
             limit = limit.min((self.0.courant * by_force.min(by_sound)).min(by_friction));
-            fresh.push(v + out * dt);
+            fresh.push(v + self.kept_out(i, walls) * dt);
         }
         let mut out = Vec::new();
         for (n, i) in water.iter().enumerate() {

@@ -233,6 +233,74 @@ fn a_block_falls_into_water_and_its_books_close() {
     assert!(out.join("blocks.pvd").is_file());
 }
 
+/// A block that slides into water under its own weight, its joint with the slope open to the water at its foot and to the air
+/// at its heel: what blocks lose to water is what the water gains, and is not made in the joint.
+#[test]
+fn energies_of_water_and_blocks_close_together() {
+    let folder = folder("water_energies");
+    let text = r#"
+    title = "slide"
+    [domain]
+    origin = [-3, 0, 0]
+    size = [6, 1, 2.5]
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [particles]
+    spacing = 0.1
+    smoothing = 1.5
+    plane = true
+    largest_speed = 6
+    [boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [[water]]
+    kind = "box"
+    size = [6, 1, 1]
+    position = [0, 0.5, 0.5]
+    [[materials]]
+    name = "rock"
+    density = 2500
+    normal_stiffness = 2e7
+    friction = 5
+    [[blocks]]
+    name = "slope"
+    kind = "vertices"
+    vertices = [[0, 0, 0], [-3, 0, 0], [-3, 0, 1.74], [0, 1, 0], [-3, 1, 0], [-3, 1, 1.74]]
+    motion = "fixed"
+    [[blocks]]
+    name = "wedge"
+    kind = "vertices"
+    vertices = [
+        [-1.70, 0, 0.99], [-1.70, 0, 1.57], [-2.70, 0, 1.57], [-1.70, 1, 0.99], [-1.70, 1, 1.57], [-2.70, 1, 1.57],
+    ]
+    [run]
+    duration = 1
+    [output]
+    every = 1
+    [[output.histories]]
+    quantities = ["kinetic_energy", "potential_energy", "outside_work", "energy_error"]
+    every = 0.05
+"#;
+    let summary = go(&args(&folder, text, "out"));
+    let table = Table::read(folder.join("out/history.csv")).unwrap();
+    let columns = ["kinetic_energy", "potential_energy", "outside_work"];
+    let [kinetic, potential, work] = columns.map(|name| table.column(name).unwrap());
+    let start = kinetic[0] + potential[0];
+    let lost = -work.last().unwrap();
+    assert!(lost > 500.0, "{lost} J");
+    for n in 0..work.len() {
+        let gained = kinetic[n] + potential[n] - start;
+        assert!(
+            (gained + work[n]).abs() < 0.08 * lost,
+            "{n}: {gained} {}",
+            work[n]
+        );
+    }
+    assert_eq!(summary.pool.unwrap().escaped, 0);
+}
+
 /// It meets the water more often than sound alone would want, or each wave of its own would throw it farther.
 #[test]
 fn a_block_of_cork_floats() {

@@ -1,15 +1,10 @@
-// Gardner & Sitar 2018, eqs. 11-12, of particles: the load on each body from the forces on its shell, and
-// the pressure around it.
+// Gardner & Sitar 2018, eqs. 11-12, of particles: the load on each body from the forces on its shell.
 // needs bodies, clock, body_sums
 
 @group(0) @binding(0) var<storage, read> homes: array<Home>;
 @group(0) @binding(1) var<storage, read> motions: array<Motion>;
 @group(0) @binding(2) var<storage, read> forces: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> clock: Clock;
-
-override GRAVITY_X: f32 = 0.0;
-override GRAVITY_Y: f32 = 0.0;
-override GRAVITY_Z: f32 = 0.0;
 
 @compute @workgroup_size(64)
 fn body_load(
@@ -24,11 +19,7 @@ fn body_load(
         for (var n = motion.first + local; n < end; n += 64u) {
             let x = homes[n].place;
             let turned = clock.elapsed * (velocity_at(motion, x) - motion.velocity);
-            let r = lever(motion, x) + turned;
-            add_force(forces[n].xyz, r);
-            if (forces[n].w > 0.0) {
-                add_pressure(forces[n].w - dot(vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), r), r);
-            }
+            add_force(forces[n].xyz, lever(motion, x) + turned);
         }
     }
     add_up(body, local, clock.step);

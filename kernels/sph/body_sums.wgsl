@@ -1,21 +1,15 @@
 // Force and moment on each body, a workgroup a body, added up over the steps of an exchange.
 
-// Numbers a body, times time: force, the sum of f_i r_j at 3 + 3 i + j, and of its particles that feel water their number,
-// Σ r, Σ r r by xx, yy, zz, xy, yz, zx, and Σ q and Σ q r of their pressure less that of water at rest.
+// Twelve numbers a body: force times time, and the sum of f_i r_j at 3 + 3 i + j.
 @group(0) @binding(4) var<storage, read_write> loads: array<f32>;
 
-const NUMBERS = 26u;
+const NUMBERS = 12u;
 
-var<workgroup> sums: array<array<f32, 26>, 64>;
+var<workgroup> sums: array<array<f32, 12>, 64>;
 
 // What an invocation has added up so far.
 var<private> force: vec3<f32>;
 var<private> moment: array<vec3<f32>, 3>;
-var<private> wet: f32;
-var<private> places: vec3<f32>;
-var<private> squares: vec3<f32>;
-var<private> products: vec3<f32>;
-var<private> pressure: vec4<f32>;
 
 // A force at the offset r from the centroid.
 fn add_force(f: vec3<f32>, r: vec3<f32>) {
@@ -23,15 +17,6 @@ fn add_force(f: vec3<f32>, r: vec3<f32>) {
     moment[0] += f.x * r;
     moment[1] += f.y * r;
     moment[2] += f.z * r;
-}
-
-// The pressure q at the offset r from the centroid.
-fn add_pressure(q: f32, r: vec3<f32>) {
-    wet += 1.0;
-    places += r;
-    squares += r * r;
-    products += r * r.yzx;
-    pressure += q * vec4(1.0, r);
 }
 
 fn is_loaded(body: u32) -> bool {
@@ -45,10 +30,6 @@ fn add_up(body: u32, local: u32, step: f32) {
         moment[0].x, moment[0].y, moment[0].z,
         moment[1].x, moment[1].y, moment[1].z,
         moment[2].x, moment[2].y, moment[2].z,
-        wet, places.x, places.y, places.z,
-        squares.x, squares.y, squares.z,
-        products.x, products.y, products.z,
-        pressure.x, pressure.y, pressure.z, pressure.w,
     );
     workgroupBarrier();
     if (is_loaded(body) && local < NUMBERS) {

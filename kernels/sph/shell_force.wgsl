@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
-// Force and pressure, one a particle of a shell, by its number; the shells that are asked about come first.
+// One a particle of a shell, by its number; the shells that are asked about come first.
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
 
@@ -47,5 +47,5 @@ fn shell_force(
         density = 1.0 + excess_of(here.excess);
         around_water(n, here.at);
     }
-    forces[here.id] = vec4(force, here.excess);
+    forces[here.id] = vec4(force, 0.0);
 }

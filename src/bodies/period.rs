@@ -52,6 +52,24 @@ impl Period {
         self.way(turns)
     }
 
+    /// All ways by which something is to be moved that is `apart` (m) from something else, to be within `near` (m) of it
+    /// along each axis, m; that to its nearest image, and to one on each side of that at most.
+    pub(crate) fn ways(&self, apart: DVec3, near: f64) -> Vec<DVec3> {
+        let nearest = self.nearest(apart);
+        let mut ways = vec![nearest];
+        for axis in (0..3).filter(|axis| self.repeats(*axis)) {
+            for turn in [-1.0, 1.0] {
+                let step = DVec3::AXES[axis] * (turn * self.size[axis]);
+                if (apart + nearest + step)[axis].abs() <= near {
+                    let more = ways.iter().filter(|way| way[axis] == nearest[axis]);
+                    let more: Vec<_> = more.map(|way| *way + step).collect();
+                    ways.extend(more);
+                }
+            }
+        }
+        ways
+    }
+
     /// # Errors
     /// [`Error::Scene`] if an edge is not positive.
     pub(super) fn check(&self) -> Result<()> {

@@ -133,7 +133,7 @@ impl<'a> Rim<'a> {
         loads: &'a [FaceLoad],
         shape: &Shape,
         pose: &Pose,
-        (others, cell, weight): (&[Placed], f64, DVec3),
+        (others, cell, weight): (&[&Placed], f64, DVec3),
     ) -> Option<Self> {
         let parts = shape.parts();
         let sphere = |part: &Part| matches!(part.form, Form::Sphere { .. });
@@ -189,6 +189,7 @@ impl Coupled {
         let cell = self.immersed().frame().units.cell;
         let weight = self.wet.ambient.weight(pose.centre);
         let others = self.others(block, cell);
+        let others: Vec<&Placed> = others.iter().collect();
         let rim = Rim::of(self.faces(block), shape, &pose, (&others, cell, weight))?;
         let [force, torque] = rim.push();
         let Felt { buoyancy, .. } = self.felt()[block];
@@ -208,7 +209,7 @@ impl<'a> Side<'a> {
         load: &'a FaceLoad,
         part: &Part,
         pose: &Pose,
-        (others, cell): (&[Placed], f64),
+        (others, cell): (&[&Placed], f64),
     ) -> Option<Self> {
         let Form::Convex(shape) = &part.form else {
             return None;

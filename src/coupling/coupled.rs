@@ -76,12 +76,13 @@ impl Coupled {
             period: rock.blocks.period(),
             start: rock.blocks.poses(),
             pressure: scene.start_pressure(),
-            closed: vec![false; in_fluid],
+            closed: vec![Vec::new(); in_fluid],
         };
         for gap in gaps.iter().filter(|gap| gap.is_closed(units.cell)) {
-            for block in gap.blocks {
+            let [a, b] = gap.blocks;
+            for (block, other) in [(a, b), (b, a)] {
                 if let Some(closed) = stale.closed.get_mut(block) {
-                    *closed = true;
+                    closed.push(other);
                 }
             }
         }
@@ -91,7 +92,7 @@ impl Coupled {
         let submerged = closed.map(|((closed, block), [followed, faces])| Submerged {
             shape: block.shape.clone(),
             loaded: block.motion != Motion::Fixed || *followed,
-            faces: *faces || *closed && block.motion == Motion::Free,
+            faces: *faces || !closed.is_empty() && (*followed || block.motion == Motion::Free),
         });
         let submerged = submerged.collect();
         let mut coupled = Self {

@@ -38,7 +38,7 @@ impl Coupled {
         let setup = &self.setup().setup.blocks;
         let places = (&self.blocks().poses()[..], self.blocks().period());
         let found = others(|n| &*setup[n].shape, places, block, far);
-        found.into_iter().map(|(_, part)| part).collect()
+        found.into_iter().map(|other| other.part).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{
     Ambient,
     closed::Rim,
-    over::{covered, others, press},
+    over::{Other, covered, others, press},
 };
 use crate::{
     block::{Form, Shape},
@@ -12,6 +12,8 @@ use crate::{
     immersed::{FaceLoad, corners},
     scene::StartPressure,
 };
+use glam::DVec3;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Cells within which a block over a face touches it, so that the cells between them are full.
@@ -27,47 +29,105 @@ pub(super) struct Stale {
     /// Where the blocks were at the start.
     pub start: Vec<Pose>,
     pub pressure: StartPressure,
-    /// Which of the blocks in the fluid touch others then, and are to be followed.
-    pub closed: Vec<bool>,
+    /// Which others each of the blocks in the fluid touches then.
+    pub closed: Vec<Vec<usize>>,
 }
 
 impl Stale {
-    /// What is to be added to the load of a block, for loads on its `faces`, in cells of `cell` m.
-    pub fn load(
+    /// What is to be added to the loads on the blocks in the fluid, for loads on all faces of those that are followed, in
+    /// cells of `cell` m. Two that move share the mean of their rims.
+    pub fn loads(
+        &self,
+        faces: &[Vec<FaceLoad>],
+        poses: &[Pose],
+        grid: (f64, &Ambient),
+    ) -> Vec<Load> {
+        let near = |block: usize| {
+            let shape = |n: usize| &*self.shapes[n];
+            others(shape, (poses, self.period), block, grid.0)
+        };
+        let followed = |block: usize| match (faces.get(block), self.closed[block].is_empty()) {
+            (Some(faces), false) => (near(block), &faces[..]),
+            _ => Default::default(),
+        };
+        let all: Vec<_> = (0..self.closed.len())
+            .into_par_iter()
+            .map(followed)
+            .collect();
+        let rims = all.par_iter().enumerate().map(|(block, (around, faces))| {
+            let parts: Vec<&Placed> = around.iter().map(|other| &other.part).collect();
+            let weight = grid.1.weight(poses[block].centre);
+            Rim::of(
+                faces,
+                &self.shapes[block],
+                &poses[block],
+                (&parts, grid.0, weight),
+            )
+        });
+        let rims: Vec<_> = rims.collect();
+        let load = |(block, (around, faces)): (usize, &(Vec<Other>, &[FaceLoad]))| {
+            self.load(block, (around, faces), poses, (grid.0, &rims))
+        };
+        all.par_iter().enumerate().map(load).collect()
+    }
+
+    fn load(
         &self,
         block: usize,
-        faces: &[FaceLoad],
+        (around, faces): (&[Other], &[FaceLoad]),
         poses: &[Pose],
-        (cell, ambient): (f64, &Ambient),
+        (cell, rims): (f64, &[Option<Rim<'_>>]),
     ) -> Load {
         let mut load = Load::default();
-        if !self.closed[block] {
-            return load;
-        }
-        let (pose, shape) = (&poses[block], &self.shapes[block]);
-        let around = others(|n| &*self.shapes[n], (poses, self.period), block, cell);
-        let around: Vec<Placed> = around.into_iter().map(|(_, part)| part).collect();
-        let weight = ambient.weight(pose.centre);
-        let Some(rim) = Rim::of(faces, shape, pose, (&around, cell, weight)) else {
+        let Some(rim) = &rims[block] else {
             return load;
         };
+        let (pose, shape) = (&poses[block], &self.shapes[block]);
+        let heights = TOUCHES.map(|height| height * cell);
         for face in faces.iter().map(|load| load.face) {
             let part = &shape.parts()[face.part];
             let Form::Convex(form) = &part.form else {
                 continue;
             };
-            // What of the face was inside the block at the start already.
+            // What of the face was inside the block at the start already, and beside the other one.
             let before = Placed::of(part, &self.start[block]);
-            let inward = TOUCHES.map(|height| -height * cell);
             let polygon = corners(form, face.face, part.offset, pose);
-            let (polygon, _) = covered(&polygon, face.normal, &before, inward);
-            for other in &around {
-                let heights = TOUCHES.map(|height| height * cell);
-                let (joint, _) = covered(&polygon, face.normal, other, heights);
-                press(&mut load, &joint, face.normal, pose.centre, |x| {
+            let (polygon, area) = covered(&polygon, face.normal, &before, heights.map(|h| -h));
+            let joint = |other: &Other| {
+                if !self.closed[block].contains(&other.block) {
+                    return Default::default();
+                }
+                let (now, _) = covered(&polygon, face.normal, &other.part, heights);
+                let start = Pose {
+                    centre: self.start[other.block].centre + other.way,
+                    ..self.start[other.block]
+                };
+                let parts = self.shapes[other.block].parts().iter();
+                let then = parts.map(|part| {
+                    let part = Placed::of(part, &start);
+                    covered(&now, face.normal, &part, heights)
+                });
+                then.fold(
+                    Default::default(),
+                    |a: (Vec<DVec3>, f64), b| if b.1 > a.1 { b } else { a },
+                )
+            };
+            let joints: Vec<_> = around.iter().map(|other| (other, joint(other))).collect();
+            let closed: f64 = joints.iter().map(|(_, (_, area))| area).sum();
+            // Blocks that overlap do not close it twice.
+            let share = (area / closed.max(f64::MIN_POSITIVE)).min(1.0);
+            for (other, (joint, _)) in &joints {
+                press(&mut load, joint, share * face.normal, pose.centre, |x| {
                     // Of the full cells, in whose centres they hold it; what these weigh counts in the load already.
                     let inside = x - 0.5 * cell * face.normal;
-                    rim.pressure(inside) - self.pressure.at(inside.to_array())
+                    let theirs = rims.get(other.block).and_then(Option::as_ref);
+                    let now = match theirs {
+                        Some(theirs) => {
+                            0.5 * (rim.pressure(inside) + theirs.pressure(inside - other.way))
+                        }
+                        None => rim.pressure(inside),
+                    };
+                    now - self.pressure.at(inside.to_array())
                 });
             }
         }
@@ -79,10 +139,10 @@ impl Stale {
 mod tests {
     use super::*;
     use crate::{block::Polyhedron, immersed::PlaneFace};
-    use glam::{DQuat, DVec3};
+    use glam::DQuat;
 
     /// A cube of 4 m an edge on a floor, under 3 Pa at the start and between sides at 10 Pa now: the joint has 7 Pa more
-    /// where it is still closed as it was.
+    /// where it is still closed as it was, and nothing where another cube has come to lie on it.
     #[test]
     fn the_pressure_of_the_rim_replaces_that_of_the_start() {
         let cuboid = |x, y, z| Shape::from(Polyhedron::cuboid(DVec3::new(x, y, z)).unwrap());
@@ -93,14 +153,14 @@ mod tests {
         };
         let below = at(0.0, -1.0);
         let stale = Stale {
-            shapes: vec![cube.clone(), Arc::new(floor)],
+            shapes: vec![cube.clone(), Arc::new(floor), cube.clone()],
             period: None,
-            start: vec![at(0.0, 2.0), below],
+            start: vec![at(0.0, 2.0), below, at(0.0, 9.0)],
             pressure: StartPressure::Linear {
                 zero: 3.0,
                 gradient: [0.0; 3],
             },
-            closed: vec![true],
+            closed: vec![vec![1]],
         };
         let ambient = Ambient {
             density: 1000.0,
@@ -134,7 +194,8 @@ mod tests {
                 }
             });
             let faces: Vec<FaceLoad> = faces.collect();
-            let load = stale.load(0, &faces, &[pose, below], (0.5, &ambient));
+            let above = at(pose.centre.x, pose.centre.z + 4.0);
+            let load = stale.loads(&[faces], &[pose, below, above], (0.5, &ambient))[0];
             assert!(
                 (load.force - push * DVec3::Z).length() < 1e-9,
                 "{push}: {load:?}"

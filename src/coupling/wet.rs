@@ -10,7 +10,6 @@ use crate::{
     units::Units,
 };
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// The cells of blocks in a lattice, and what it does to these.
 #[derive(Debug)]
@@ -152,13 +151,14 @@ impl Wet {
         let none = Vec::new();
         let poses = self.placed.as_ref().unwrap_or(&none);
         let grid = (self.immersed.frame().units.cell, &self.ambient);
-        let felt = |(block, flow): (usize, Load)| {
-            let faces = self.faces.get(block).map_or(&[][..], Vec::as_slice);
-            Felt {
-                flow: sum(flow, self.stale.load(block, faces, poses, grid)),
-                buoyancy: self.ambient.buoyancy(&flow),
-            }
+        let stale = match poses.is_empty() {
+            true => vec![Load::default(); flows.len()],
+            false => self.stale.loads(&self.faces, poses, grid),
         };
-        flows.into_par_iter().enumerate().map(felt).collect()
+        let felt = |(flow, stale): (&Load, Load)| Felt {
+            flow: sum(*flow, stale),
+            buoyancy: self.ambient.buoyancy(flow),
+        };
+        flows.iter().zip(stale).map(felt).collect()
     }
 }

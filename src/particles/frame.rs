@@ -1,6 +1,6 @@
 //! The cells in which neighbours are found, and the border between SI and the units of the device.
 
-use super::{Head, Neighbours, Setup, Side};
+use super::{Neighbours, Setup, Side};
 use crate::{Error, Result, bodies::Load};
 use glam::{DMat3, DVec3};
 
@@ -41,10 +41,6 @@ pub struct Frame {
     unit_force: f64,
     /// ρ₀ c₀², Pa.
     unit_pressure: f64,
-    /// Gravity, in the units of the device.
-    gravity: DVec3,
-    /// Support of the kernel function, spacings.
-    reach: f64,
 }
 
 impl Frame {
@@ -93,8 +89,6 @@ impl Frame {
             sound_speed: setup.sound_speed,
             unit_force: setup.particle_mass() * setup.spacing / setup.unit_time().powi(2),
             unit_pressure: setup.density * setup.sound_speed.powi(2),
-            gravity: setup.gravity * setup.unit_time().powi(2) / setup.spacing,
-            reach: 2.0 * setup.smoothing,
         };
         for axis in 0..3 {
             let length = spacings[axis];
@@ -229,7 +223,7 @@ impl Frame {
         self.sound_speed
     }
 
-    /// The mean load over `time` (units of the device) of the first twelve numbers that the device added up.
+    /// The mean load over `time` (units of the device) of the twelve numbers that the device added up.
     pub fn load(&self, numbers: &[f32], time: f64) -> Load {
         let share = self.unit_force / time;
         let number = |n: usize| f64::from(numbers[n]) * share;
@@ -242,18 +236,8 @@ impl Frame {
         }
     }
 
-    /// The pressure around a body whose centroid is at `centre`, from the numbers that follow those of its load; none
-    /// without water around it.
-    pub fn head(&self, numbers: &[f32], centre: DVec3) -> Option<Head> {
-        let Head {
-            place,
-            pressure,
-            gradient,
-        } = Head::fit(numbers, self.reach, self.gravity)?;
-        Some(Head {
-            place: centre + self.spacing * place,
-            pressure: self.unit_pressure * pressure,
-            gradient: self.unit_pressure / self.spacing * gradient,
-        })
+    /// The mean pressure (Pa) over `time` (units of the device) of what the device added up.
+    pub fn pressure(&self, sum: f32, time: f64) -> f64 {
+        f64::from(sum) / time * self.unit_pressure
     }
 }

@@ -135,9 +135,14 @@ impl<'a> Gauges<'a> {
         Some(above - (first as f64 - 1.0 + part) * step)
     }
 
-    /// The particles in the box between two corners (m).
+    /// The particles in the box between two corners (m); where nothing varies along y, whatever it is along that.
     pub fn inside(&self, min: DVec3, max: DVec3) -> impl Iterator<Item = usize> {
-        let inside = move |x: &DVec3| x.cmpge(min).all() && x.cmple(max).all();
+        let plane = self.plane;
+        let inside = move |x: &DVec3| {
+            let mut inside = x.cmpge(min) & x.cmple(max);
+            inside.set(1, plane || inside.test(1));
+            inside.all()
+        };
         let all = self.positions.iter().enumerate();
         all.filter_map(move |(n, x)| inside(x).then_some(n))
     }

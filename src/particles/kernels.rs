@@ -2,6 +2,7 @@
 
 use super::{
     Clock, Frame, Home, Hull, Motion, Neighbours, Scheme, Setup,
+    asked::Asked,
     near::{Names, Near, shell_room, usual_room},
     program,
     sorting::{Sorted, Sorting},
@@ -18,10 +19,8 @@ const RUN: u32 = 64;
 const OF_SHELL: Names = ["shell_neighbours", "shell_pressure", "shell_force"];
 const OF_DELTA: Names = ["neighbours", "accelerate", "drift"];
 const OF_MUELLER: Names = ["neighbours", "mueller_density", "mueller_move"];
-/// Numbers of a load, and of the pressure around a body.
-pub(super) const NUMBERS: usize = 26;
-/// The first of them.
-pub(super) const OF_LOAD: usize = 12;
+/// Numbers of a load.
+pub(super) const NUMBERS: usize = 12;
 
 /// Numbers of particles and bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +54,7 @@ pub(super) struct Kernels {
     /// The gate that lists must pass, if there are any.
     admit: Option<(Kernel, wgpu::BindGroup)>,
     load: (Kernel, wgpu::BindGroup),
+    pub asked: Asked,
     /// `keep_out`, where walls are shells.
     keep_out: Option<(Kernel, wgpu::BindGroup)>,
     /// `mueller_drift`, where the sums leave the places to it.
@@ -169,6 +169,7 @@ impl Kernels {
             numbers,
             place: bound("shell_place")?,
             load: bound(load)?,
+            asked: Asked::new(kernel("pressure_at")?),
             last: last.map(bound).transpose()?,
             near,
             near_shell,
@@ -220,6 +221,17 @@ impl Kernels {
         Ok(())
     }
 
+    /// Sets the places that are asked about, quanta.
+    pub fn ask(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        places: &[[i32; 4]],
+    ) -> Result<()> {
+        let buffers: Vec<_> = self.buffers.iter().map(|(name, of)| (*name, of)).collect();
+        self.asked.ask(device, queue, places, &buffers)
+    }
+
     /// Records where the shells are.
     pub fn record_shells(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -249,6 +261,7 @@ impl Kernels {
             let bodies = self.numbers.loaded;
             self.load.0.record(&mut pass, &self.load.1, bodies);
         }
+        self.asked.record(&mut pass);
         self.near.record_second(&mut pass);
         if let Some((kernel, bind)) = &self.last {
             kernel.record(&mut pass, bind, water);

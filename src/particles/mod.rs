@@ -7,6 +7,7 @@
 //! device ([`Particles`]).
 
 mod advise;
+mod asked;
 mod cloud;
 mod crowd;
 mod edge;
@@ -17,7 +18,6 @@ mod frame;
 mod from_scene;
 mod gaps;
 mod gauges;
-mod head;
 mod hulls;
 mod kernel;
 mod kernels;
@@ -44,7 +44,6 @@ pub use fill::{Start, fill};
 pub use frame::Frame;
 pub use from_scene::particle_setup;
 pub use gauges::Gauges;
-pub use head::Head;
 pub use kernel::Kernel;
 pub use kernels::Numbers;
 pub use layout::{Clock, Home, Hull, Motion, Particle};

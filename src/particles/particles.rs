@@ -1,10 +1,10 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Head, Home, Motion, Numbers, Particle, Setup, State, Water,
+    Clock, Frame, Home, Motion, Numbers, Particle, Setup, State, Water,
     followed::Followed,
     hulls,
-    kernels::{Kernels, NUMBERS, OF_LOAD},
+    kernels::{Kernels, NUMBERS},
     near,
 };
 use crate::{
@@ -25,8 +25,8 @@ const SHORTEST: f32 = 1e-3;
 pub struct Exchange {
     /// Mean load on each body over the time of the exchange; nothing on those that are not asked about.
     pub loads: Vec<Load>,
-    /// Mean pressure of the water around each body that is asked about, if it feels any.
-    pub heads: Vec<Option<Head>>,
+    /// Mean pressure of the water at each place that is asked about, Pa; 0 where there is none.
+    pub pressures: Vec<f64>,
     /// Steps that the water took.
     pub steps: u32,
     /// Steps of them that sorted the particles, and made lists of neighbours if there are any.
@@ -196,7 +196,7 @@ impl Particles {
             queue.submit([encoder.finish()]);
             let words: Vec<u32> = readback::map(device, &report, report.size()).await?;
             self.report = Some(report);
-            let (clock, loads) = words.split_at(size_of::<Clock>() / 4);
+            let (clock, sums) = words.split_at(size_of::<Clock>() / 4);
             self.clock = *bytemuck::from_bytes(bytemuck::cast_slice(clock));
             if self.clock.crowd + self.clock.shell_crowd > 0 {
                 self.make_room(device, queue)?;
@@ -206,8 +206,7 @@ impl Particles {
             if self.clock.step == 0.0 {
                 self.renewed = false;
                 self.steps += u64::from(self.clock.steps);
-                let loads = bytemuck::cast_slice(loads);
-                return Ok(self.exchange(loads, poses, time));
+                return Ok(self.exchange(bytemuck::cast_slice(sums), time));
             }
         }
     }
@@ -260,6 +259,7 @@ impl Particles {
         queue.write_buffer(&self.kernels.clock, 0, bytemuck::bytes_of(&self.clock));
         let none = vec![0.0f32; NUMBERS * self.numbers.loaded.max(1) as usize];
         queue.write_buffer(&self.kernels.loads, 0, bytemuck::cast_slice(&none));
+        self.kernels.asked.begin(queue);
         self.followed.follow(poses, time);
         // Until it is known what the clock has come to.
         self.renewed = true;
@@ -296,7 +296,25 @@ impl Particles {
         self.kernels.record_step(encoder);
     }
 
-    /// Records the way of clock and loads to the host.
+    /// Sets the places (m) in the water where the exchanges to come say what its pressure was, beside loads.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] if the device has no room for so many.
+    pub fn ask(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        places: &[DVec3],
+    ) -> Result<()> {
+        let place = |x: &DVec3| {
+            let [x, y, z] = self.frame.place(*x);
+            [x, y, z, 0]
+        };
+        let places: Vec<_> = places.iter().map(place).collect();
+        self.kernels.ask(device, queue, &places)
+    }
+
+    /// Records the way of clock, loads and pressures to the host.
     fn report(
         &mut self,
         device: &wgpu::Device,
@@ -304,11 +322,18 @@ impl Particles {
     ) -> wgpu::Buffer {
         let clock = size_of::<Clock>() as u64;
         let loads = 4 * (NUMBERS * self.numbers.loaded as usize) as u64;
-        let report = self.report.take();
-        let report = report.unwrap_or_else(|| readback::staging(device, clock + loads));
+        let asked = &self.kernels.asked;
+        let pressures = asked.pressures();
+        let size = clock + loads + pressures.map_or(0, wgpu::Buffer::size);
+        let report = self.report.take().filter(|kept| kept.size() == size);
+        let report = report.unwrap_or_else(|| readback::staging(device, size));
         encoder.copy_buffer_to_buffer(&self.kernels.clock, 0, &report, 0, clock);
         if loads > 0 {
             encoder.copy_buffer_to_buffer(&self.kernels.loads, 0, &report, clock, loads);
+        }
+        if let Some(pressures) = pressures {
+            let size = pressures.size();
+            encoder.copy_buffer_to_buffer(pressures, 0, &report, clock + loads, size);
         }
         report
     }
@@ -344,21 +369,17 @@ impl Particles {
         })
     }
 
-    fn exchange(&self, numbers: &[f32], poses: &[Pose], time: f64) -> Exchange {
+    fn exchange(&self, sums: &[f32], time: f64) -> Exchange {
         let unit = time / self.frame.unit_time();
-        let of = |place: usize| numbers.get(place * NUMBERS..(place + 1) * NUMBERS);
-        let load = |&place: &usize| match of(place) {
+        let (loads, pressures) = sums.split_at(NUMBERS * self.numbers.loaded as usize);
+        let load = |&place: &usize| match loads.get(place * NUMBERS..(place + 1) * NUMBERS) {
             Some(numbers) => self.frame.load(numbers, unit),
             None => Load::default(),
         };
-        let head = |(&place, pose): (&usize, &Pose)| {
-            // From the centroid in the middle of the exchange.
-            let centre = pose.centre + 0.5 * time * pose.velocity;
-            self.frame.head(&of(place)?[OF_LOAD..], centre)
-        };
+        let asked = pressures.iter().take(self.kernels.asked.count());
         Exchange {
             loads: self.number.iter().map(load).collect(),
-            heads: self.number.iter().zip(poses).map(head).collect(),
+            pressures: asked.map(|sum| self.frame.pressure(*sum, unit)).collect(),
             steps: self.clock.steps,
             sorts: self.clock.sorts,
         }

@@ -16,8 +16,9 @@ const PENALTY: f64 = 0.5;
 const KEEP_OUT: f64 = 0.1;
 
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 19] = [
+pub const KERNELS: [&str; 21] = [
     "sort_count",
+    "sort_keep",
     "sort_list",
     "sort_order",
     "shell_place",
@@ -29,6 +30,7 @@ pub const KERNELS: [&str; 19] = [
     "keep_out",
     "shell_force",
     "body_load",
+    "pressure_at",
     "drift",
     "mueller_density",
     "mueller_move",

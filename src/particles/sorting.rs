@@ -11,6 +11,7 @@ use crate::{
 #[derive(Debug)]
 pub struct Sorting {
     count: Kernel,
+    keep: Kernel,
     list: Kernel,
     order: Kernel,
     scan: Scan,
@@ -24,10 +25,11 @@ pub struct Sorted {
     pub unsorted: wgpu::Buffer,
     /// The particles by cells.
     pub sorted: wgpu::Buffer,
-    /// Where each cell begins.
+    /// Where each cell begins, since they were sorted last.
     pub starts: wgpu::Buffer,
+    counts: wgpu::Buffer,
     scan: ScanOf,
-    bound: [wgpu::BindGroup; 3],
+    bound: [wgpu::BindGroup; 4],
 }
 
 impl Sorting {
@@ -43,6 +45,7 @@ impl Sorting {
         };
         Ok(Self {
             count: kernel("sort_count")?,
+            keep: kernel("sort_keep")?,
             list: kernel("sort_list")?,
             order: kernel("sort_order")?,
             scan: Scan::new(device)?,
@@ -68,13 +71,15 @@ impl Sorting {
         at_most(device, "cells of particles", cells)?;
         let unsorted = storage(device, "particles as they come", bytes);
         let sorted = storage(device, "particles by cells", bytes);
+        let counts = storage(device, "numbers in cells", cells);
         let starts = storage(device, "starts of cells", cells);
         let arrivals = storage(device, "arrivals in cells", 4 * u64::from(count));
         let list = storage(device, "particles of cells", 4 * u64::from(count));
         let buffers = [
             ("unsorted", &unsorted),
             ("sorted", &sorted),
-            ("counts", &starts),
+            ("counts", &counts),
+            ("fresh", &counts),
             ("starts", &starts),
             ("arrivals", &arrivals),
             ("list", &list),
@@ -82,26 +87,30 @@ impl Sorting {
         ];
         Ok(Sorted {
             count,
-            scan: self.scan.of(device, &starts)?,
+            scan: self.scan.of(device, &counts)?,
             bound: [
                 self.count.bind(device, &buffers)?,
+                self.keep.bind(device, &buffers)?,
                 self.list.bind(device, &buffers)?,
                 self.order.bind(device, &buffers)?,
             ],
             unsorted,
             sorted,
             starts,
+            counts,
         })
     }
 
     /// Records the sorting of what is in `unsorted`.
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder, of: &Sorted) {
-        encoder.clear_buffer(&of.starts, 0, None);
+        encoder.clear_buffer(&of.counts, 0, None);
         let mut pass = encoder.begin_compute_pass(&Default::default());
         let groups = of.count.div_ceil(WORKGROUP);
         self.count.record(&mut pass, &of.bound[0], groups);
         self.scan.record(&mut pass, &of.scan);
-        self.list.record(&mut pass, &of.bound[1], groups);
-        self.order.record(&mut pass, &of.bound[2], groups);
+        let cells = (of.starts.size() / 4).div_ceil(u64::from(WORKGROUP));
+        self.keep.record(&mut pass, &of.bound[1], cells as u32);
+        self.list.record(&mut pass, &of.bound[2], groups);
+        self.order.record(&mut pass, &of.bound[3], groups);
     }
 }

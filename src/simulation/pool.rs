@@ -8,6 +8,7 @@ use crate::{
     particles::{Particle, Particles, Water},
     scene::Scene,
 };
+use glam::DVec3;
 
 /// The water of a scene.
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub(super) struct Pool {
     queue: wgpu::Queue,
     pub particles: Particles,
     sealed: Sealed,
+    /// Blocks that felt water in the last exchange of a step, and all at its start: only their joints may have some.
+    wet: Vec<bool>,
     /// Longest time between two exchanges while blocks may move, s.
     longest: f64,
     time: f64,
@@ -35,8 +38,13 @@ impl Fluid for Pool {
     async fn advance(&mut self, poses: &[Pose], pace: Pace, end: f64) -> Result<Option<Vec<Felt>>> {
         let until = self.next(pace, end);
         let (device, queue, time) = (&self.device, &self.queue, until - self.time);
+        let closed = self.sealed.closed(poses, &self.wet);
+        self.particles.ask(device, queue, &closed.places())?;
         let mut done = self.particles.advance(device, queue, poses, time).await?;
-        self.sealed.push(poses, &done.heads, &mut done.loads);
+        let loads = &mut done.loads;
+        self.sealed.push(closed, &done.pressures, poses, loads);
+        let wet = |load: &Load| load.force != DVec3::ZERO;
+        self.wet = done.loads.iter().map(wet).collect();
         self.time = until;
         self.exchanges += 1;
         self.sorts += u64::from(done.sorts);
@@ -68,9 +76,10 @@ impl Pool {
         let shapes = shapes.map(|block| block.shape.clone()).collect();
         let setup = particles.setup();
         Self {
+            wet: vec![true; setup.bodies.len()],
             device: device.clone(),
             queue: queue.clone(),
-            sealed: Sealed::new(shapes, rock.blocks().period(), setup.spacing),
+            sealed: Sealed::new(shapes, rock.blocks().period(), setup),
             longest: longest_exchange(rock, setup.density * setup.sound_speed),
             particles,
             time: 0.0,
@@ -84,6 +93,7 @@ impl Pool {
     /// Begins a step at the time `time` (s), from nothing that a checkpoint does not hold.
     pub fn begin(&mut self, time: f64) {
         self.time = time;
+        self.wet.fill(true);
         self.particles.renew();
     }
 

@@ -61,13 +61,14 @@ fn check(setup: Setup) {
     }
 }
 
-/// A cylinder, as nothing varies along y, or a cube of two halves, m.
+/// A cylinder, as nothing varies along y, or a cube of two halves with a sphere at its side, m.
 fn solids(plane: bool) -> Vec<Solid> {
+    let sphere = |x: f64| Solid::Sphere {
+        centre: DVec3::X * x,
+        radius: 0.15,
+    };
     if plane {
-        return vec![Solid::Sphere {
-            centre: DVec3::ZERO,
-            radius: 0.15,
-        }];
+        return vec![sphere(0.0)];
     }
     let cube = Polyhedron::cuboid(DVec3::splat(0.3)).unwrap();
     let half = |side: f64| {
@@ -86,7 +87,7 @@ fn solids(plane: bool) -> Vec<Solid> {
             }],
         })
     };
-    vec![half(-1.0), half(1.0)]
+    vec![half(-1.0), half(1.0), sphere(0.1)]
 }
 
 fn check_with(setup: Setup) {
@@ -182,12 +183,17 @@ fn check_with(setup: Setup) {
         slips: false,
     }));
     let dt = 0.9 * particles.limit();
+    // In the water, in rock, over the water and far away.
+    let above = setup.origin + setup.size * DVec3::new(0.5, 0.5, 0.95);
+    let asked = [positions[0], positions[7], middle, above, DVec3::splat(1e4)];
+    particles.ask(device, queue, &asked).unwrap();
     let done = rig
         .wait(particles.advance(device, queue, &poses, dt))
         .unwrap();
     assert_eq!(done.steps, 1);
     let after = rig.wait(particles.water(device, queue)).unwrap();
-    let exact = Twin(&setup, &poses).step(&water, &dummies, dt);
+    let twin = Twin(&setup, &poses);
+    let exact = twin.step(&water, &dummies, dt);
     let change = |a: f64, b: f64| (a - b).abs();
     let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, [0.0f64; 2]);
     for n in 0..after.len() {
@@ -201,6 +207,22 @@ fn check_with(setup: Setup) {
         most[0] = most[0].max((exact.water[n].v - water[n].v).length());
         most[1] = most[1].max(change(exact.water[n].rho, water[n].rho));
     }
+    for (x, found) in asked.iter().zip(&done.pressures) {
+        // To the whole quanta of places, whose weight is that of a column.
+        let at = Dummy {
+            x: *x,
+            v: DVec3::ZERO,
+            a: DVec3::ZERO,
+            slips: true,
+        };
+        let expected = twin.wall_pressure(&water, &at);
+        assert!(
+            change(*found, expected) < 1e-4 * 1e4,
+            "{found} {expected} at {x}"
+        );
+    }
+    assert!(done.pressures[..3].iter().all(|p| *p > 0.0));
+    assert_eq!(done.pressures[4], 0.0);
     let limit = particles.limit();
     let levers: Vec<DVec3> = block.iter().map(|x| pose.deformation * *x).collect();
     let width = if plane { setup.size.y } else { 1.0 };

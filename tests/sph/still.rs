@@ -2,7 +2,7 @@
 
 use crate::tank::{Tank, lattice, resting, walls};
 use glam::DVec3;
-use riprap::particles::{Setup, Side};
+use riprap::particles::{Neighbours, Setup, Side};
 
 #[test]
 fn a_still_tank_stays_still() {
@@ -10,6 +10,7 @@ fn a_still_tank_stays_still() {
     let spacing = depth / f64::from(n);
     let mut setup = Setup::tank(DVec3::new(1.0, spacing, 1.5), spacing, 10.0 * 4.43);
     setup.plane = true;
+    setup.neighbours = Neighbours::Lists;
     setup.faces[2][1] = Side::Open;
     setup.bodies = vec![walls(&setup)];
     let water = lattice(&setup, [0, 0, 0], [20, 1, n]);
@@ -31,4 +32,18 @@ fn a_still_tank_stays_still() {
     println!("L2(p) {error:.4}, u_rms {rms:.2e} of the speed of waves");
     assert!(error < 0.02 && rms < 0.002, "{error} {rms}");
     assert_eq!(water.len(), 400);
+    // What is asked about in it, while lists of neighbours serve several exchanges; and above it.
+    let at = |z: f64| DVec3::new(0.51, 0.5 * spacing, z);
+    tank.ask(&[at(0.31), at(0.7), at(1.3)]);
+    let mut sorts = 0;
+    for _ in 0..12 {
+        let done = tank.advance(2e-3);
+        sorts += done.sorts;
+        for (z, found) in [0.31, 0.7].into_iter().zip(&done.pressures) {
+            let exact = hydrostatic(at(z));
+            assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
+        }
+        assert_eq!(done.pressures[2], 0.0);
+    }
+    assert!(sorts < 6, "{sorts}");
 }

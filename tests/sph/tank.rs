@@ -106,6 +106,11 @@ impl Tank {
         }
     }
 
+    pub fn ask(&mut self, places: &[DVec3]) {
+        let Rig { device, queue } = &self.rig;
+        self.particles.ask(device, queue, places).unwrap();
+    }
+
     pub fn advance(&mut self, time: f64) -> Exchange {
         let Rig { device, queue } = &self.rig;
         let done = self.particles.advance(device, queue, &self.poses, time);

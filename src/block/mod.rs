@@ -58,5 +58,6 @@ pub use compass::Compass;
 pub use half_space::HalfSpace;
 pub use joint_set::{JointSet, Persistence, Scatter};
 pub use polyhedron::Polyhedron;
+pub(crate) use random::uniform;
 pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
 pub use shape::{Form, Part, Shape};

@@ -2,7 +2,7 @@
 
 /// A number in (0, 1) for `key` and `seed`: SplitMix64 (Steele, Lea & Flood 2014, OOPSLA, figure 15),
 /// once for the seed and once for each word of the key.
-pub(super) fn uniform(seed: u64, key: &[i64]) -> f64 {
+pub(crate) fn uniform(seed: u64, key: &[i64]) -> f64 {
     let hash = key.iter().fold(mix(seed), |h, word| mix(h ^ *word as u64));
     // The middle of one of 2⁵³ intervals: never 0 and never 1.
     ((hash >> 11) as f64 + 0.5) / (1_u64 << 53) as f64

@@ -20,7 +20,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let Some(particles) = &scene.particles else {
         return Err(Error::scene("particles", "the scene has none"));
     };
-    let start = fill(scene, blocks)?;
+    let mut start = fill(scene, blocks)?;
     let shells = match particles.scheme {
         scene::Scheme::Delta => shells(scene, blocks)?,
         // Its walls are springs.
@@ -37,7 +37,11 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let slippery: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
     let all = &blocks.setup.blocks;
     let shells = own(all, shells, |block| probed(&block.name));
-    let solids = solid::solids(all, &Lattice::of(scene, particles));
+    let lattice = Lattice::of(scene, particles);
+    let mut solids = solid::solids(all, &lattice);
+    if particles.scheme == scene::Scheme::Delta {
+        solid::join(all, &mut solids, &lattice);
+    }
     let bodies = all.iter().zip(shells).zip(solids);
     let bodies = bodies.map(|((block, shell), solids)| Body {
         shell,
@@ -104,7 +108,24 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         };
         setup.scheme = Scheme::Mueller { viscosity };
     }
+    disturb(
+        &mut start,
+        particles.disorder,
+        &lattice,
+        setup.density * gravity,
+    );
     Ok((setup, start))
+}
+
+/// Moves what stands by `disorder` spacings at most along each axis from its lattice, which under pressure resists shear, and
+/// gives it the pressure there, under so much weight (N/m³).
+fn disturb(start: &mut Start, disorder: f64, lattice: &Lattice, weight: DVec3) {
+    let pressures = start.pressures.iter_mut().enumerate();
+    for (number, pressure) in pressures.filter(|(_, pressure)| **pressure > 0.0) {
+        let way = disorder * lattice.aside(number);
+        start.positions[number] += way;
+        *pressure += weight.dot(way);
+    }
 }
 
 /// The shells of blocks without what fixed ones have in the walls that they stand at: it counts there, so that the load on a

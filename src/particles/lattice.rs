@@ -1,7 +1,7 @@
 //! The lattice on which particles start, and the box around it.
 
 use crate::{
-    block::HalfSpace,
+    block::{HalfSpace, uniform},
     scene::{Boundary, Face, Particles, Scene},
 };
 use glam::DVec3;
@@ -42,6 +42,15 @@ impl Lattice {
     /// How deep the layer `layer` is, m.
     pub fn depth(&self, layer: u32) -> f64 {
         (f64::from(layer) + 0.5) * self.spacing
+    }
+
+    /// A way of at most a spacing along each axis, the same for a number each time, m.
+    pub fn aside(&self, number: usize) -> DVec3 {
+        let way = [0, 1, 2].map(|axis| match self.is_row(axis) {
+            true => 0.0,
+            false => 2.0 * uniform(0, &[number as i64, axis as i64]) - 1.0,
+        });
+        self.spacing * DVec3::from(way)
     }
 
     /// Whether what spans the domain along `axis` has no ends there.

@@ -30,7 +30,7 @@ pub struct Faces {
     pub radius: f64,
     /// Those that water may meet.
     pub bare: Vec<HalfSpace>,
-    /// Those that lie inside other parts of the same body.
+    /// Those that lie inside other parts of the same body, or of others beside which it never moves.
     pub seams: Vec<HalfSpace>,
 }
 
@@ -44,6 +44,30 @@ pub(super) fn solids(blocks: &[Block], lattice: &Lattice) -> Vec<Vec<Solid>> {
         })
     };
     blocks.iter().map(of).collect()
+}
+
+/// Makes seams of the faces at which blocks that never move cover each other: no water comes out there.
+pub(super) fn join(blocks: &[Block], solids: &mut [Vec<Solid>], lattice: &Lattice) {
+    let parts: Vec<_> = blocks.iter().map(Placed::of).collect();
+    let slack = lattice.spacing;
+    for (index, block) in blocks.iter().enumerate() {
+        if block.motion != Motion::Fixed {
+            continue;
+        }
+        let fixed = |other: &usize| *other != index && blocks[*other].motion == Motion::Fixed;
+        let all = (0..blocks.len())
+            .filter(fixed)
+            .flat_map(|other| &parts[other]);
+        let all: Vec<_> = all.collect();
+        for (part, solid) in parts[index].iter().zip(&mut solids[index]) {
+            let meets = |other: &&&Placed<'_>| {
+                (other.low - slack).cmplt(part.high).all()
+                    && (other.high + slack).cmpgt(part.low).all()
+            };
+            let near: Vec<_> = all.iter().filter(meets).copied().collect();
+            solid.sew(part, &near, lattice.tolerance());
+        }
+    }
 }
 
 /// All parts of a body, their seams sorted out.
@@ -164,7 +188,9 @@ impl Solid {
             })
         };
         let all = std::mem::take(&mut faces.bare);
-        (faces.seams, faces.bare) = all.into_iter().partition(is_seam);
+        let (seams, bare): (Vec<_>, Vec<_>) = all.into_iter().partition(is_seam);
+        faces.seams.extend(seams);
+        faces.bare = bare;
     }
 
     /// How deep `point` (m) lies in it, m; negative outside.

@@ -93,7 +93,7 @@ fn blocks_faster_than_expected_are_told_and_those_faster_than_sound_refused() {
         warnings(&scene("largest_speed = 3", &falls).unwrap()),
         Vec::<String>::new()
     );
-    let found = warnings(&scene("largest_speed = 2", &falls).unwrap());
+    let found = warnings(&scene("largest_speed = 2\ndisorder = 0", &falls).unwrap());
     assert!(
         found[0].contains("block `b` may fall at up to 3.962 m/s"),
         "{found:?}"

@@ -15,6 +15,9 @@ const SMOOTHING: std::ops::RangeInclusive<f64> = 1.2..=3.0;
 /// Largest acoustic time step: water in tanks stays calm up to 1.4, whatever its smoothing, and blows up at 1.8.
 const MOST_COURANT: f64 = 1.0;
 
+/// Largest disorder: farther off, particles may start on each other.
+const MOST_DISORDER: f64 = 0.25;
+
 impl Scene {
     /// What the keys of particles say of themselves.
     pub(super) fn check_particles(&self, particles: &Particles) -> Result<()> {
@@ -45,6 +48,7 @@ impl Scene {
         let rates = [
             ("artificial_viscosity", particles.artificial_viscosity),
             ("density_diffusion", particles.density_diffusion),
+            ("disorder", particles.disorder),
         ];
         for (key, value) in rates {
             not_negative(format!("particles.{key}"), value, "")?;
@@ -56,6 +60,15 @@ impl Scene {
                 format!(
                     "is {}, near what blows up; give at most {MOST_COURANT}, such as 0.7",
                     particles.courant
+                ),
+            );
+        }
+        if particles.disorder > MOST_DISORDER {
+            return refuse(
+                "particles.disorder",
+                format!(
+                    "is {} of the spacing, and particles may start on each other; give at most {MOST_DISORDER}, such as 0.04",
+                    particles.disorder
                 ),
             );
         }

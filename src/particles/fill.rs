@@ -59,7 +59,10 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
     };
     let lattice = Lattice::of(scene, particles);
     let blocks = &setup.setup.blocks;
-    let solids: Vec<Placed<'_>> = blocks.iter().flat_map(Placed::of).collect();
+    let seen = blocks
+        .iter()
+        .flat_map(|block| Placed::seen(block, &lattice));
+    let solids: Vec<Placed<'_>> = seen.collect();
     let mut bodies = Vec::with_capacity(scene.water.len());
     for (index, water) in scene.water.iter().enumerate() {
         let (shape, centroid) = simulation::shape(scene, &format!("water[{index}]"), &water.shape)?;

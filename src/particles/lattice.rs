@@ -1,7 +1,9 @@
 //! The lattice on which particles start, and the box around it.
 
+use super::placed::Placed;
 use crate::{
     block::{HalfSpace, uniform},
+    bodies::Block,
     scene::{Boundary, Face, Particles, Scene},
 };
 use glam::DVec3;
@@ -58,6 +60,26 @@ impl Lattice {
         self.periodic[axis] || self.is_row(axis)
     }
 
+    /// Whether a block that is shorter than a period reaches across its ends along `axis`.
+    pub fn is_across(&self, block: &Block, axis: usize) -> bool {
+        let parts = Placed::of(block);
+        let low = parts.iter().map(|part| part.low[axis]);
+        let high = parts.iter().map(|part| part.high[axis]);
+        let low = low.fold(f64::INFINITY, f64::min);
+        let high = high.fold(f64::NEG_INFINITY, f64::max);
+        let is_shorter = high - low < self.high[axis] - self.low[axis];
+        is_shorter && (low < self.low[axis] || high > self.high[axis])
+    }
+
+    /// A place inside the periods, m.
+    pub fn wrapped(&self, mut x: DVec3) -> DVec3 {
+        for axis in (0..3).filter(|axis| self.periodic[*axis]) {
+            let period = self.high[axis] - self.low[axis];
+            x[axis] = self.low[axis] + (x[axis] - self.low[axis]).rem_euclid(period);
+        }
+        x
+    }
+
     fn is_row(&self, axis: usize) -> bool {
         self.plane && axis == 1
     }
@@ -95,8 +117,8 @@ impl Lattice {
         ]
     }
 
-    /// The coordinates of the lattice along `axis` from `from` to `to` (m), ends included but for the upper
-    /// end of a period.
+    /// The coordinates of the lattice along `axis` from `from` to `to` (m), ends included; of what spans a period, those of
+    /// one.
     pub fn row(&self, axis: usize, [from, to]: [f64; 2]) -> Vec<f64> {
         if self.is_row(axis) {
             return vec![0.5 * (self.low[axis] + self.high[axis])];
@@ -104,8 +126,9 @@ impl Lattice {
         let place = |x: f64| (x - self.low[axis]) / self.spacing - 0.5;
         let (first, last) = (place(from) - 1e-6, place(to) + 1e-6);
         let (mut first, mut last) = (first.ceil() as i64, last.floor() as i64);
-        if self.periodic[axis] {
-            let count = ((self.high[axis] - self.low[axis]) / self.spacing).round() as i64;
+        let period = self.high[axis] - self.low[axis];
+        if self.periodic[axis] && to - from > period - self.tolerance() {
+            let count = (period / self.spacing).round() as i64;
             (first, last) = (first.max(0), last.min(count - 1));
         }
         (first..=last)

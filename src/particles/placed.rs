@@ -1,5 +1,6 @@
 //! Convex parts of blocks and of water where they are at the start.
 
+use super::lattice::Lattice;
 use crate::{
     block::{Form, HalfSpace, Shape},
     bodies::Block,
@@ -46,6 +47,28 @@ impl<'a> Placed<'a> {
     /// The parts of a block.
     pub fn of(block: &'a Block) -> Vec<Self> {
         Self::parts(&block.shape, block.centre, block.rotation)
+    }
+
+    /// The parts of a block and, where the domain is periodic, their images that reach into it.
+    pub fn seen(block: &'a Block, lattice: &Lattice) -> Vec<Self> {
+        let mut seen = Self::of(block);
+        for axis in (0..3).filter(|axis| lattice.periodic[*axis]) {
+            let period = DVec3::AXES[axis] * (lattice.high[axis] - lattice.low[axis]);
+            let moved = |way: DVec3| {
+                let parts = seen.iter().map(move |part| Self {
+                    centre: part.centre + way,
+                    low: part.low + way,
+                    high: part.high + way,
+                    ..part.clone()
+                });
+                parts.filter(|part| {
+                    part.high[axis] > lattice.low[axis] && part.low[axis] < lattice.high[axis]
+                })
+            };
+            let images: Vec<_> = moved(period).chain(moved(-period)).collect();
+            seen.extend(images);
+        }
+        seen
     }
 
     /// Its faces in the world; a sphere has none.

@@ -78,7 +78,8 @@ pub fn shells(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
         if block.motion == Motion::Fixed {
             let mut kept = Vec::with_capacity(points.len());
             for point in points {
-                if depths(index, point.at).block == index && crowd.admit(point.at) {
+                if depths(index, point.at).block == index && crowd.admit(lattice.wrapped(point.at))
+                {
                     kept.push(point.at);
                 } else {
                     refused.push((index, point));
@@ -176,7 +177,7 @@ fn layers(block: &Block, solids: &[Solid], lattice: &Lattice) -> Vec<Laid> {
         }
     }
     points.extend(behind);
-    points.retain(|x| !fixed || lattice.is_within(x.at));
+    points.retain(|x| !fixed || lattice.is_within(lattice.wrapped(x.at)));
     points
 }
 
@@ -195,8 +196,11 @@ fn facets(
     };
     // Where nothing is left but a plane or a line, that still carries points.
     let slack = 0.1 * lattice.tolerance();
-    // A block that moves takes all its shells along, but for what spans a period.
-    let ends = (0..3).filter(|axis| fixed || lattice.endless(*axis) && is_endless(faces, *axis));
+    // A block that moves takes all its shells along, and so does one across the end of a period, but for what spans it.
+    let ends = (0..3).filter(|axis| match lattice.endless(*axis) {
+        true => is_endless(faces, *axis) || fixed && !lattice.is_across(block, *axis),
+        false => fixed,
+    });
     let ends: Vec<HalfSpace> = ends.flat_map(|axis| lattice.sides(axis)).collect();
     let middle = 0.5 * (lattice.low + lattice.high);
     let size =

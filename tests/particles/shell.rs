@@ -146,6 +146,24 @@ fn what_spans_a_period_has_no_ends_and_the_rows_of_the_water() {
 }
 
 #[test]
+fn across_the_end_of_a_period_a_block_is_whole() {
+    for motion in ["free", "fixed"] {
+        let made = [0.5, 0.05].map(|y| {
+            let block = format!(
+                "[[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [0.4, 0.3, 0.2]\nposition = [1, {y}, 0.3]\n\
+                 motion = \"{motion}\"\n"
+            );
+            Made::of(&tank(&block).unwrap())
+        });
+        let [inside, across] = &made;
+        assert_eq!(inside.start.positions.len(), 8000 - 8 * 6 * 4);
+        assert_eq!(across.start.positions.len(), inside.start.positions.len());
+        assert!(inside.shell("b").len() > 150, "{motion}");
+        assert_eq!(across.shell("b").len(), inside.shell("b").len(), "{motion}");
+    }
+}
+
+#[test]
 fn ramps_keep_the_rows_of_the_water_and_share_the_ground_with_the_floor() {
     // 30° up to the wall x_max, beyond the domain on all sides but one.
     let ramp = "[[solids]]\nname = \"ramp\"\nkind = \"half_space\"\npoint = [1, 0, 0]\nnormal = [-0.5, 0, 0.8660254037844386]\n";

@@ -1,6 +1,6 @@
 // Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057, eq. 27: the pressure of the water around places that somebody asks
 // about, continued to them as water at rest, and 0 where there is none; times the length of the step.
-// needs invocation, particle_grid, $runs, $state, wendland, clock, water_cells
+// needs invocation, particle_grid, $runs, continued, wendland, clock, water_cells
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 // Quanta; the fourth is not used.
@@ -8,15 +8,8 @@
 @group(0) @binding(3) var<storage, read_write> pressures: array<f32>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
 
-override GRAVITY_X: f32 = 0.0;
-override GRAVITY_Y: f32 = 0.0;
-override GRAVITY_Z: f32 = 0.0;
-
-// The place, and the sums over the water around it.
+// The place.
 var<private> here: vec3<i32>;
-var<private> weights: f32;
-var<private> pressure: f32;
-var<private> column: vec3<f32>;
 
 fn meet_water(j: u32) {
     let other = particles[j];
@@ -24,9 +17,7 @@ fn meet_water(j: u32) {
     let square = dot(r, r);
     if (square < SUPPORT_SQUARED) {
         let w = weight(sqrt(square));
-        weights += w;
-        pressure += w * pressure_of(other.excess);
-        column += w * (1.0 + other.excess) * r;
+        add_pressure(w, r, other.excess);
     }
 }
 
@@ -46,12 +37,7 @@ fn pressure_at(
     if (any(here < vec3(0)) || any(cell >= cells)) {
         return;
     }
-    weights = 0.0;
-    pressure = 0.0;
-    column = vec3(0.0);
+    begin_pressure();
     around_water(n, here);
-    let sum = pressure + dot(vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), column);
-    if (weights > 0.0) {
-        pressures[n] += clock.step * max(sum, 0.0) / weights;
-    }
+    pressures[n] += clock.step * end_pressure(vec3(0.0));
 }

@@ -14,8 +14,8 @@ struct FaceJob {
 
 @group(0) @binding(4) var<storage, read> jobs: array<FaceJob>;
 @group(0) @binding(5) var<storage, read> parts: array<Part>;
-// FACE_LOAD a job, sums over the cells: traction (3), its moment about the block's centroid (3), height, cells with
-// fluid, cells.
+// FACE_LOAD a job, sums over the cells: traction (3), its moment about the block's centroid (3), height, their feet on
+// the face from there (3) and the products of these (xx, yy, zz, yz, zx, xy), cells with fluid, cells.
 @group(0) @binding(7) var<storage, read_write> face_partials: array<f32>;
 
 var<private> sums: array<f32, FACE_LOAD>;
@@ -28,7 +28,7 @@ fn add_beside(job: FaceJob, tile: Tile, local: u32) {
     if (!beside.here) {
         return;
     }
-    sums[8] += 1.0;
+    sums[FACE_LOAD - 1u] += 1.0;
     let first = (tile.slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + tile.lane;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
     // Another block may be in the cell, or a wall.
@@ -49,9 +49,12 @@ fn add_beside(job: FaceJob, tile: Tile, local: u32) {
     for (var i = 0u; i < 3u; i++) { // unroll
         sums[i] += traction[i];
         sums[3u + i] += moment[i];
+        sums[7u + i] += foot[i];
+        sums[10u + i] += foot[i] * foot[i];
+        sums[13u + i] += foot[(i + 1u) % 3u] * foot[(i + 2u) % 3u];
     }
     sums[6] += beside.height;
-    sums[7] += 1.0;
+    sums[FACE_LOAD - 2u] += 1.0;
 }
 
 @compute @workgroup_size(64)

@@ -57,8 +57,8 @@ const DEEP_SUM = 8.0;
 const PLANES = 9u;
 // Numbers that a block has: force (3), moment (9), held fluid, freed fluid, first moments of both (3 + 3).
 const WRENCH = 20u;
-// Numbers that a face has: traction (3), moment (3), height, cells with fluid, cells.
-const FACE_LOAD = 9u;
+// Numbers that a face has: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
+const FACE_LOAD = 18u;
 
 // The centre of a cell, from base + fraction.
 fn centre_from(cell: vec3<i32>, base: vec3<i32>, fraction: vec3<f32>) -> vec3<f32> {

@@ -43,6 +43,11 @@ impl Period {
         })
     }
 
+    /// A place moved into the one period, m.
+    pub(crate) fn within(&self, place: DVec3) -> DVec3 {
+        place - self.way(self.turns(place))
+    }
+
     /// Way by which something is to be moved that is `apart` (m) from something else, to be as near as it gets, m.
     pub fn nearest(&self, apart: DVec3) -> DVec3 {
         let turns = [0, 1, 2].map(|axis| match self.repeats(axis) {

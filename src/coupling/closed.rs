@@ -3,7 +3,8 @@
 //! No fluid reaches cells inside solids, and what is in them is reflected in place: under a block that lies on another
 //! one the lattice keeps the pressure of the start. Water in a closed joint has the pressure of its rim instead. Here
 //! the pressures beside the wet faces at the rim are fitted by a plane, p = p̄ + g·(x − x̄), with the least squares over
-//! their area, above what the weight of the water makes of it; that acts on what of the block is dry.
+//! their cells, above what the weight of the water makes of it; that acts on what of the block is dry. Nowhere there is
+//! it higher than at these faces, or lower.
 //!
 //! ```text
 //!  p_heel  ┌───────┐          The mean of each wet face and, where all of it is wet, the slope along it that its
@@ -28,8 +29,9 @@ const HEIGHTS: [f64; 3] = [0.0, 0.25, 1.0];
 const ROUGH: f64 = 0.1;
 /// Least closed area, as a share of that of the face.
 const SOME: f64 = 0.01;
-/// Share of the spread of places below which a direction has none, of the squares: far above rounding.
-const FLAT: f64 = 1e-9;
+/// Spread of places below which a direction has none, cells² a cell: far above the rounding of their sums, far below two
+/// rows of cells.
+const FLAT: f64 = 1e-3;
 
 /// ∫ 1, r and r rᵀ over an area, r from the centroid of the block, m², m³, m⁴.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +48,7 @@ impl Moments {
         second: DMat3::ZERO,
     };
 
-    /// Of a convex plane polygon.
+    /// Of a convex plane polygon, r from `centre`.
     fn of(corners: &[DVec3], centre: DVec3) -> Self {
         let mut sum = Self::ZERO;
         for k in 2..corners.len() {
@@ -66,15 +68,6 @@ impl Moments {
         sum
     }
 
-    /// All of an area at one place.
-    fn at(area: f64, r: DVec3) -> Self {
-        Self {
-            area,
-            first: area * r,
-            second: outer(r, r) * area,
-        }
-    }
-
     fn plus(&self, other: &Self) -> Self {
         Self {
             area: self.area + other.area,
@@ -90,6 +83,11 @@ impl Moments {
             second: self.second * by,
         }
     }
+
+    /// Scaled to an area of at most `most` (m²).
+    fn within(&self, most: f64) -> Self {
+        self.times((most / self.area.max(f64::MIN_POSITIVE)).min(1.0))
+    }
 }
 
 /// A face: what of it is closed, open and wet.
@@ -98,7 +96,7 @@ struct Side<'a> {
     load: &'a FaceLoad,
     corners: Vec<DVec3>,
     closed: Moments,
-    /// The rest of it.
+    /// The rest of it, but for seams between the parts of a block.
     open: Moments,
 }
 
@@ -115,6 +113,12 @@ struct Sample {
 struct Plane {
     value: f64,
     gradient: DVec3,
+}
+
+impl Plane {
+    fn at(&self, r: DVec3) -> f64 {
+        self.value + self.gradient.dot(r)
+    }
 }
 
 /// The faces of a block with closed joints, and the pressure at the rim of these.
@@ -140,15 +144,23 @@ impl<'a> Rim<'a> {
         if loads.is_empty() || parts.iter().any(sphere) {
             return None;
         }
-        let sides: Vec<Side<'_>> = loads
-            .iter()
-            .filter_map(|load| Side::of(load, &parts[load.face.part], pose, (others, cell)))
-            .collect();
+        let own: Vec<Placed> = parts.iter().map(|part| Placed::of(part, pose)).collect();
+        let side = |load: &'a FaceLoad| {
+            let part = &parts[load.face.part];
+            let own = own.iter().enumerate();
+            let rest = own.filter(|(n, _)| *n != load.face.part);
+            let rest: Vec<&Placed> = rest.map(|(_, part)| part).collect();
+            Side::of(load, part, pose, (others, &rest, cell))
+        };
+        let sides: Vec<Side<'_>> = loads.iter().filter_map(side).collect();
         let whole = sides.len() == loads.len();
         if !whole || !sides.iter().any(Side::is_closed) {
             return None;
         }
-        let plane = fit(&samples(&sides, (pose.centre, cell), weight))?;
+        let samples = samples(&sides, pose.centre, weight);
+        let dry = sides.iter().filter(|side| side.is_closed());
+        let dry = dry.flat_map(|side| side.corners.iter().map(|x| x - pose.centre));
+        let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
         let plane = Plane {
             gradient: plane.gradient + weight,
             ..plane
@@ -162,7 +174,7 @@ impl<'a> Rim<'a> {
 
     /// The pressure at a place of a joint, Pa.
     pub fn pressure(&self, x: DVec3) -> f64 {
-        self.plane.value + self.plane.gradient.dot(x - self.centre)
+        self.plane.at(x - self.centre)
     }
 
     /// Force (N) and torque (N m) on the wet faces and of the pressure of the rim on the dry ones.
@@ -209,7 +221,7 @@ impl<'a> Side<'a> {
         load: &'a FaceLoad,
         part: &Part,
         pose: &Pose,
-        (others, cell): (&[&Placed], f64),
+        (others, own, cell): (&[&Placed], &[&Placed], f64),
     ) -> Option<Self> {
         let Form::Convex(shape) = &part.form else {
             return None;
@@ -217,21 +229,24 @@ impl<'a> Side<'a> {
         let corners = corners(shape, load.face.face, part.offset, pose);
         let whole = Moments::of(&corners, pose.centre);
         let heights = HEIGHTS.map(|height| height * cell);
-        let under = others.iter().map(|other| {
-            let (corners, _) = covered(&corners, load.face.normal, other, heights);
-            Moments::of(&corners, pose.centre)
-        });
-        let closed = under.fold(Moments::ZERO, |sum, one| sum.plus(&one));
+        let under = |parts: &[&Placed]| {
+            let each = parts.iter().map(|other| {
+                let (corners, _) = covered(&corners, load.face.normal, other, heights);
+                Moments::of(&corners, pose.centre)
+            });
+            each.fold(Moments::ZERO, |sum, one| sum.plus(&one))
+        };
         // Where others lie over each other, or a gap is wet after all.
         let room = (whole.area - load.wetted).max(0.0);
-        let closed = closed.times((room / closed.area.max(f64::MIN_POSITIVE)).min(1.0));
+        let seams = under(own).within(room);
+        let closed = under(others).within(room - seams.area);
         if load.inside + closed.area < (1.0 - ROUGH) * whole.area {
             return None;
         }
         Some(Self {
             load,
             corners,
-            open: whole.plus(&closed.times(-1.0)),
+            open: whole.plus(&closed.plus(&seams).times(-1.0)),
             closed,
         })
     }
@@ -248,26 +263,19 @@ impl<'a> Side<'a> {
     }
 
     /// What its wet part shows, r from `centre`, of the pressure less that of the `weight` of the fluid (N/m³).
-    fn sample(&self, (centre, cell): (DVec3, f64), weight: DVec3) -> Sample {
+    fn sample(&self, centre: DVec3, weight: DVec3) -> Sample {
         let load = self.load;
         let normal = load.face.normal;
         let force = -load.force.dot(normal);
-        let wet = load.wetted / self.open.area;
-        let (over, first) = if (wet - 1.0).abs() < ROUGH {
-            // M = ∫ r × (τ − p n), r = h n + t: n × M = −∫ p t − h ∫ τ.
-            let height = (load.face.centre - centre).dot(normal);
-            let shear = load.force + force * normal;
-            let along = -normal.cross(load.moment) - height * shear;
-            // The sums are over the centres of cells, whose squares spread less than their area, by h²/12 each way.
-            let lost =
-                (DMat3::IDENTITY - outer(normal, normal)) * (load.wetted * cell * cell / 12.0);
-            let mut over = self.open.times(wet);
-            over.second -= lost;
-            (over, along + height * force * normal)
-        } else {
-            let middle = self.open.first / self.open.area;
-            (Moments::at(load.wetted, middle), force * middle)
+        // Of the forces at the feet of the cells about the mean of these: n × ∫ t × (τ − p n) = −∫ p t, t in the face.
+        let couple = load.moment - (load.acts_at() - centre).cross(load.force);
+        let foot = load.foot - centre;
+        let over = Moments {
+            area: load.wetted,
+            first: load.wetted * foot,
+            second: (load.spread + outer(foot, foot)) * load.wetted,
         };
+        let first = force * foot - normal.cross(couple);
         Sample {
             over,
             force: force - weight.dot(over.first),
@@ -286,8 +294,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Those of the wet faces, from the centroid and the size of a cell, at the rims of closed joints; of all where these have none.
-fn samples(sides: &[Side<'_>], grid: (DVec3, f64), weight: DVec3) -> Vec<Sample> {
+/// Those of the wet faces, r from `centre`, at the rims of closed joints; of all where these have none.
+fn samples(sides: &[Side<'_>], centre: DVec3, weight: DVec3) -> Vec<Sample> {
     let wet = |side: &&Side<'_>| side.load.wetted > SOME * side.load.face.area;
     let closed: Vec<_> = sides.iter().filter(|side| side.is_closed()).collect();
     let at_rim = |side: &&Side<'_>| {
@@ -295,7 +303,7 @@ fn samples(sides: &[Side<'_>], grid: (DVec3, f64), weight: DVec3) -> Vec<Sample>
             .iter()
             .any(|closed| std::ptr::eq(*closed, *side) || closed.meets(side))
     };
-    let sample = |side: &Side<'_>| side.sample(grid, weight);
+    let sample = |side: &Side<'_>| side.sample(centre, weight);
     let beside: Vec<_> = sides
         .iter()
         .filter(wet)
@@ -308,9 +316,9 @@ fn samples(sides: &[Side<'_>], grid: (DVec3, f64), weight: DVec3) -> Vec<Sample>
     }
 }
 
-/// The plane of least squares through pressures; level along directions along which there is but one place. None
-/// without any.
-fn fit(samples: &[Sample]) -> Option<Plane> {
+/// The plane of least squares through pressures in cells of `cell` m; level along directions along which there is but one
+/// place. None without any.
+fn fit(samples: &[Sample], cell: f64) -> Option<Plane> {
     let mut sum = Sample {
         over: Moments::ZERO,
         force: 0.0,
@@ -326,14 +334,48 @@ fn fit(samples: &[Sample]) -> Option<Plane> {
     }
     let middle = sum.over.first / sum.over.area;
     let spread = sum.over.second - outer(middle, middle) * sum.over.area;
-    let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
-    let slope = sum.first - sum.force * middle;
-    let gradient = match trace > 0.0 {
-        true => (spread + DMat3::IDENTITY * (FLAT * trace)).inverse() * slope,
-        false => DVec3::ZERO,
-    };
+    let flat = DMat3::IDENTITY * (FLAT * cell * cell * sum.over.area);
+    let gradient = (spread + flat).inverse() * (sum.first - sum.force * middle);
     Some(Plane {
         value: sum.force / sum.over.area - gradient.dot(middle),
         gradient,
     })
+}
+
+/// A plane made less steep about the middle of the samples where at some of `places` it would be beyond what it is at the
+/// edges of these: what is far from all of them is not known from slopes between neighbouring cells.
+fn limited(
+    plane: Plane,
+    (samples, cell): (&[Sample], f64),
+    places: impl Iterator<Item = DVec3>,
+) -> Plane {
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut middle, mut area) = (DVec3::ZERO, 0.0);
+    for Sample { over, .. } in samples {
+        let foot = over.first / over.area;
+        let spread = over.second * (1.0 / over.area) - outer(foot, foot);
+        let spread = spread + DMat3::IDENTITY * (cell * cell / 12.0);
+        // From the middle of a rectangle to its edges, along the gradient.
+        let reach = (3.0 * plane.gradient.dot(spread * plane.gradient)).max(0.0);
+        least = least.min(plane.at(foot) - reach.sqrt());
+        most = most.max(plane.at(foot) + reach.sqrt());
+        middle += over.first;
+        area += over.area;
+    }
+    let middle = middle / area;
+    let mean = plane.at(middle);
+    let share = places.fold(1.0_f64, |share, r| {
+        let more = plane.at(r) - mean;
+        let room = if more > 0.0 {
+            most - mean
+        } else {
+            mean - least
+        };
+        share.min(room / more.abs().max(f64::MIN_POSITIVE))
+    });
+    let gradient = share * plane.gradient;
+    Plane {
+        value: mean - gradient.dot(middle),
+        gradient,
+    }
 }

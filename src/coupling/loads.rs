@@ -1,7 +1,7 @@
 //! From what the fluid did to the solid in its cells to the load on a block.
 
 use crate::{
-    bodies::{Load, outer},
+    bodies::{Load, Period, outer},
     formula::Formula,
 };
 use glam::DVec3;
@@ -21,6 +21,8 @@ pub struct Ambient {
     pub acceleration: [Formula; 3],
     /// Gravity of the rock g, m/s².
     pub gravity: DVec3,
+    /// Where the fluid repeats; blocks go on in the coordinates of the world.
+    pub period: Option<Period>,
 }
 
 impl Ambient {
@@ -31,7 +33,10 @@ impl Ambient {
 
     /// The body force on the fluid at a place, ρ b, N/m³.
     pub fn weight(&self, place: DVec3) -> DVec3 {
-        let place = place.to_array();
+        let place = self
+            .period
+            .map_or(place, |period| period.within(place))
+            .to_array();
         let b = [0, 1, 2].map(|k| self.acceleration[k].eval_at(place, 0.0));
         self.density * DVec3::from_array(b)
     }

@@ -127,7 +127,11 @@ impl Stale {
                         }
                         None => rim.pressure(inside),
                     };
-                    now - self.pressure.at(inside.to_array())
+                    let start = match self.period {
+                        Some(period) => period.within(inside),
+                        None => inside,
+                    };
+                    now - self.pressure.at(start.to_array())
                 });
             }
         }
@@ -166,6 +170,7 @@ mod tests {
             density: 1000.0,
             acceleration: Default::default(),
             gravity: DVec3::ZERO,
+            period: None,
         };
         for (pose, push) in [
             (at(0.0, 2.0), 112.0),
@@ -188,6 +193,7 @@ mod tests {
                     },
                     inside: 16.0,
                     centre: pose.centre + 2.0 * normal,
+                    foot: pose.centre + 2.0 * normal,
                     wetted: if dry { 0.0 } else { 16.0 },
                     force: if dry { DVec3::ZERO } else { -160.0 * normal },
                     ..FaceLoad::default()

@@ -51,6 +51,7 @@ impl Wet {
                 density: scene.fluid.density,
                 acceleration: scene.fluid.acceleration.clone(),
                 gravity: DVec3::from(scene.rock.gravity),
+                period: stale.period,
             },
             stale,
             gathered: Gathered::default(),

@@ -3,10 +3,10 @@
 use super::{FACE_LOAD, Frame};
 use crate::{
     block::{Form, Part, Polyhedron},
-    bodies::Pose,
+    bodies::{Pose, outer},
     contact::clip,
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// A plane face of a block where it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,6 +40,11 @@ pub struct FaceLoad {
     pub force: DVec3,
     /// Moment of this force about the centroid of the block, N m.
     pub moment: DVec3,
+    /// Mean of the feet on the face of the centres of the cells from which this follows, m: on grids of few cells not
+    /// the centroid of what is wet.
+    pub foot: DVec3,
+    /// Mean of the squares of their places about that, m².
+    pub spread: DMat3,
     /// Mean height over the face of the centres of the cells from which this follows, m.
     pub height: f64,
     /// Number of these cells.
@@ -59,8 +64,23 @@ impl FaceLoad {
         (self.force - self.force.dot(normal) * normal) / self.wetted
     }
 
-    /// From what the device added up, [`FACE_LOAD`] numbers, and the corners of what of the face lies in the domain.
-    pub(super) fn new(frame: &Frame, face: PlaneFace, corners: &[DVec3], sums: &[f32]) -> Self {
+    /// Where on the face a force acts that has no moment beside that of the mean traction, m: the centroid of a face
+    /// that is wet all over, else the mean foot of the cells beside it.
+    pub fn acts_at(&self) -> DVec3 {
+        match self.wetted == self.inside {
+            true => self.centre,
+            false => self.foot,
+        }
+    }
+
+    /// From what the device added up, [`FACE_LOAD`] numbers, of a block with the centroid `block` (m), and the corners of
+    /// what of the face lies in the domain.
+    pub(super) fn new(
+        frame: &Frame,
+        (face, block): (PlaneFace, DVec3),
+        corners: &[DVec3],
+        sums: &[f32],
+    ) -> Self {
         let (centre, inside) = area_of(corners);
         let inside = inside.length();
         let at = |n: usize| f64::from(sums[n]);
@@ -74,20 +94,33 @@ impl FaceLoad {
                 ..Self::default()
             };
         }
-        let wetted = inside * cells / beside;
+        let wetted = inside * (cells / beside);
         let cell = frame.units.cell;
         // The traction of a cell acts on its share of the wetted area.
         let share = wetted / (cells * cell * cell);
-        Self {
+        let force = vector(0) * share * frame.units.force_from_lattice(1.0);
+        let moment = vector(3) * share * frame.units.torque_from_lattice(1.0);
+        let foot = vector(7) / cells * cell;
+        let [across, aside] = [vector(10), vector(13)].map(|sum| sum / cells * cell * cell);
+        let squares = DMat3::from_cols(
+            DVec3::new(across.x, aside.z, aside.y),
+            DVec3::new(aside.z, across.y, aside.x),
+            DVec3::new(aside.y, aside.x, across.z),
+        );
+        let mut load = Self {
             face,
             inside,
             centre,
             wetted,
-            force: vector(0) * share * frame.units.force_from_lattice(1.0),
-            moment: vector(3) * share * frame.units.torque_from_lattice(1.0),
+            force,
+            moment,
+            foot: block + foot,
+            spread: squares - outer(foot, foot),
             height: at(6) / cells * cell,
             cells: cells as u32,
-        }
+        };
+        load.moment += (load.acts_at() - load.foot).cross(force);
+        load
     }
 
     /// With the pressure that a body force of `weight` (N/m³) adds between the cells and the face: at a wall the
@@ -96,7 +129,7 @@ impl FaceLoad {
         let normal = self.face.normal;
         let force = weight.dot(normal) * self.height * self.wetted * normal;
         self.force += force;
-        self.moment += (self.centre - block).cross(force);
+        self.moment += (self.acts_at() - block).cross(force);
         self
     }
 }

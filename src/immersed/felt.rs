@@ -88,7 +88,8 @@ impl Immersed {
                     Form::Convex(of) => corners(of, face.face, part.offset, pose),
                     Form::Sphere { .. } => Vec::new(),
                 };
-                FaceLoad::new(&self.frame, face, &window.clipped(corners), sums)
+                let corners = window.clipped(corners);
+                FaceLoad::new(&self.frame, (face, pose.centre), &corners, sums)
             };
             loads[block] = its.zip(&mut sums).map(load).collect();
         }

@@ -19,9 +19,10 @@ pub const PLANES: usize = 9;
 pub const WRENCH: usize = 20;
 
 /// Numbers that the device adds up for each face that is asked for, over the layer of cells beside it: traction
-/// (3), its moment about the block's centroid (3), height of the cells' centres over the face, number of cells
-/// with fluid, number of cells.
-pub const FACE_LOAD: usize = 9;
+/// (3), its moment about the block's centroid (3), height of the cells' centres over the face, their feet on the face
+/// from that centroid (3) and the products of these (xx, yy, zz, yz, zx, xy), number of cells with fluid, number of
+/// cells.
+pub const FACE_LOAD: usize = 18;
 
 /// The part of one convex part of a block in one lane of one saturated brick.
 #[repr(C)]

@@ -14,11 +14,26 @@ const SAFETY: &str = r#"
     block = "stone"
     safety = true
 "#;
+/// Along the grid of half a metre.
 const SIZE: DVec3 = DVec3::new(8.0, 6.0, 5.0);
 
-/// A closed tank of 12 m an edge with water at rest under `acceleration`, a box on its bottom, and inside the box
+/// The block on the bottom of the tank.
+fn stone(size: DVec3, motion: &str) -> String {
+    format!(
+        r#"[[blocks]]
+        name = "stone"
+        kind = "box"
+        size = {:?}
+        position = [6, 6, {}]
+        motion = "{motion}""#,
+        size.to_array(),
+        0.5 * size.z
+    )
+}
+
+/// A closed tank of 12 m an edge with water at rest under `acceleration`, a block on its bottom, and inside of SIZE
 /// another pressure, higher by `stale` (Pa).
-fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, motion: &str) -> World {
+fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> World {
     let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
         .map(|face| format!("{face} = {{ kind = \"wall\" }}\n"))
         .concat();
@@ -34,18 +49,12 @@ fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, motion: &str) -> 
         [rock]
         gravity = {gravity:?}
         {SAFETY}
-        [[blocks]]
-        name = "stone"
-        kind = "box"
-        size = {:?}
-        position = [6, 6, 2.5]
-        motion = "{motion}""#,
+        {block}"#,
         fluid([24; 3], 0.1).replace(
             "viscosity",
             &format!("acceleration = {acceleration:?}\nviscosity")
         ),
         material("rock", 2650.0),
-        SIZE.to_array(),
     ));
     world.advance(400);
     world
@@ -60,7 +69,7 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     let volume = SIZE.element_product();
     for (acceleration, gravity) in [(heavy, heavy), (oblique, oblique), ([0.0; 3], heavy)] {
         for stale in [0.0, 40.0] {
-            let world = tank(acceleration, gravity, stale, "fixed");
+            let world = tank(acceleration, gravity, stale, &stone(SIZE, "fixed"));
             let coupled = world.sim.coupled().unwrap();
             let [force, torque] = coupled.with_closed_joints(0).unwrap();
             let exact = -DENSITY * volume * DVec3::from(gravity);
@@ -75,11 +84,59 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     }
 }
 
+/// Sides whose rows of cells do not fill them, and sides of one row, which know nothing of slopes: pressures are counted
+/// from the surface, so that those at the bottom are all far from 0.
+#[test]
+fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
+    let heavy = [0.0, 0.0, -0.01];
+    let sizes = [
+        DVec3::new(8.0, 6.0, 5.2),
+        DVec3::new(7.7, 5.6, 4.9),
+        DVec3::new(8.0, 6.0, 0.5),
+        DVec3::new(7.7, 5.6, 0.7),
+    ];
+    for size in sizes {
+        let world = tank(heavy, heavy, 0.0, &stone(size, "fixed"));
+        let coupled = world.sim.coupled().unwrap();
+        let [force, torque] = coupled.with_closed_joints(0).unwrap();
+        let exact = DENSITY * 0.01 * size.element_product();
+        // The head over the block, times its base.
+        let head = DENSITY * 0.01 * 12.0 * size.x * size.y;
+        println!("{size}: {force}, {torque}; {exact}, {head}");
+        assert!((force - DVec3::Z * exact).length() < 1e-5 * head);
+        assert!(torque.length() < 1e-5 * head * size.x);
+    }
+}
+
+/// Two boxes that make an L, whose seam is neither wet nor a joint.
+#[test]
+fn seams_of_a_compound_carry_nothing() {
+    let heavy = [0.0, 0.0, -0.01];
+    let compound = r#"[[blocks]]
+        name = "stone"
+        kind = "compound"
+        position = [6, 6, 0]
+        motion = "fixed"
+        parts = [
+            { kind = "box", size = [6, 4, 2], position = [0, 0, 1] },
+            { kind = "box", size = [2, 4, 3], position = [-2, 0, 3.5] },
+        ]"#;
+    let world = tank(heavy, heavy, 0.0, compound);
+    let coupled = world.sim.coupled().unwrap();
+    let [force, torque] = coupled.with_closed_joints(0).unwrap();
+    let volume = 48.0 + 24.0;
+    let exact = DVec3::Z * DENSITY * 0.01 * volume;
+    println!("{force}, {torque}; {exact}");
+    assert!((force - exact).length() < 1e-5 * exact.length());
+    // Archimedes' push goes through its centroid.
+    assert!(torque.length() < 1e-5 * exact.length() * 6.0, "{torque}");
+}
+
 /// A pressure inside that would lift it at 0.0028 m/s².
 #[test]
 fn what_was_inside_at_the_start_moves_no_block() {
     let heavy = [0.0, 0.0, -0.01];
-    let world = tank(heavy, heavy, 120.0, "free");
+    let world = tank(heavy, heavy, 120.0, &stone(SIZE, "free"));
     let centre = world.sim.coupled().unwrap().blocks().poses()[0].centre;
     let moved = (centre - DVec3::new(6.0, 6.0, 2.5)).length();
     // It sinks in by 0.8 mm for its weight, and twice that at first.

@@ -130,7 +130,16 @@ impl Case {
         let m = arm.cross(t);
         let along = |v: DVec3, size: f64| v.to_array().map(|x| (x, size));
         let [[a, b, c], [d, e, f]] = [along(t, t.length()), along(m, arm.length() * t.length())];
-        Some([a, b, c, d, e, f, (height, height), (1.0, 0.0), (1.0, 0.0)])
+        let mut all = [(1.0, 0.0); FACE_LOAD];
+        all[..6].copy_from_slice(&[a, b, c, d, e, f]);
+        all[6] = (height, height);
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            all[7 + k] = (arm[k], arm.length());
+            all[10 + k] = (arm[k] * arm[k], arm.length_squared());
+            all[13 + k] = (arm[i] * arm[j], arm.length_squared());
+        }
+        Some(all)
     }
 
     /// The same by the kernels.
@@ -205,7 +214,10 @@ fn check(case: &Case, width: Option<u32>) {
         }
     }
     // The narrow sides of a slab may have none.
-    let seen = expected.iter().filter(|sums| sums[8].0 > 0.0).count();
+    let seen = expected
+        .iter()
+        .filter(|sums| sums[FACE_LOAD - 1].0 > 0.0)
+        .count();
     assert!(2 * seen > expected.len(), "{seen} of {}", expected.len());
 }
 
@@ -246,7 +258,8 @@ fn the_layer_beside_a_face_has_its_area() {
             let across = [8.0, 6.0, 5.0];
             let along = (0..3).find(|a| face.normal[*a].abs() > 0.5).unwrap();
             let area = 240.0 / across[along];
-            let [height, fluid, cells] = [6, 7, 8].map(|k| f64::from(found[k]));
+            let [height, fluid, cells] =
+                [6, FACE_LOAD - 2, FACE_LOAD - 1].map(|k| f64::from(found[k]));
             assert_eq!(fluid, cells, "all is wet");
             // Feet within a tenth of a cell of the edges of 22 to 28 cells fall on either side.
             let most = if along_grid { 0.0 } else { 0.1 };

@@ -24,7 +24,7 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
 
 // By columns through all faces of the part.
 fn many_planes_volume(part: Part, r: vec3<f32>) -> f32 {
-    // Some adapters end loops after 65535 turns without a word: at most half of that up to 8192 faces.
+    // Some adapters end loops after 65535 turns without a word: these are at most 41000 for up to 8192 faces.
     let n = clamp(2u * u32(sqrt(f32(8192u / part.faces))), 2u, 8u);
     let axis = main_axis(r);
     var sum = 0.0;

@@ -87,7 +87,7 @@ impl Immersed {
         }
         let blocks: Vec<_> = order.iter().map(|&block| blocks[block].clone()).collect();
         let (mut first_part, mut first_face) = (vec![0], vec![0]);
-        let mut faces = 0;
+        let (mut faces, mut most) = (0, 0);
         for block in &blocks {
             for part in block.shape.parts() {
                 if let Form::Convex(shape) = &part.form {
@@ -101,6 +101,7 @@ impl Immersed {
                         });
                     }
                     faces += count;
+                    most = most.max(count);
                 }
                 first_face.push(faces);
             }
@@ -117,7 +118,7 @@ impl Immersed {
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
-            kernels: Kernels::new(device, lattice)?,
+            kernels: Kernels::new(device, lattice, most)?,
             frame,
             number,
             first_part,

@@ -47,6 +47,13 @@ impl Growing {
     }
 }
 
+/// Turns of the loops of `hull_share` for a part of so many faces: through all of them, and again for each column.
+fn turns(faces: u32) -> u64 {
+    let faces = u64::from(faces.max(1));
+    let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
+    faces + columns * (1 + columns * (1 + faces))
+}
+
 pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
@@ -86,6 +93,8 @@ const KERNELS: [(&str, Option<&str>); 5] = [
 /// Cells of tiles for each at an edge, of blocks of some ten cells: where there are more, an invocation of
 /// `voxelise_edges` does several.
 const CELLS_AN_EDGE: u64 = 16;
+/// Turns of all loops of an invocation together that every adapter does: some end them after 65 535 without a word.
+const TURNS: u64 = 60_000;
 /// A place in a list that is not used.
 const NOTHING: u32 = u32::MAX;
 /// Most workgroups that folding a dispatch of 2³² adds.
@@ -101,10 +110,13 @@ pub(super) struct Kernels {
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
     sum: TileSum,
+    /// Most cells that an invocation of `voxelise_edges` may do.
+    at_once: u64,
 }
 
 impl Kernels {
-    pub fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
+    /// For parts of at most `faces` faces.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
         // Barriers are slow where a CPU walks through the invocations of a workgroup.
         let sum = match device.adapter_info().device_type {
@@ -130,6 +142,7 @@ impl Kernels {
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
             sum,
+            at_once: (TURNS / turns(faces)).clamp(1, CELLS_AN_EDGE),
         };
         kernels.bind(device, lattice)?;
         Ok(kernels)
@@ -219,7 +232,7 @@ impl Kernels {
             }
         }
         let cells = tiles.len() as u64 * self.workgroup;
-        self.groups[1] = cells.div_ceil(64 * CELLS_AN_EDGE) as u32;
+        self.groups[1] = cells.div_ceil(64 * self.at_once) as u32;
         queue.write_buffer(self.buffer("edges"), 0, &[0; 4]);
     }
 
@@ -249,6 +262,17 @@ impl Kernels {
             .iter()
             .map(|growing| growing.buffer.size())
             .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TURNS, turns};
+    use crate::immersed::MOST_FACES;
+
+    #[test]
+    fn a_cell_of_any_part_takes_fewer_turns_than_there_are() {
+        assert!((1..=MOST_FACES).all(|faces| turns(faces) <= TURNS));
     }
 }
 

@@ -40,6 +40,46 @@ fn closed(nu: f64, water: bool) -> World {
     World::new(&text)
 }
 
+/// Smooth ones of a mesh of their own: nearly each cell is cut by dozens of faces, and work for thousands of turns.
+#[test]
+fn a_pebble_of_many_faces_displaces_its_volume() {
+    let rest =
+        "[rock]\ngravity = [0, 0, -0.01]\n[numerics]\ntime_step = 0.25\nvelocity_scale = 0.1\n";
+    for (faces, radius) in [(520, 2.6), (900, 2.1), (4000, 1.4)] {
+        // Normals on a spiral with the golden angle.
+        let normal = |k: u32| {
+            let z = 1.0 - f64::from(2 * k + 1) / f64::from(faces);
+            let (s, c) = (2.399963229728653 * f64::from(k)).sin_cos();
+            let rho = (1.0 - z * z).sqrt();
+            format!(
+                "{{ normal = [{}, {}, {z}], distance = {radius} }}",
+                rho * c,
+                rho * s
+            )
+        };
+        let planes: Vec<String> = (0..faces).map(normal).collect();
+        let text = format!(
+            r#"{}{}{rest}
+            [[blocks]]
+            name = "pebble"
+            kind = "half_spaces"
+            faces = [{}]
+            position = [4.1, 3.9, 4.05]
+            motion = "driven""#,
+            fluid([16; 3], 0.1),
+            material("rock", 2650.0),
+            planes.join(", ")
+        );
+        let mut world = World::new(&text);
+        world.advance(1);
+        let coupled = world.sim.coupled().unwrap();
+        let volume = coupled.blocks().mass(0) / 2650.0;
+        let found = world.felt(0).buoyancy.force.z / (DENSITY * 0.01);
+        println!("{faces} faces: {found} of {volume} m³");
+        assert!((found / volume - 1.0).abs() < 2e-3, "{found} of {volume}");
+    }
+}
+
 #[test]
 fn buoyancy_is_the_weight_of_the_water_at_any_viscosity() {
     let exact = DVec3::Z * DENSITY * 0.01 * 8.0 * 6.0 * 7.0;

@@ -13,7 +13,7 @@
 //!           ╲▁▁▁▁▁▁
 //! ```
 
-use super::{Coupled, Felt, over::covered};
+use super::{Coupled, Felt, over::covered, passed_on::Field};
 use crate::{
     block::{Form, Part, Shape},
     bodies::{Pose, outer},
@@ -121,6 +121,41 @@ impl Plane {
     }
 }
 
+/// The pressure of the water in the joints of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Uplift {
+    /// Where r is counted from, m.
+    centre: DVec3,
+    plane: Plane,
+}
+
+impl Uplift {
+    /// At a place (m), Pa.
+    pub fn at(&self, x: DVec3) -> f64 {
+        self.plane.at(x - self.centre)
+    }
+}
+
+impl Field for Uplift {
+    fn moved(self, way: DVec3) -> Self {
+        Self {
+            centre: self.centre + way,
+            ..self
+        }
+    }
+
+    fn mean(fields: &[Self]) -> Self {
+        let centre = fields[0].centre;
+        let share = 1.0 / fields.len() as f64;
+        let mut plane = Plane::default();
+        for field in fields {
+            plane.value += share * field.at(centre);
+            plane.gradient += share * field.plane.gradient;
+        }
+        Self { centre, plane }
+    }
+}
+
 /// The faces of a block with closed joints, and the pressure at the rim of these.
 pub(super) struct Rim<'a> {
     sides: Vec<Side<'a>>,
@@ -172,38 +207,57 @@ impl<'a> Rim<'a> {
         })
     }
 
-    /// The pressure at a place of a joint, Pa.
-    pub fn pressure(&self, x: DVec3) -> f64 {
-        self.plane.at(x - self.centre)
+    /// The pressure in the joints.
+    pub fn pressure(&self) -> Uplift {
+        Uplift {
+            centre: self.centre,
+            plane: self.plane,
+        }
     }
 
     /// Force (N) and torque (N m) on the wet faces and of the pressure of the rim on the dry ones.
     fn push(&self) -> [DVec3; 2] {
         let add = |[force, torque]: [DVec3; 2], side: &Side<'_>| {
-            let [push, turn] = side.dry(&self.plane);
+            let dry = side.dry(&self.plane);
             [
-                force + side.load.force + push,
-                torque + side.load.moment + turn,
+                force + side.load.force + dry.force,
+                torque + side.load.moment + dry.moment,
             ]
         };
         self.sides.iter().fold([DVec3::ZERO; 2], add)
     }
 }
 
+/// What the water in the closed joints of a face does to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointLoad {
+    /// Area without a cell of fluid beside it, m².
+    pub area: f64,
+    /// N; it has no shear.
+    pub force: DVec3,
+    /// Moment about the centroid of the block, N m.
+    pub moment: DVec3,
+}
+
 impl Coupled {
+    /// What the water in closed joints does to the faces of a block, in the order of [`Coupled::faces`]; none where
+    /// [`Coupled::with_closed_joints`] has none.
+    pub fn closed_joints(&self, block: usize) -> Vec<JointLoad> {
+        let load = |rim: Rim<'_>| {
+            let sides = rim.sides.iter();
+            sides.map(|side| side.dry(&rim.plane)).collect()
+        };
+        self.rim(block, load).unwrap_or_default()
+    }
+
     /// Force (N) and torque about its centroid (N m) of the fluid on a block with closed joints, buoyancy included:
     /// what its wet faces feel, and in the joints the pressure of their rim, linear between the faces beside it. None
     /// where no probe asks for the loads on faces, before the first exchange, of a block without closed joints or with
     /// spheres, and of one that sticks out of the domain.
     pub fn with_closed_joints(&self, block: usize) -> Option<[DVec3; 2]> {
+        let [force, torque] = self.rim(block, |rim| rim.push())?;
         let shape = &self.setup().setup.blocks[block].shape;
-        let pose = self.blocks().poses()[block];
-        let cell = self.immersed().frame().units.cell;
-        let weight = self.wet.ambient.weight(pose.centre);
-        let others = self.others(block, cell);
-        let others: Vec<&Placed> = others.iter().collect();
-        let rim = Rim::of(self.faces(block), shape, &pose, (&others, cell, weight))?;
-        let [force, torque] = rim.push();
+        let weight = self.wet.ambient.weight(self.blocks().poses()[block].centre);
         let Felt { buoyancy, .. } = self.felt()[block];
         // As in the load on a block: what the body force on the fluid in its place would be is not among the pressures
         // counted from the hydrostatic one.
@@ -212,6 +266,18 @@ impl Coupled {
             force + entrained + buoyancy.force,
             torque + buoyancy.torque(),
         ])
+    }
+
+    /// What follows from the rim of the joints of a block, if it has one.
+    fn rim<T>(&self, block: usize, of: impl FnOnce(Rim<'_>) -> T) -> Option<T> {
+        let shape = &self.setup().setup.blocks[block].shape;
+        let pose = self.blocks().poses()[block];
+        let cell = self.immersed().frame().units.cell;
+        let weight = self.wet.ambient.weight(pose.centre);
+        let others = self.others(block, cell);
+        let others: Vec<&Placed> = others.iter().collect();
+        let rim = Rim::of(self.faces(block), shape, &pose, (&others, cell, weight));
+        rim.map(of)
     }
 }
 
@@ -283,14 +349,18 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Force and torque of a pressure on what of it is dry.
-    fn dry(&self, pressure: &Plane) -> [DVec3; 2] {
+    /// What a pressure does to what of it is dry.
+    fn dry(&self, pressure: &Plane) -> JointLoad {
         let share = 1.0 - self.load.wetted / self.open.area.max(f64::MIN_POSITIVE);
         let over = self.closed.plus(&self.open.times(share.max(0.0)));
         let normal = self.load.face.normal;
         let force = pressure.value * over.area + pressure.gradient.dot(over.first);
         let first = pressure.value * over.first + over.second * pressure.gradient;
-        [-force * normal, normal.cross(first)]
+        JointLoad {
+            area: over.area,
+            force: -force * normal,
+            moment: normal.cross(first),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The pressure of the water around a block, continued into its closed joints.
 
+use super::passed_on::Field;
 use crate::bodies::outer;
 use glam::{DMat3, DVec3};
 
@@ -79,6 +80,34 @@ impl Head {
     }
 }
 
+impl Field for Head {
+    fn moved(self, way: DVec3) -> Self {
+        Self {
+            place: self.place + way,
+            ..self
+        }
+    }
+
+    fn mean(heads: &[Self]) -> Self {
+        let Self { place, weight, .. } = heads[0];
+        let share = 1.0 / heads.len() as f64;
+        let mut mean = Self {
+            place,
+            weight,
+            range: [f64::INFINITY, f64::NEG_INFINITY],
+            ..Self::default()
+        };
+        for head in heads {
+            let way = place - head.place;
+            mean.pressure += share * (head.pressure + (head.slope + weight).dot(way));
+            mean.slope += share * head.slope;
+            let [least, most] = head.range.map(|end| end + weight.dot(way));
+            mean.range = [mean.range[0].min(least), mean.range[1].max(most)];
+        }
+        mean
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,6 +149,22 @@ mod tests {
             Head::fit(&samples(&[DVec3::Z * 99.0], still), 4.0, weight),
             None
         );
+    }
+
+    #[test]
+    fn the_mean_of_still_water_is_the_same_water() {
+        let still = |x: DVec3| 100.0 - 10.0 * x.z;
+        let weight = DVec3::Z * -10.0;
+        let at = |x: f64, z: f64| {
+            let places = [DVec3::new(x, 0.0, z), DVec3::new(x + 1.0, 2.0, z + 3.0)];
+            Head::fit(&samples(&places, still), 4.0, weight).unwrap()
+        };
+        let aside = at(-7.0, 1.0).moved(DVec3::X * 7.0);
+        let mean = Head::mean(&[at(0.0, 0.0), at(5.0, -4.0), aside]);
+        for x in [DVec3::new(-3.0, 1.0, -2.0), DVec3::Z * 4.0] {
+            assert!((mean.at(x) - still(x)).abs() < 1e-9, "{}", mean.at(x));
+        }
+        assert_eq!(mean.at(DVec3::Z * 1e3), 0.0);
     }
 
     /// A dam, 60 across: between two levels, and to a dry toe; no farther than to the levels.

@@ -21,6 +21,7 @@ mod joints;
 mod loads;
 mod near;
 mod over;
+mod passed_on;
 mod reading;
 mod rim;
 mod rock;
@@ -29,6 +30,7 @@ mod stale;
 mod state;
 mod wet;
 
+pub use closed::JointLoad;
 pub use coupled::{Coupled, Exchanges};
 pub use fluid::{Fluid, Pace, run};
 pub use gaps::Gap;

@@ -3,6 +3,7 @@
 use super::{
     head::{Head, Sample},
     over::{Other, covered, others, press},
+    passed_on::passed_on,
     rim::rim,
 };
 use crate::{
@@ -24,7 +25,7 @@ const THIN: f64 = 0.25;
 /// Where blocks are less than a spacing apart no particle of water comes between them, and none pushes; up to two
 /// spacings what comes there pushes too little. Water does push: a joint carries the pressure that its rim has, between
 /// two levels falling linearly from one to the other, as dam engineers assume for uplift. It is that of the linear field
-/// over the rims of all joints of the two blocks ([`Head`]).
+/// over the rims of all joints of the two blocks ([`Head`]); of blocks that are all in joints it is that of those around.
 #[derive(Debug)]
 pub(crate) struct Sealed {
     shapes: Vec<Arc<Shape>>,
@@ -179,9 +180,17 @@ impl Sealed {
         let heads: Vec<_> = rims
             .map(|rim| Head::fit(rim, self.reach, self.weight))
             .collect();
+        let beside = closed.joints.iter();
+        let beside: Vec<_> = beside
+            .map(|joint| (joint.block, joint.other, joint.way))
+            .collect();
+        let inside = passed_on(&heads, |block| self.loaded[block], &beside);
         for joint in &closed.joints {
-            let pressure: Box<dyn Fn(DVec3) -> f64> = match (heads[joint.block], heads[joint.other])
-            {
+            let heads = match [joint.block, joint.other].map(|block| heads[block]) {
+                [None, None] => (inside[joint.block], inside[joint.other]),
+                [own, other] => (own, other),
+            };
+            let pressure: Box<dyn Fn(DVec3) -> f64> = match heads {
                 (None, None) => continue,
                 (Some(own), Some(other)) => {
                     Box::new(move |x| 0.5 * (own.at(x) + other.at(x - joint.way)))
@@ -329,6 +338,25 @@ mod tests {
             let both = found[0].force + found[1].force;
             assert!((both.z / 12e4 - 1.0).abs() < 0.05, "{gap}: {both}");
             assert!(both.x.abs() < 1e-6 * both.z, "{gap}: {both}");
+        }
+    }
+
+    /// Archimedes' push on every block inside of a mass of five by five by five, also on those that only others around them
+    /// touch, which have no rims.
+    #[test]
+    fn water_goes_through_the_joints_of_a_mass() {
+        let (mut poses, mut inside) = (Vec::new(), Vec::new());
+        for n in 0..125 {
+            let place = [n / 25, n / 5 % 5, n % 5];
+            let [x, y, z] = place.map(f64::from);
+            poses.push(at(x, y, 2.0 + z));
+            inside.push(place.iter().all(|k| (1..4).contains(k)));
+        }
+        let found = loads(vec![cuboid(1.0, 1.0, 1.0); 125], &poses, None, |_| 15.0);
+        let push = DVec3::Z * 1e4;
+        for (load, _) in found.iter().zip(&inside).filter(|(_, inside)| **inside) {
+            assert!((load.force - push).length() < 1.0, "{}", load.force);
+            assert!(load.torque().length() < 1.0, "{}", load.torque());
         }
     }
 

@@ -2,8 +2,9 @@
 
 use super::{
     Ambient,
-    closed::Rim,
+    closed::{Rim, Uplift},
     over::{Other, covered, others, press},
+    passed_on::{Field, passed_on},
 };
 use crate::{
     block::{Form, Shape},
@@ -35,7 +36,8 @@ pub(super) struct Stale {
 
 impl Stale {
     /// What is to be added to the loads on the blocks in the fluid, for loads on all faces of those that are followed, in
-    /// cells of `cell` m. Two that move share the mean of their rims.
+    /// cells of `cell` m. Two that move share the mean of their rims, or have that of the one that has any; what lies
+    /// inside a mass, without a rim, that of those around it.
     pub fn loads(
         &self,
         faces: &[Vec<FaceLoad>],
@@ -57,16 +59,21 @@ impl Stale {
         let rims = all.par_iter().enumerate().map(|(block, (around, faces))| {
             let parts: Vec<&Placed> = around.iter().map(|other| &other.part).collect();
             let weight = grid.1.weight(poses[block].centre);
-            Rim::of(
-                faces,
-                &self.shapes[block],
-                &poses[block],
-                (&parts, grid.0, weight),
-            )
+            let beside = (&parts[..], grid.0, weight);
+            let rim = Rim::of(faces, &self.shapes[block], &poses[block], beside);
+            rim.map(|rim| rim.pressure())
         });
-        let rims: Vec<_> = rims.collect();
+        let rims: Vec<Option<Uplift>> = rims.collect();
+        let beside = all.iter().enumerate().flat_map(|(block, (around, _))| {
+            let its = move |other: &&Other| self.closed[block].contains(&other.block);
+            let way = move |other: &Other| (block, other.block, other.way);
+            around.iter().filter(its).map(way)
+        });
+        let followed = beside.filter(|(_, other, _)| *other < all.len());
+        let beside: Vec<_> = followed.collect();
+        let inside = passed_on(&rims, |block| !all[block].1.is_empty(), &beside);
         let load = |(block, (around, faces)): (usize, &(Vec<Other>, &[FaceLoad]))| {
-            self.load(block, (around, faces), poses, (grid.0, &rims))
+            self.load(block, (around, faces), poses, (grid.0, [&rims, &inside]))
         };
         all.par_iter().enumerate().map(load).collect()
     }
@@ -76,12 +83,9 @@ impl Stale {
         block: usize,
         (around, faces): (&[Other], &[FaceLoad]),
         poses: &[Pose],
-        (cell, rims): (f64, &[Option<Rim<'_>>]),
+        (cell, [rims, inside]): (f64, [&[Option<Uplift>]; 2]),
     ) -> Load {
         let mut load = Load::default();
-        let Some(rim) = &rims[block] else {
-            return load;
-        };
         let (pose, shape) = (&poses[block], &self.shapes[block]);
         let heights = TOUCHES.map(|height| height * cell);
         for face in faces.iter().map(|load| load.face) {
@@ -117,21 +121,23 @@ impl Stale {
             // Blocks that overlap do not close it twice.
             let share = (area / closed.max(f64::MIN_POSITIVE)).min(1.0);
             for (other, (joint, _)) in &joints {
+                let of = |fields: &[Option<Uplift>]| {
+                    let theirs = fields.get(other.block).copied().flatten();
+                    let theirs = theirs.map(|uplift| uplift.moved(other.way));
+                    let both: Vec<_> = fields[block].into_iter().chain(theirs).collect();
+                    (!both.is_empty()).then(|| Uplift::mean(&both))
+                };
+                let Some(uplift) = of(rims).or_else(|| of(inside)) else {
+                    continue;
+                };
                 press(&mut load, joint, share * face.normal, pose.centre, |x| {
                     // Of the full cells, in whose centres they hold it; what these weigh counts in the load already.
-                    let inside = x - 0.5 * cell * face.normal;
-                    let theirs = rims.get(other.block).and_then(Option::as_ref);
-                    let now = match theirs {
-                        Some(theirs) => {
-                            0.5 * (rim.pressure(inside) + theirs.pressure(inside - other.way))
-                        }
-                        None => rim.pressure(inside),
-                    };
+                    let place = x - 0.5 * cell * face.normal;
                     let start = match self.period {
-                        Some(period) => period.within(inside),
-                        None => inside,
+                        Some(period) => period.within(place),
+                        None => place,
                     };
-                    now - self.pressure.at(start.to_array())
+                    uplift.at(place) - self.pressure.at(start.to_array())
                 });
             }
         }
@@ -142,8 +148,65 @@ impl Stale {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{block::Polyhedron, immersed::PlaneFace};
+    use crate::{
+        block::Polyhedron,
+        immersed::{PlaneFace, plane_faces},
+    };
     use glam::DQuat;
+
+    /// On the faces of a cube of 4 m an edge, 10 Pa where they are wet.
+    fn loads(cube: &Shape, pose: &Pose, wet: impl Fn(DVec3) -> bool) -> Vec<FaceLoad> {
+        let load = |face: PlaneFace| FaceLoad {
+            face,
+            inside: face.area,
+            centre: face.centre,
+            foot: face.centre,
+            wetted: if wet(face.normal) { face.area } else { 0.0 },
+            force: if wet(face.normal) {
+                -10.0 * face.area * face.normal
+            } else {
+                DVec3::ZERO
+            },
+            ..FaceLoad::default()
+        };
+        let faces = plane_faces(0, &cube.parts()[0], pose);
+        faces.into_iter().map(load).collect()
+    }
+
+    /// Three cubes in a row, only the first of which is wet: what its rim has more is in both joints, and nobody's
+    /// momentum comes from nowhere.
+    #[test]
+    fn blocks_without_a_rim_have_the_water_of_those_beside_them() {
+        let cube = Shape::from(Polyhedron::cuboid(DVec3::splat(4.0)).unwrap());
+        let row = [0.0, 4.0, 8.0].map(|x| {
+            let centre = DVec3::new(x, 0.0, 0.0);
+            Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+        });
+        let stale = Stale {
+            shapes: vec![Arc::new(cube.clone()); 3],
+            period: None,
+            start: row.to_vec(),
+            pressure: StartPressure::Linear {
+                zero: 3.0,
+                gradient: [0.0; 3],
+            },
+            closed: vec![vec![1], vec![0, 2], vec![1]],
+        };
+        let faces = [0, 1, 2].map(|n| loads(&cube, &row[n], |normal| n == 0 && normal.x < 0.5));
+        let ambient = Ambient {
+            density: 1000.0,
+            acceleration: Default::default(),
+            gravity: DVec3::ZERO,
+            period: None,
+        };
+        let found = stale.loads(&faces, &row, (0.5, &ambient));
+        for (load, push) in found.iter().zip([-112.0, 0.0, 112.0]) {
+            assert!(
+                (load.force - push * DVec3::X).length() < 1e-9,
+                "{push}: {load:?}"
+            );
+        }
+    }
 
     /// A cube of 4 m an edge on a floor, under 3 Pa at the start and between sides at 10 Pa now: the joint has 7 Pa more
     /// where it is still closed as it was, and nothing where another cube has come to lie on it.
@@ -177,29 +240,7 @@ mod tests {
             (at(1.0, 2.0), 84.0),
             (at(0.0, 3.0), 0.0),
         ] {
-            let Form::Convex(form) = &cube.parts()[0].form else {
-                unreachable!()
-            };
-            let faces = form.faces().iter().enumerate().map(|(n, face)| {
-                let dry = face.normal.z < -0.5;
-                let normal = face.normal;
-                FaceLoad {
-                    face: PlaneFace {
-                        part: 0,
-                        face: n,
-                        centre: pose.centre + 2.0 * normal,
-                        normal,
-                        area: 16.0,
-                    },
-                    inside: 16.0,
-                    centre: pose.centre + 2.0 * normal,
-                    foot: pose.centre + 2.0 * normal,
-                    wetted: if dry { 0.0 } else { 16.0 },
-                    force: if dry { DVec3::ZERO } else { -160.0 * normal },
-                    ..FaceLoad::default()
-                }
-            });
-            let faces: Vec<FaceLoad> = faces.collect();
+            let faces = loads(&cube, &pose, |normal| normal.z > -0.5);
             let above = at(pose.centre.x, pose.centre.z + 4.0);
             let load = stale.loads(&[faces], &[pose, below, above], (0.5, &ambient))[0];
             assert!(

@@ -78,10 +78,11 @@ pub enum ProbePlace {
         /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
         /// row a face, with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure`
         /// and `shear` stress (Pa), whether it is in a `joint` (another block, solid or wall within three cells
-        /// over it), `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
+        /// over it), `joint_area` (m²) of that where it is closed and `joint_pressure` (Pa) there, that of its rim,
+        /// `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
         /// the block (N m), and the vector of the shear stress; and `faces_*.vtp`. Adds to the table of the
         /// block `uplift_of_faces`, the force on faces that look down, against gravity (N), and
-        /// `joint_pressure`, the mean over its joints (Pa). Pressure is that of the fluid: above the
+        /// `joint_pressure`, the mean over its joints (Pa), both with what is closed. Pressure is that of the fluid: above the
         /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
         /// beside. Needs a fluid. Default false.
         #[schemars(default)]

@@ -36,7 +36,7 @@ const STRESSED: [&str; 8] = [
 ];
 
 /// What its faces show: the force of the fluid on those that look down, against gravity, and the mean pressure on those
-/// in joints.
+/// in joints, closed ones too.
 const OF_FACES: [&str; 2] = ["uplift_of_faces", "joint_pressure"];
 /// How safely it stands.
 const SAFETY: [&str; 3] = ["safety_sliding", "safety_uplift", "safety_toppling"];
@@ -141,13 +141,20 @@ fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
 fn measure_faces(coupled: &Coupled, block: usize, gravity: DVec3) -> [f64; 2] {
     let up = -gravity.normalize_or_zero();
     let loads = coupled.faces(block);
-    let down = loads.iter().filter(|load| load.face.normal.dot(up) < 0.0);
-    let joints = loads.iter().zip(coupled.joints(block));
-    let wet = joints.filter(|(load, joint)| *joint && load.wetted > 0.0);
-    let (force, area) = wet.fold((0.0, 0.0), |(force, area), (load, _)| {
-        (force + load.pressure() * load.wetted, area + load.wetted)
-    });
-    [down.map(|load| load.force.dot(up)).sum(), force / area]
+    let closed = coupled.closed_joints(block);
+    let (mut uplift, mut force, mut area) = (0.0, 0.0, 0.0);
+    for (number, (load, joint)) in loads.iter().zip(coupled.joints(block)).enumerate() {
+        let closed = closed.get(number).copied().unwrap_or_default();
+        let (normal, all) = (load.face.normal, load.force + closed.force);
+        if normal.dot(up) < 0.0 {
+            uplift += all.dot(up);
+        }
+        if joint {
+            force -= all.dot(normal);
+            area += load.wetted + closed.area;
+        }
+    }
+    [uplift, force / area]
 }
 
 /// How a block stands: in its closed joints is the water that is at their rim.

@@ -7,11 +7,11 @@ use super::super::{
     schedule::Schedule,
 };
 use anyhow::Result;
-use riprap::{immersed::FaceLoad, output::Csv, scene::Probe};
+use riprap::{coupling::JointLoad, immersed::FaceLoad, output::Csv, scene::Probe};
 use std::path::{Path, PathBuf};
 
 /// Numbers of a face that are no vectors.
-const SCALARS: [&str; 7] = [
+const SCALARS: [&str; 9] = [
     "part",
     "face",
     "area",
@@ -19,6 +19,8 @@ const SCALARS: [&str; 7] = [
     "pressure",
     "shear",
     "joint",
+    "joint_area",
+    "joint_pressure",
 ];
 /// Its vectors.
 const VECTORS: [&str; 5] = ["position", "normal", "force", "moment", "shear"];
@@ -51,8 +53,8 @@ impl FaceTable {
     }
 }
 
-/// A row of the table.
-fn row(load: &FaceLoad, joint: bool) -> Vec<f64> {
+/// A row of the table; a face has a closed joint, or not.
+fn row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Vec<f64> {
     let face = &load.face;
     let shear = load.shear();
     let mut row = vec![
@@ -63,6 +65,10 @@ fn row(load: &FaceLoad, joint: bool) -> Vec<f64> {
         load.pressure(),
         shear.length(),
         f64::from(u8::from(joint)),
+        closed.map_or(0.0, |closed| closed.area),
+        closed.map_or(f64::NAN, |closed| {
+            -closed.force.dot(face.normal) / closed.area
+        }),
     ];
     let vectors = [face.centre, face.normal, load.force, load.moment, shear];
     row.extend(vectors.iter().flat_map(|vector| vector.to_array()));
@@ -80,8 +86,11 @@ impl<E: Engine> Recorder<E> for FaceTable {
             return Ok(());
         };
         let loads = coupled.faces(self.block).iter();
-        for (load, joint) in loads.zip(coupled.joints(self.block)) {
-            self.table.append(rock.step, rock.time, &row(load, joint))?;
+        let closed = coupled.closed_joints(self.block);
+        let joints = loads.zip(coupled.joints(self.block));
+        for (number, (load, joint)) in joints.enumerate() {
+            let row = row(load, joint, closed.get(number));
+            self.table.append(rock.step, rock.time, &row)?;
         }
         notes.file(self.path.clone());
         Ok(())

@@ -453,6 +453,8 @@ impl Particles {
         self.clock = Clock {
             limit: state.limit,
             escaped: state.escaped,
+            // Nobody meets those that had left.
+            missed: state.escaped,
             ..Clock::default()
         };
         self.steps = state.steps;

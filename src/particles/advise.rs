@@ -7,7 +7,7 @@ use crate::{
     bodies::{Blocks, Motion},
     broadphase::HostBroadphase,
     coupling::{Gap, gaps},
-    scene::{Advice, Particles, ProbePlace, Scene, Warning},
+    scene::{Advice, ProbePlace, Scene, Warning},
     simulation::BlockSetup,
 };
 use glam::DVec3;
@@ -178,10 +178,7 @@ fn fast(
     positions: &[DVec3],
     warn: &mut impl FnMut(String, String),
 ) {
-    let usual = match setup.scheme {
-        Scheme::Delta => setup.sound_speed / Particles::SOUND,
-        Scheme::Mueller { .. } => setup.sound_speed / Particles::STIFFNESS.sqrt(),
-    };
+    let usual = setup.largest_speed();
     let length = scene.run.duration.unwrap_or(0.0);
     let speeds = Speeds::new(positions, setup.spacing, setup.gravity, length);
     let still = speeds.of_water() / std::f64::consts::SQRT_2;

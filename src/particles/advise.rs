@@ -8,7 +8,7 @@ use crate::{
     broadphase::HostBroadphase,
     coupling::{Gap, gaps},
     scene::{Advice, ProbePlace, Scene, Warning},
-    simulation::BlockSetup,
+    simulation::{BlockSetup, scene_step},
 };
 use glam::DVec3;
 
@@ -179,8 +179,8 @@ fn fast(
     warn: &mut impl FnMut(String, String),
 ) {
     let usual = setup.largest_speed();
-    let length = scene.run.duration.unwrap_or(0.0);
-    let speeds = Speeds::new(positions, setup.spacing, setup.gravity, length);
+    let length = scene.run.length(scene_step(scene, setup.acoustic_step()));
+    let speeds = Speeds::new(positions, setup.spacing, setup.gravity).over(length);
     let still = speeds.of_water() / std::f64::consts::SQRT_2;
     if setup.scheme == Scheme::Delta && still > DEEP * usual {
         let denser = (still / setup.sound_speed).powi(2);

@@ -34,6 +34,7 @@ mod solid;
 mod sorting;
 mod speeds;
 mod sphere;
+mod standing;
 mod state;
 mod totals;
 mod water;

@@ -18,6 +18,8 @@ pub(super) struct Speeds {
     /// Work of gravity on a unit of mass from the origin to the top and to the bottom of the water, m²/s².
     top: f64,
     bottom: f64,
+    /// The same over half a spacing of water, which is above the highest particle and below the lowest, m²/s².
+    half: f64,
     /// Length of the run, s.
     length: f64,
 }
@@ -28,12 +30,12 @@ impl Speeds {
         let depths = positions.iter().map(|x| x.dot(gravity));
         let nothing = (f64::INFINITY, f64::NEG_INFINITY);
         let (low, high) = depths.fold(nothing, |(low, high), at| (low.min(at), high.max(at)));
-        // Half a spacing of water is above the highest particle and below the lowest.
         let half = 0.5 * spacing * gravity.length();
         Self {
             gravity,
             top: low - half,
             bottom: high + half,
+            half,
             length: 0.0,
         }
     }
@@ -48,10 +50,14 @@ impl Speeds {
         (2.0 * (self.bottom - self.top).max(0.0)).sqrt()
     }
 
-    /// The largest of water that starts so, m/s.
+    /// The largest of water that starts so, m/s: after a fall from where it is to its bottom.
     pub fn of_start(&self, start: &Start) -> f64 {
-        let speeds = start.velocities.iter().map(|v| v.length());
-        speeds.fold(self.of_water(), f64::max)
+        let fallen = |(x, v): (&DVec3, &DVec3)| {
+            let top = x.dot(self.gravity) - self.half;
+            (v.length_squared() + 2.0 * (self.bottom - top).max(0.0)).sqrt()
+        };
+        let all = start.positions.iter().zip(&start.velocities);
+        all.map(fallen).fold(self.of_water(), f64::max)
     }
 
     /// The largest of a block, m/s: as it is driven, or where it is free, after a fall from where it is to the bottom

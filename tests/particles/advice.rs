@@ -140,6 +140,11 @@ fn the_speed_of_sound_is_that_of_what_falls_to_the_bottom_of_the_water() {
     let expected = 10.0 * (9.0 + 2.0 * 9.81 * 0.8f64).sqrt();
     let falls = sound(&tank(&falls).unwrap());
     assert!((falls - expected).abs() < 1e-9, "{falls}");
+    // So does water.
+    let jet = "[[water]]\nkind = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [1, 0.5, 0.8]\nvelocity = [5, 0, 0]\n";
+    let expected = 10.0 * (25.0 + 2.0 * 9.81 * 0.9f64).sqrt();
+    let jet = sound(&tank(jet).unwrap());
+    assert!((jet - expected).abs() < 1e-9, "{jet}");
     // Nothing moves, so nothing is known.
     let mut still = tank("").unwrap();
     still.fluid.acceleration = [0.0; 3].map(riprap::formula::Formula::from);

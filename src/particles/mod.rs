@@ -23,6 +23,7 @@ mod kernel;
 mod kernels;
 mod lattice;
 mod layout;
+mod loads;
 mod near;
 #[allow(clippy::module_inception)]
 mod particles;

@@ -108,6 +108,7 @@ impl Particles {
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
         let (hulls, planes) = hulls::hulls(&setup, &frame, &order);
+        hulls::check(device, &hulls)?;
         let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {

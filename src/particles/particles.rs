@@ -495,6 +495,11 @@ impl Particles {
         self.clock.escaped
     }
 
+    /// The highest speed of the water at the end of any step since the start or the restart, m/s.
+    pub fn fastest(&self) -> f64 {
+        f64::from(self.clock.fastest) * self.frame.sound_speed()
+    }
+
     /// Steps of the water since the start.
     pub fn steps(&self) -> u64 {
         self.steps

@@ -88,6 +88,38 @@ fn the_report_for_people_has_the_same_facts() {
     }
 }
 
+/// Its speed of sound is √5 of the largest speed.
+#[test]
+fn the_published_scheme_of_particles_has_its_own_sound() {
+    let text = r#"
+    [domain]
+    size = [1.2, 1, 1.2]
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [particles]
+    spacing = 0.1
+    plane = true
+    scheme = "mueller"
+    [[water]]
+    kind = "box"
+    size = [1.2, 1, 0.8]
+    position = [0.6, 0.5, 0.4]
+    [boundaries]
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [run]
+    steps = 1
+"#;
+    let file = format!("{}/check_mueller.toml", env!("CARGO_TARGET_TMPDIR"));
+    std::fs::write(&file, text).unwrap();
+    let report = json(&["check", &file, "--json"]);
+    let number = |key: &str| report[key].as_f64().unwrap();
+    let largest = (2.0 * 9.81 * 0.8f64).sqrt();
+    assert!((number("largest_speed") / largest - 1.0).abs() < 1e-9);
+    assert!((number("sound_speed") / (5.0f64.sqrt() * largest) - 1.0).abs() < 1e-9);
+    assert!((number("mach") * 5.0f64.sqrt() - 1.0).abs() < 1e-9);
+}
+
 #[test]
 fn adapters_are_listed_with_the_default_first() {
     let all = json(&["adapters", "--json"]);

@@ -39,6 +39,30 @@ const CHANNEL: &str = r#"
     count = 5
 "#;
 
+/// A tank of water, 24 × 16 particles.
+const WATER: &str = r#"
+    [domain]
+    size = [1.2, 1, 1.2]
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [particles]
+    spacing = 0.05
+    plane = true
+    [boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [[water]]
+    kind = "box"
+    size = [1.2, 1, 0.8]
+    position = [0.6, 0.5, 0.4]
+    [run]
+    steps = 8
+    [[output.histories]]
+    quantities = ["mass", "potential_energy"]
+"#;
+
 fn estimated(folder: &Path, text: &str) -> Estimate {
     let args = Args {
         error_estimate: true,
@@ -140,31 +164,28 @@ fn dry_blocks_are_compared_with_steps_twice_as_long() {
 
 #[test]
 fn water_is_compared_with_particles_twice_as_far_apart() {
-    let text = r#"
-        [domain]
-        size = [1.2, 1, 1.2]
-        [fluid]
-        acceleration = [0, 0, -9.81]
-        [particles]
-        spacing = 0.05
-        plane = true
-        [boundaries]
-        x_min = { kind = "wall" }
-        x_max = { kind = "wall" }
-        z_min = { kind = "wall" }
-        z_max = { kind = "open" }
-        [[water]]
-        kind = "box"
-        size = [1.2, 1, 0.8]
-        position = [0.6, 0.5, 0.4]
-        [run]
-        steps = 8
-        [[output.histories]]
-        quantities = ["mass", "potential_energy"]
-    "#;
-    let estimate = estimated(&folder("estimate_water"), text);
+    let estimate = estimated(&folder("estimate_water"), WATER);
     assert_eq!(estimate.resolution, "particles 0.1 m apart");
     assert!(find(&estimate, "history", "mass").relative.unwrap() < 1e-6);
+}
+
+/// Steps of a scene divide the intervals of its outputs, at half the resolution into other numbers.
+#[test]
+fn both_runs_of_water_end_together() {
+    let folder = folder("estimate_end");
+    let text = WATER.replace(
+        "\"potential_energy\"]",
+        "\"potential_energy\"]\n        every = 0.05",
+    );
+    let estimate = estimated(&folder, &text);
+    let end = |folder: &Path| {
+        let table = riprap::output::Table::read(folder.join("history.csv")).unwrap();
+        *table.column("time").unwrap().last().unwrap()
+    };
+    let ends = [&folder.join("out"), &estimate.folder].map(|folder| end(folder));
+    // Three steps an interval.
+    assert!((ends[0] - 8.0 * 0.05 / 3.0).abs() < 1e-9, "{ends:?}");
+    assert!((ends[0] - ends[1]).abs() < 1e-9, "{ends:?}");
 }
 
 #[test]

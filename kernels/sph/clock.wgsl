@@ -31,4 +31,6 @@ struct Clock {
     missed: u32,
     // Steps since the start of the exchange that sorted.
     sorts: u32,
+    // The highest speed at the end of any step since the start.
+    fastest: f32,
 }

@@ -16,4 +16,5 @@ struct ClockShared {
     body_speed: f32,
     missed: u32,
     sorts: u32,
+    fastest: f32,
 }

@@ -3,6 +3,10 @@
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
+// The first hull of each body, and one more.
+@group(0) @binding(9) var<storage, read> hull_starts: array<u32>;
+// The first of the particles, and one more than the last: all of them may want more turns than an invocation has.
+@group(0) @binding(10) var<uniform> range: vec2<u32>;
 
 @compute @workgroup_size(64)
 fn mueller_load(
@@ -13,16 +17,15 @@ fn mueller_load(
     let body = group.x + group.y * groups.x;
     if (is_loaded(body) && clock.step != 0.0) {
         let motion = motions[body];
-        for (var n = local; n < arrayLength(&particles); n += 64u) {
+        let end = hull_starts[body + 1u];
+        for (var n = range.x + local; n < range.y; n += 64u) {
             let here = particles[n];
             if (here.at.x < 0) {
                 continue;
             }
             var f = vec3(0.0);
-            for (var k = 0u; k < arrayLength(&hulls); k++) {
-                if (hulls[k].body == body) {
-                    f -= penalty(hulls[k], here.at, here.velocity, clock.elapsed);
-                }
+            for (var k = hull_starts[body]; k < end; k++) {
+                f -= penalty(hulls[k], here.at, here.velocity, clock.elapsed);
             }
             let away = between(here.at, wrapped(motion.centre));
             add_force(f, away - clock.elapsed * motion.velocity);

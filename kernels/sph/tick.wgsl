@@ -16,6 +16,7 @@ fn tick() {
     clock.sorts += clock.stale;
     clock.limit = limits[0].w;
     let speed = length(limits[0].xyz);
+    clock.fastest = max(clock.fastest, speed);
     let travel = clock.travel + clock.step * (speed + max(speed, clock.body_speed));
     let stale = travel > SKIN || clock.escaped != clock.missed;
     clock.missed = clock.escaped;

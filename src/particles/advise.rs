@@ -7,8 +7,8 @@ use crate::{
     bodies::{Blocks, Motion},
     broadphase::HostBroadphase,
     coupling::{Gap, gaps},
-    scene::{Advice, Particles, ProbePlace, Scene, Warning},
-    simulation::BlockSetup,
+    scene::{Advice, ProbePlace, Scene, Warning},
+    simulation::{BlockSetup, scene_step},
 };
 use glam::DVec3;
 
@@ -178,12 +178,9 @@ fn fast(
     positions: &[DVec3],
     warn: &mut impl FnMut(String, String),
 ) {
-    let usual = match setup.scheme {
-        Scheme::Delta => setup.sound_speed / Particles::SOUND,
-        Scheme::Mueller { .. } => setup.sound_speed / Particles::STIFFNESS.sqrt(),
-    };
-    let length = scene.run.duration.unwrap_or(0.0);
-    let speeds = Speeds::new(positions, setup.spacing, setup.gravity, length);
+    let usual = setup.largest_speed();
+    let length = scene.run.length(scene_step(scene, setup.acoustic_step()));
+    let speeds = Speeds::new(positions, setup.spacing, setup.gravity).over(length);
     let still = speeds.of_water() / std::f64::consts::SQRT_2;
     if setup.scheme == Scheme::Delta && still > DEEP * usual {
         let denser = (still / setup.sound_speed).powi(2);

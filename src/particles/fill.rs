@@ -1,6 +1,6 @@
 //! Particles of the fluid at the start.
 
-use super::{crowd::NEAREST, lattice::Lattice, placed::Placed};
+use super::{crowd::NEAREST, lattice::Lattice, placed::Placed, standing::Standing};
 use crate::{
     Error, Result,
     block::Shape,
@@ -26,7 +26,8 @@ pub struct Start {
     pub positions: Vec<DVec3>,
     /// Velocities, m/s.
     pub velocities: Vec<DVec3>,
-    /// Pressures, Pa: that of their depth below the top of their body of water, 0 in one that falls freely.
+    /// Pressures, Pa: that of their depth below the top of their body of water, or of what stands on it there; 0 in one
+    /// that falls freely.
     pub pressures: Vec<f64>,
 }
 
@@ -79,6 +80,7 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
         .collect();
     let gravity = gravity(scene);
     let mut start = Start::default();
+    let mut filled = Vec::with_capacity(waters.len());
     for (index, water) in waters.iter().enumerate() {
         let key = format!("water[{index}]");
         check_place(&key, water, &lattice)?;
@@ -104,15 +106,21 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
         // What lies on the face between two bodies is in the first.
         points.retain(|x| deepest(x) < 0.0);
         check_open(scene, &key, &points, &lattice, gravity)?;
-        start
-            .pressures
-            .extend(pressures(scene, &points, &solids, &lattice, gravity));
         let velocity = DVec3::from(scene.water[index].velocity);
         start
             .velocities
             .extend(std::iter::repeat_n(velocity, points.len()));
-        start.positions.extend(points);
+        filled.push(points);
     }
+    let standing = Standing {
+        points: &filled,
+        waters: &waters,
+        solids: &solids,
+        spacing: lattice.spacing,
+        weight: scene.fluid.density * gravity,
+    };
+    start.pressures = standing.pressures();
+    start.positions = filled.concat();
     Ok(start)
 }
 
@@ -241,27 +249,4 @@ fn check_open(
         }
     }
     Ok(())
-}
-
-/// Pressures below the top of a body of water that stands on something, Pa.
-fn pressures(
-    scene: &Scene,
-    points: &[DVec3],
-    solids: &[Placed<'_>],
-    lattice: &Lattice,
-    gravity: DVec3,
-) -> Vec<f64> {
-    let down = gravity.normalize_or_zero();
-    let below = |x: &DVec3| {
-        let foot = *x + down * lattice.spacing;
-        solids.iter().any(|solid| solid.depth(foot) >= 0.0)
-    };
-    if down == DVec3::ZERO || !points.iter().any(below) {
-        return vec![0.0; points.len()];
-    }
-    let heights = points.iter().map(|x| -down.dot(*x));
-    let top = heights.fold(f64::NEG_INFINITY, f64::max) + 0.5 * lattice.spacing;
-    let weight = scene.fluid.density * gravity.length();
-    let depth = |x: &DVec3| top + down.dot(*x);
-    points.iter().map(|x| weight * depth(x)).collect()
 }

@@ -8,9 +8,12 @@ use crate::{
     Error, Result,
     bodies::{Block, Motion},
     scene::{self, Boundary, Face, ProbePlace, Scene},
-    simulation::BlockSetup,
+    simulation::{BlockSetup, scene_step},
 };
 use glam::DVec3;
+
+/// How often the range is halved in which the length of a run lies: to a millionth of it.
+const HALVINGS: u32 = 20;
 
 /// The particles of a scene at the time 0, beside the walls and blocks of `blocks`.
 ///
@@ -65,24 +68,14 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     let gravity = DVec3::from_array(
         [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0)),
     );
-    let length = scene.run.duration.unwrap_or(0.0);
-    let speeds = Speeds::new(&start.positions, particles.spacing, gravity, length);
-    let fastest = largest_speed(scene, blocks, &start, &speeds);
-    let sound_speed = match particles.scheme {
-        scene::Scheme::Delta => scene::Particles::SOUND * fastest,
-        scene::Scheme::Mueller => {
-            let usual = scene::Particles::STIFFNESS * fastest.powi(2);
-            particles.stiffness.unwrap_or(usual).sqrt()
-        }
-    };
-    check(&blocks.setup.blocks, &speeds, sound_speed)?;
     let mut setup = Setup {
         origin: DVec3::from(scene.domain.origin),
         size: DVec3::from(scene.domain.size),
         faces: sides,
         spacing: particles.spacing,
         smoothing: particles.smoothing,
-        sound_speed,
+        // See below.
+        sound_speed: 0.0,
         density: scene.fluid.density,
         gravity,
         laminar_viscosity: match particles.scheme {
@@ -101,6 +94,24 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         neighbours: Neighbours::Cells,
         bodies: bodies.collect(),
     };
+    let speeds = Speeds::new(&start.positions, particles.spacing, gravity);
+    let of_water = speeds.of_start(&start);
+    let sound_speed = |length: f64| {
+        let fastest = largest_speed(particles, all, of_water, &speeds.over(length));
+        match particles.scheme {
+            scene::Scheme::Delta => scene::Particles::SOUND * fastest,
+            scene::Scheme::Mueller => {
+                let usual = scene::Particles::STIFFNESS * fastest.powi(2);
+                particles.stiffness.unwrap_or(usual).sqrt()
+            }
+        }
+    };
+    let length = length(&scene.run, |length| {
+        setup.sound_speed = sound_speed(length);
+        scene_step(scene, setup.acoustic_step())
+    });
+    setup.sound_speed = sound_speed(length);
+    check(all, &speeds.over(length), setup.sound_speed)?;
     if particles.scheme == scene::Scheme::Mueller {
         let viscosity = match scene.fluid.viscosity {
             0.0 => setup.viscosity(),
@@ -158,19 +169,39 @@ fn own(
     shells
 }
 
-/// The largest speed that is expected, m/s: what the scene says, or that of a fall through the height of all
-/// water, or of what moves at the start, is driven or falls.
-fn largest_speed(scene: &Scene, blocks: &BlockSetup, start: &Start, speeds: &Speeds) -> f64 {
-    if let Some(given) = scene
-        .particles
-        .as_ref()
-        .and_then(|particles| particles.largest_speed)
-    {
-        return given;
+/// Length of a run, s, whose steps are as long as `step` has them (s) with the sound of a run so long (s). The longer it is,
+/// the faster driven blocks may become by its end, and the shorter are its steps.
+fn length(run: &scene::Run, mut step: impl FnMut(f64) -> f64) -> f64 {
+    if let Some(duration) = run.duration {
+        return duration;
     }
-    let water = start.velocities.iter().map(|v| v.length());
-    let blocks = blocks.setup.blocks.iter().map(|block| speeds.of(block));
-    water.chain(blocks).fold(speeds.of_water(), f64::max)
+    let mut lasts = |length| run.length(step(length));
+    let (mut low, mut high) = (0.0, lasts(0.0));
+    if !high.is_finite() {
+        // Nothing moves yet, and sound has no speed.
+        return 0.0;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if lasts(middle) > middle {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+/// The largest speed that is expected, m/s: what the scene says, or that of the water (m/s), or of what is driven or falls.
+fn largest_speed(
+    particles: &scene::Particles,
+    blocks: &[Block],
+    of_water: f64,
+    speeds: &Speeds,
+) -> f64 {
+    let blocks = blocks.iter().map(|block| speeds.of(block));
+    let expected = || blocks.fold(of_water, f64::max);
+    particles.largest_speed.unwrap_or_else(expected)
 }
 
 /// Water can make way for all that is driven.

@@ -3,6 +3,7 @@
 use super::{
     Clock, Frame, Home, Hull, Motion, Neighbours, Scheme, Setup,
     asked::Asked,
+    loads::{Loads, starts},
     near::{Names, Near, shell_room, usual_room},
     program,
     sorting::{Sorted, Sorting},
@@ -53,7 +54,7 @@ pub(super) struct Kernels {
     near_shell: Near,
     /// The gate that lists must pass, if there are any.
     admit: Option<(Kernel, wgpu::BindGroup)>,
-    load: (Kernel, wgpu::BindGroup),
+    load: Loads,
     pub asked: Asked,
     /// `keep_out`, where walls are shells.
     keep_out: Option<(Kernel, wgpu::BindGroup)>,
@@ -101,6 +102,9 @@ impl Kernels {
         let plane_buffer = buffer("faces of hulls", planes.len() as u32, 16)?;
         queue.write_buffer(&hull_buffer, 0, bytemuck::cast_slice(hulls));
         queue.write_buffer(&plane_buffer, 0, bytemuck::cast_slice(planes));
+        let hull_starts = buffer("hulls of bodies", numbers.bodies + 1, 4)?;
+        let of_bodies = starts(hulls, numbers.bodies);
+        queue.write_buffer(&hull_starts, 0, bytemuck::cast_slice(&of_bodies));
         let constants = program::constants(setup, frame);
         let kernel = |name: &str| {
             let linked = program::program(setup, frame, name).link()?;
@@ -120,6 +124,7 @@ impl Kernels {
             ("forces", &forces),
             ("loads", &loads),
             ("hulls", &hull_buffer),
+            ("hull_starts", &hull_starts),
             ("planes", &plane_buffer),
             ("shelter", &shelter),
             ("clinging", &clinging),
@@ -131,8 +136,17 @@ impl Kernels {
             Ok::<_, crate::Error>((kernel, bind))
         };
         let (of_water, load, last) = match setup.scheme {
-            Scheme::Delta => (OF_DELTA, "body_load", None),
-            Scheme::Mueller { .. } => (OF_MUELLER, "mueller_load", Some("mueller_drift")),
+            Scheme::Delta => {
+                let kernel = kernel("body_load")?;
+                let load = Loads::of_shells(device, kernel, &buffers)?;
+                (OF_DELTA, load, None)
+            }
+            Scheme::Mueller { .. } => {
+                let kernel = kernel("mueller_load")?;
+                let all = (numbers, hulls);
+                let load = Loads::of_hulls(device, queue, kernel, all, &buffers)?;
+                (OF_MUELLER, load, Some("mueller_drift"))
+            }
         };
         let near = |names, count, room| {
             Near::new(
@@ -168,7 +182,7 @@ impl Kernels {
         Ok(Self {
             numbers,
             place: bound("shell_place")?,
-            load: bound(load)?,
+            load,
             asked: Asked::new(kernel("pressure_at")?),
             last: last.map(bound).transpose()?,
             near,
@@ -258,8 +272,7 @@ impl Kernels {
         }
         if self.numbers.loaded > 0 {
             self.near_shell.record_second(&mut pass);
-            let bodies = self.numbers.loaded;
-            self.load.0.record(&mut pass, &self.load.1, bodies);
+            self.load.record(&mut pass, self.numbers.loaded);
         }
         self.asked.record(&mut pass);
         self.near.record_second(&mut pass);

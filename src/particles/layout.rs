@@ -111,6 +111,8 @@ pub struct Clock {
     pub missed: u32,
     /// Steps since the start of the exchange that sorted.
     pub sorts: u32,
+    /// The highest speed at the end of any step since the start, in speeds of sound.
+    pub fastest: f32,
 }
 
 /// A convex part of a body, by its faces.

@@ -23,6 +23,7 @@ mod kernel;
 mod kernels;
 mod lattice;
 mod layout;
+mod loads;
 mod near;
 #[allow(clippy::module_inception)]
 mod particles;
@@ -34,6 +35,7 @@ mod solid;
 mod sorting;
 mod speeds;
 mod sphere;
+mod standing;
 mod state;
 mod totals;
 mod water;

@@ -108,6 +108,7 @@ impl Particles {
             loaded: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
         let (hulls, planes) = hulls::hulls(&setup, &frame, &order);
+        hulls::check(device, &hulls)?;
         let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {
@@ -453,6 +454,8 @@ impl Particles {
         self.clock = Clock {
             limit: state.limit,
             escaped: state.escaped,
+            // Nobody meets those that had left.
+            missed: state.escaped,
             ..Clock::default()
         };
         self.steps = state.steps;
@@ -490,6 +493,11 @@ impl Particles {
     /// Particles that have left the domain.
     pub fn escaped(&self) -> u32 {
         self.clock.escaped
+    }
+
+    /// The highest speed of the water at the end of any step since the start or the restart, m/s.
+    pub fn fastest(&self) -> f64 {
+        f64::from(self.clock.fastest) * self.frame.sound_speed()
     }
 
     /// Steps of the water since the start.

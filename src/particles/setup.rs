@@ -1,7 +1,7 @@
 //! What particles of water want to know.
 
 use super::Solid;
-use crate::{Error, Result};
+use crate::{Error, Result, scene};
 use glam::DVec3;
 
 /// A face of the domain, as particles meet it.
@@ -138,6 +138,15 @@ impl Setup {
     /// Layers of shell particles that a wall needs: as many as the support of the kernel function reaches.
     pub fn layers(&self) -> u32 {
         (2.0 * self.smoothing).ceil() as u32
+    }
+
+    /// Largest speed for which the speed of sound is usual, m/s.
+    pub fn largest_speed(&self) -> f64 {
+        let usual = match self.scheme {
+            Scheme::Delta => scene::Particles::SOUND,
+            Scheme::Mueller { .. } => scene::Particles::STIFFNESS.sqrt(),
+        };
+        self.sound_speed / usual
     }
 
     /// A time in which sound passes a spacing, s.

@@ -21,8 +21,8 @@ pub struct Particles {
     #[serde(default)]
     pub equation_of_state: EquationOfState,
     /// Largest speed U that is expected, m/s: the speed of sound is 10 U. Default √(2 g D), the speed
-    /// after a fall through the height D of all water at the start, or more: that of water at the start, of
-    /// driven blocks in the run, or of free blocks after a fall to the bottom of the water.
+    /// after a fall through the height D of all water at the start, or more: that of driven blocks in the run, or of
+    /// water that moves at the start and of free blocks after a fall to the bottom of the water.
     pub largest_speed: Option<f64>,
     /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. Its authors give
     /// none. Default 5 U², at which water is denser at the bottom of a tank by a tenth: the stiffer, the more the

@@ -25,6 +25,7 @@ pub use fields::Totals;
 pub use free_surface::FreeSurface;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
+pub(crate) use scene_step::scene_step;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{

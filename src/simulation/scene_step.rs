@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Length of a step of `scene`, s: at most ten acoustic steps of `acoustic` s, and so that as many whole ones as can be
 /// make up the shortest interval of its outputs and its duration.
-pub(super) fn scene_step(scene: &Scene, acoustic: f64) -> f64 {
+pub(crate) fn scene_step(scene: &Scene, acoustic: f64) -> f64 {
     let longest = ACOUSTIC_STEPS * acoustic;
     let step = match scene.shortest_interval() {
         // None is shorter than what sound wants.

@@ -103,6 +103,32 @@ fn blocks_faster_than_expected_are_told_and_those_faster_than_sound_refused() {
 }
 
 #[test]
+fn runs_of_steps_and_fast_swings_are_looked_at_to_their_end() {
+    // Steps of ten times 0.7 · 2 · 0.05 m over 30 m/s: 43 of them are a second.
+    let mut steps = driven("\"8*t\"", 3.0);
+    (steps.run.duration, steps.run.steps) = (None, Some(43));
+    let found = warnings(&steps);
+    assert!(
+        found.len() == 1 && found[0].contains("is driven at up to 8.0"),
+        "{found:?}"
+    );
+    // 300 t is the speed of sound, and 0.7 m over it the step, where a thousand of them end at t.
+    let mut usual = driven("\"30*t\"", 3.0);
+    usual.particles.as_mut().unwrap().largest_speed = None;
+    (usual.run.duration, usual.run.steps) = (None, Some(1000));
+    let blocks = block_setup(&usual).unwrap();
+    let sound = particle_setup(&usual, &blocks).unwrap().0.sound_speed;
+    let expected = 300.0 * (1000.0 * 0.7 / 300.0f64).sqrt();
+    assert!((sound / expected - 1.0).abs() < 1e-4, "{sound} {expected}");
+    // A thousand swings a second.
+    let found = warnings(&driven("\"8*sin(6283.185307179586*t)\"", 3.0));
+    assert!(
+        found.len() == 1 && found[0].contains("b` is driven at up to"),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn the_speed_of_sound_is_that_of_what_falls_to_the_bottom_of_the_water() {
     let sound = |scene: &Scene| {
         let blocks = block_setup(scene).unwrap();
@@ -114,6 +140,11 @@ fn the_speed_of_sound_is_that_of_what_falls_to_the_bottom_of_the_water() {
     let expected = 10.0 * (9.0 + 2.0 * 9.81 * 0.8f64).sqrt();
     let falls = sound(&tank(&falls).unwrap());
     assert!((falls - expected).abs() < 1e-9, "{falls}");
+    // So does water.
+    let jet = "[[water]]\nkind = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [1, 0.5, 0.8]\nvelocity = [5, 0, 0]\n";
+    let expected = 10.0 * (25.0 + 2.0 * 9.81 * 0.9f64).sqrt();
+    let jet = sound(&tank(jet).unwrap());
+    assert!((jet - expected).abs() < 1e-9, "{jet}");
     // Nothing moves, so nothing is known.
     let mut still = tank("").unwrap();
     still.fluid.acceleration = [0.0; 3].map(riprap::formula::Formula::from);

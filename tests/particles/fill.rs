@@ -129,3 +129,35 @@ fn bodies_of_water_may_touch() {
     let made = Made::of(&tank(above).unwrap());
     assert_eq!(made.start.positions.len(), 8000 + 10 * 20 * 4);
 }
+
+#[test]
+fn water_on_water_weighs_on_it() {
+    let level = |made: &Made, level: &dyn Fn(DVec3) -> f64| {
+        for (x, p) in made.start.positions.iter().zip(&made.start.pressures) {
+            let exact = 1000.0 * 9.81 * (level(*x) - x.z);
+            assert!((p - exact).abs() < 1e-9 * 7848.0, "{x}: {p} {exact}");
+        }
+    };
+    let all = "[[water]]\nkind = \"box\"\nsize = [2.0, 1.0, 0.3]\nposition = [1.0, 0.5, 0.65]\n";
+    let mut stacked = tank(all).unwrap();
+    level(&Made::of(&stacked), &|_| 0.8);
+    stacked.water.swap(0, 1);
+    level(&Made::of(&stacked), &|_| 0.8);
+    // A column weighs on what is below it, and a block in that water feels it too.
+    let column = "[[water]]\nkind = \"box\"\nsize = [0.5, 1.0, 0.2]\nposition = [0.25, 0.5, 0.6]\n";
+    let below = |x: DVec3| if x.x < 0.5 { 0.7 } else { 0.5 };
+    level(&Made::of(&tank(column).unwrap()), &below);
+    let slab = "[[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [0.2, 1.0, 0.1]\nposition = [0.2, 0.5, 0.25]\n";
+    let made = Made::of(&tank(&format!("{column}{slab}")).unwrap());
+    assert!(made.start.positions.len() < 8800);
+    level(&made, &below);
+    // Beside other water it does not.
+    let mut step = tank("").unwrap();
+    let shape = |size| riprap::scene::BlockShape::Box { size };
+    step.water.push(step.water[0].clone());
+    step.water[0].shape = shape([1.0, 1.0, 0.8]);
+    step.water[0].position = [0.5, 0.5, 0.4];
+    step.water[1].shape = shape([1.0, 1.0, 0.2]);
+    step.water[1].position = [1.5, 0.5, 0.1];
+    level(&Made::of(&step), &|x| if x.x < 1.0 { 0.8 } else { 0.2 });
+}

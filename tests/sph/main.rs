@@ -7,6 +7,7 @@ mod held;
 mod mueller;
 mod programs;
 mod push;
+mod restored;
 mod step;
 mod still;
 mod tank;

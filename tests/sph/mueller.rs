@@ -213,3 +213,80 @@ fn a_step_in_a_plane() {
 fn a_step_in_space() {
     check(false);
 }
+
+/// Invocations of software adapters take 65 535 turns of loops: each of these would want 200 times 1200.
+#[test]
+fn loads_of_many_parts_and_particles_are_whole() {
+    let mut noise = Noise(5);
+    let mut setup = Setup::tank(DVec3::new(16.0, 0.1, 8.0), 0.1, 20.0);
+    setup.plane = true;
+    setup.smoothing = 1.3;
+    setup.scheme = Scheme::Mueller {
+        viscosity: VISCOSITY,
+    };
+    let solid = |_| Solid::Sphere {
+        centre: noise.vector(true) * DVec3::new(7.5, 0.0, 3.5),
+        radius: 0.15,
+    };
+    setup.bodies = vec![Body {
+        solids: (0..400).map(solid).collect(),
+        moves: true,
+        loaded: true,
+        ..Body::default()
+    }];
+    let poses = [resting(0.5 * setup.size)];
+    let positions = lattice(&setup, [0; 3], [160, 1, 80]);
+    let velocities = vec![DVec3::ZERO; positions.len()];
+    let pressures = vec![0.0; positions.len()];
+    let rig = Rig::new();
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut particles = Particles::new(
+        device,
+        queue,
+        setup.clone(),
+        &positions,
+        &velocities,
+        &pressures,
+    )
+    .unwrap();
+    let dt = 0.5 * particles.limit();
+    let done = rig
+        .wait(particles.advance(device, queue, &poses, dt))
+        .unwrap();
+    assert_eq!(done.steps, 1);
+    let twin = Twin {
+        setup: &setup,
+        poses: &poses,
+    };
+    let push = |x: &DVec3| -setup.particle_mass() * twin.penalty(0, *x, DVec3::ZERO);
+    let forces: Vec<DVec3> = positions.iter().map(push).collect();
+    let force: DVec3 = forces.iter().sum();
+    let scale: f64 = forces.iter().map(|f| f.length()).sum();
+    let miss = (done.loads[0].force - force).length();
+    println!("{} {force}, of {scale} N in all", done.loads[0].force);
+    assert!(miss < 1e-4 * scale, "{miss} of {scale} N");
+}
+
+/// Nobody would hear of it.
+#[test]
+fn more_parts_than_a_software_adapter_looks_at_are_refused() {
+    let rig = Rig::new();
+    if rig.device.adapter_info().device_type != wgpu::DeviceType::Cpu {
+        return;
+    }
+    let sphere = Solid::Sphere {
+        centre: DVec3::ZERO,
+        radius: 0.1,
+    };
+    let mut setup = Setup::tank(DVec3::ONE, 0.1, 20.0);
+    setup.bodies = vec![Body {
+        solids: vec![sphere; 20_000],
+        ..Body::default()
+    }];
+    let made = Particles::new(&rig.device, &rig.queue, setup, &[], &[], &[]);
+    let fault = made.unwrap_err().to_string();
+    assert!(
+        fault.contains("20000 convex parts") && fault.contains("use a GPU"),
+        "{fault}"
+    );
+}

@@ -99,6 +99,7 @@ fn structures_lie_as_on_the_device() {
         ("body_speed", offset_of!(Clock, body_speed)),
         ("missed", offset_of!(Clock, missed)),
         ("sorts", offset_of!(Clock, sorts)),
+        ("fastest", offset_of!(Clock, fastest)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
     let hull = [

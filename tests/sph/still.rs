@@ -47,3 +47,22 @@ fn a_still_tank_stays_still() {
     }
     assert!(sorts < 6, "{sorts}");
 }
+
+#[test]
+fn the_highest_speed_is_that_of_all_steps() {
+    let spacing = 0.1;
+    let mut setup = Setup::tank(DVec3::new(1.0, spacing, 2.0), spacing, 40.0);
+    setup.plane = true;
+    setup.bodies = vec![walls(&setup)];
+    let drop = [DVec3::new(0.5, 0.5 * spacing, 1.5)];
+    let mut tank = Tank::new(setup, vec![resting(DVec3::ZERO)], &drop, |_| 0.0);
+    tank.advance(0.2);
+    let fallen = f64::from(tank.water().velocities[0].length());
+    assert!((fallen - 9.81 * 0.2).abs() < 1e-3);
+    assert!((tank.particles.fastest() - fallen).abs() < 1e-5);
+    // It bounces off the floor.
+    tank.advance(2.0);
+    let now = f64::from(tank.water().velocities[0].length());
+    let fastest = tank.particles.fastest();
+    assert!(now < 0.8 * fastest && fastest > 4.0, "{now} {fastest}");
+}

@@ -10,7 +10,7 @@ use crate::{
 use anyhow::Result;
 use riprap::{
     particles::{Home, Particle},
-    scene::{Particles, Scene},
+    scene::Scene,
 };
 use serde::Serialize;
 use std::{
@@ -104,9 +104,9 @@ pub fn report(
             spacing: setup.spacing,
             particle_mass: setup.particle_mass(),
             mass: setup.particle_mass() * f64::from(numbers.water),
-            largest_speed: setup.sound_speed / Particles::SOUND,
+            largest_speed: setup.largest_speed(),
             sound_speed: setup.sound_speed,
-            mach: 1.0 / Particles::SOUND,
+            mach: setup.largest_speed() / setup.sound_speed,
             acoustic_step: setup.acoustic_step(),
             time_step: pond.time_step(),
             steps,

@@ -1,6 +1,6 @@
 //! A scene at half its resolution.
 
-use super::super::{Args, Dry, Engine};
+use super::super::{Args, Dry, Engine, Pond};
 use anyhow::{Context, Result};
 use riprap::{
     Error,
@@ -14,8 +14,6 @@ pub struct Halved {
     pub scene: Scene,
     /// What its resolution is.
     pub says: String,
-    /// Its steps, where they and not a time are given.
-    pub steps: Option<u64>,
 }
 
 /// The scene with cells twice as wide, particles twice as far apart, or without a fluid steps twice as long.
@@ -28,36 +26,34 @@ pub fn halved(scene: &Scene, args: &Args) -> Result<Halved> {
     half.output.slices.clear();
     half.output.every = None;
     half.run.checkpoint_every = None;
-    let (says, steps) = match &mut half.particles {
+    let says = match &mut half.particles {
         Some(particles) => {
             particles.spacing *= 2.0;
             let says = format!("particles {} m apart", particles.spacing);
-            // Steps are as long as particles are apart.
-            half.run.steps = half.run.steps.map(|steps| steps.div_ceil(2));
-            (says, args.steps.map(|steps| steps.div_ceil(2)))
+            if args.steps.or(scene.run.steps).is_some() {
+                let engine = Pond::open(scene, &args.scene, args.adapter.as_deref())?;
+                half.run = lasting(scene, args, engine.time_step());
+            }
+            says
         }
         None if scene.has_fluid() => {
             widen(scene, &mut half)?;
             let time_step = Units::of(scene)?.time_step;
             half.numerics.time_step = half.numerics.time_step.map(|step| 2.0 * step);
             half.run = lasting(scene, args, time_step);
-            (format!("cells of {} m", half.domain.cell), None)
+            format!("cells of {} m", half.domain.cell)
         }
         None => {
             let (step, sub_step) = steps_of(scene, args)?;
             half.rock.time_step = Some(2.0 * sub_step);
             half.run = lasting(scene, args, step);
-            (format!("steps of {:.3e} s", 2.0 * sub_step), None)
+            format!("steps of {:.3e} s", 2.0 * sub_step)
         }
     };
     half.check().with_context(|| {
         format!("the scene at half its resolution, {says}, for --error-estimate")
     })?;
-    Ok(Halved {
-        scene: half,
-        says,
-        steps,
-    })
+    Ok(Halved { scene: half, says })
 }
 
 /// Cells twice as wide.

@@ -57,7 +57,8 @@ pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     };
     let rough = Args {
         out: Some(estimate.folder.clone()),
-        steps: half.steps,
+        // Its own would be of another length.
+        steps: None,
         error_estimate: false,
         ..args.clone()
     };

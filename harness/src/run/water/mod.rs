@@ -44,7 +44,7 @@ pub struct Pond {
     level: f64,
     /// The water as it was read last, and at which step: several recorders want it.
     read: Option<(u64, Rc<Water>)>,
-    /// Largest speed of the water that was seen, m/s.
+    /// Largest speed of the water that was read, m/s.
     fastest: f64,
 }
 

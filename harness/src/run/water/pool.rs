@@ -34,9 +34,9 @@ pub struct Pool {
     pub sorts: u64,
     /// How often water and blocks met in this run.
     pub exchanges: u64,
-    /// Largest speed that was seen, m/s.
+    /// Largest speed at the start or after any acoustic step of this run, m/s.
     pub max_speed: f64,
-    /// Largest Mach number that was seen.
+    /// Its Mach number.
     pub max_mach: f64,
     /// Updates of particles of water a second, without what was written.
     pub updates_a_second: f64,
@@ -47,6 +47,8 @@ impl Pool {
     pub fn of(pond: &Pond) -> Self {
         let particles = pond.simulation.particles();
         let (setup, numbers) = (particles.setup(), particles.numbers());
+        // The start is no step.
+        let max_speed = pond.fastest.max(particles.fastest());
         Self {
             particles: numbers.water,
             shell: numbers.shell,
@@ -58,8 +60,8 @@ impl Pool {
             steps_here: 0,
             sorts: pond.simulation.sorts(),
             exchanges: pond.simulation.exchanges(),
-            max_speed: pond.fastest,
-            max_mach: pond.fastest / setup.sound_speed,
+            max_speed,
+            max_mach: max_speed / setup.sound_speed,
             updates_a_second: 0.0,
         }
     }

@@ -38,8 +38,7 @@ impl Shown for Pond {
             centre: *x,
             value: v.as_dvec3().length(),
         };
-        // A tenth of the speed of sound is the largest speed that is expected.
-        let largest = setup.sound_speed / riprap::scene::Particles::SOUND;
+        let largest = setup.largest_speed();
         Ok(Some(Drops {
             drops: water
                 .positions

@@ -1,0 +1,91 @@
+//! Pressures of water that stands: on solids, or on other water.
+
+use super::placed::Placed;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Bodies of water and what holds them.
+pub(super) struct Standing<'a> {
+    /// Particles of each body, m.
+    pub points: &'a [Vec<DVec3>],
+    /// Parts of each.
+    pub waters: &'a [Vec<Placed<'a>>],
+    pub solids: &'a [Placed<'a>],
+    /// Δx, m.
+    pub spacing: f64,
+    /// Weight of the water, N/m³.
+    pub weight: DVec3,
+}
+
+impl Standing<'_> {
+    /// Pressures of all particles, Pa: those of the depth below the top of their body, or of what stands on it there; 0 in
+    /// what falls freely.
+    pub fn pressures(&self) -> Vec<f64> {
+        let down = self.weight.normalize_or_zero();
+        let step = self.spacing * down;
+        let bodies = 0..self.points.len();
+        // The bodies on which each one stands.
+        let under = |body: usize| {
+            let is_under = |other: &usize| {
+                let on = |x: &DVec3| {
+                    let foot = *x + step;
+                    is_in(&self.waters[*other], foot) && !is_in(self.solids, foot)
+                };
+                *other != body && self.points[body].par_iter().any(on)
+            };
+            bodies.clone().filter(is_under).collect()
+        };
+        let under: Vec<Vec<usize>> = bodies.clone().map(under).collect();
+        let on_solids = |points: &Vec<DVec3>| {
+            let points = points.par_iter();
+            down != DVec3::ZERO && points.any(|x| is_in(self.solids, *x + step))
+        };
+        let mut stands: Vec<bool> = self.points.iter().map(on_solids).collect();
+        let top = |points: &Vec<DVec3>| {
+            let heights = points.iter().map(|x| -down.dot(*x));
+            heights.fold(f64::NEG_INFINITY, f64::max) + 0.5 * self.spacing
+        };
+        let tops: Vec<f64> = self.points.iter().map(top).collect();
+        // The top of each body with all that stands on it.
+        let mut levels = tops.clone();
+        for _ in bodies.clone() {
+            for body in bodies.clone() {
+                for &other in &under[body] {
+                    stands[body] |= stands[other];
+                    levels[other] = levels[other].max(levels[body]);
+                }
+            }
+        }
+        let level = |body: usize, x: DVec3| {
+            let own = &self.waters[body];
+            if levels[body] == tops[body] {
+                return tops[body];
+            }
+            let mut above = x;
+            while is_in(own, above) {
+                above -= step;
+            }
+            let other = self.waters.iter().position(|water| is_in(water, above));
+            match other {
+                Some(other) => levels[other],
+                None if is_in(self.solids, above) => levels[body],
+                None => tops[body],
+            }
+        };
+        let pressure = |body: usize, x: DVec3| match stands[body] {
+            true => self.weight.length() * (level(body, x) + down.dot(x)),
+            false => 0.0,
+        };
+        let of = |body: usize| self.points[body].par_iter().map(move |x| (body, *x));
+        let all = bodies.into_par_iter().flat_map(of);
+        all.map(|(body, x)| pressure(body, x)).collect()
+    }
+}
+
+/// Whether `point` (m) lies in one of the `parts`.
+fn is_in(parts: &[Placed<'_>], point: DVec3) -> bool {
+    parts.iter().any(|part| {
+        let near = point.cmpge(part.low).all() && point.cmple(part.high).all();
+        near && part.depth(point) >= 0.0
+    })
+}

@@ -146,6 +146,7 @@ fn a_coupled_run_writes_what_both_write() {
         "middle_000040.png",
         "view_000040.png",
         "view.png",
+        "stone.png",
         "checkpoint.riprap",
     ] {
         assert!(summary.files.contains(&out.join(name)), "{name}");

@@ -106,7 +106,11 @@ fn the_couette_scene_writes_what_it_asks_for() {
         "history.png",
         "summary.json",
     ];
-    assert_eq!(summary.files, expected.map(|name| out.join(name)));
+    let mut expected = expected.map(|name| out.join(name));
+    expected.sort();
+    let mut files = summary.files.clone();
+    files.sort();
+    assert_eq!(files, expected);
     assert!(summary.files.iter().all(|path| path.is_file()));
     assert_eq!(
         header(&out.join("profile.csv")),
@@ -230,6 +234,26 @@ fn a_flow_that_diverges_says_where_and_why_and_keeps_what_there_is() {
     assert_eq!(json["diverged"], true);
     let told = String::from_utf8_lossy(&program.stderr);
     assert!(told.contains("\nerror: diverged at step "), "{told}");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_flow_that_diverges_unprepared_has_a_state_to_go_on_from() {
+    let folder = folder("run_unprepared");
+    let text = RUNAWAY.replace("checkpoint_every = 0.05", "");
+    let mut args = args(&folder, &text, "out");
+    let summary = go(&args);
+    assert!(summary.diverged, "{summary}");
+    let step = summary.checkpoint_step.unwrap();
+    // It does so in the first tenth of 400 steps, which has a checkpoint each 4.
+    assert!(step > 0 && step.is_multiple_of(4) && summary.steps - step <= 4);
+    let file = summary.checkpoint.clone().unwrap();
+    let told = format!("--restart {}` goes on from step {step}", file.display());
+    assert!(summary.to_string().contains(&told), "{summary}");
+    args.restart = Some(file);
+    args.steps = Some(step + 2);
+    let rest = go(&args);
+    assert!(rest.complete && rest.first_step == step, "{rest}");
     fs::remove_dir_all(folder).unwrap();
 }
 

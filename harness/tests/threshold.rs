@@ -138,6 +138,24 @@ fn a_flow_that_is_fast_enough_moves_a_block() {
     assert!(report.trials[0].steps == 60 && report.trials[1].steps < 60);
 }
 
+#[test]
+fn a_formula_at_the_key_is_multiplied() {
+    let folder = folder("threshold_formula");
+    let text = PUSH
+        .replace(
+            "velocity = [0, 0, 0]",
+            "velocity = [\"min(1, z/0.02)\", 0, 0]",
+        )
+        .replace("[run]\nsteps = 60", "[run]\nsteps = 40");
+    let key = "boundaries.x_min.velocity[0]";
+    let report = go(&args(&folder, &text, &[key], [0.0, 3.0, 1.6]));
+    assert!(report.complete, "{report}");
+    let [still, moves] = report.bracket.unwrap();
+    // Factors of a profile of 1 m/s.
+    assert!(0.0 <= still && moves <= 3.0, "{report}");
+    assert!(report.trials[1].moved.is_some() && report.trials[0].moved.is_none());
+}
+
 /// What the program says when it refuses.
 #[track_caller]
 fn refused(args: &[&str], words: &[&str]) {
@@ -167,7 +185,7 @@ fn what_cannot_be_searched_is_refused() {
     refused(&with(&["--key", "rock.gravty[0]"]), &["no `gravty`"]);
     refused(
         &with(&["--key", "materials[0].name"]),
-        &["not a number", "rock"],
+        &["neither a number nor a formula", "rock"],
     );
     refused(
         &with(&["--key", "rock.gravity[0]", "--block", "held"]),

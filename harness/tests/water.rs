@@ -136,6 +136,58 @@ fn still_water_is_measured_where_it_is() {
         .filter(|p| p[2] > p[0].saturating_add(40));
     assert!(blue.count() > 1000);
     assert!(out.join("tank_strip.png").is_file() && out.join("water.pvd").is_file());
+    // One moment makes no curve.
+    assert!(!out.join("level.png").exists());
+}
+
+/// A probe that is always dry has nothing to show.
+#[test]
+fn levels_and_run_up_are_drawn_over_time() {
+    let folder = folder("water_curves");
+    let text = format!(
+        "{STILL}
+    [[probes]]
+    name = \"level\"
+    kind = \"gauge\"
+    at = [0.5, 0.5]
+    every = 0.01
+    [[probes]]
+    name = \"edge\"
+    kind = \"run_up\"
+    min = [0, 0, 0]
+    max = [1.2, 1, 1.2]
+    direction = \"+x\"
+    every = 0.01
+    [[probes]]
+    name = \"beyond\"
+    kind = \"gauge\"
+    at = [1.1, 0.5]
+    every = 0.01
+    [[probes]]
+    name = \"tank\"
+    kind = \"box\"
+    min = [0, 0, 0]
+    max = [0.6, 1, 1.2]
+    every = 0.01
+    [[views]]
+    name = \"tank\"
+    size = [320, 240]
+    every = 0.05
+"
+    )
+    .replace("size = [1.2, 1, 0.8]", "size = [0.4, 1, 0.8]")
+    .replace("position = [0.6, 0.5, 0.4]", "position = [0.2, 0.5, 0.4]")
+    .replace("steps = 12", "duration = 0.1");
+    let summary = go(&args(&folder, &text, "out"));
+    let out = folder.join("out");
+    for (name, height) in [("level.png", 230), ("edge.png", 2 * 230)] {
+        let picture = Picture::load(&out.join(name)).unwrap();
+        assert!(picture.width == 1400 && picture.height > height, "{name}");
+        assert!(summary.files.contains(&out.join(name)), "{name}");
+    }
+    assert!(!out.join("beyond.png").exists());
+    let told = summary.warnings.join("\n");
+    assert!(told.contains("tank.png is not drawn"), "{told}");
 }
 
 #[test]

@@ -6,7 +6,8 @@ use serde::Deserialize;
 use super::tagged::{need, refuse_others, through};
 use super::{Axis, Direction, Field};
 
-/// A measurement, written as CSV.
+/// A measurement, written as CSV; the forces on a `block`, the level of a `gauge`, a `run_up` and the volume of water in a
+/// `box` are drawn over time beside it, as PNG.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Probe {

@@ -1,14 +1,15 @@
 //! Sums over the fluid and the blocks in time: `history.csv` and `history.png`.
 
 use super::{
+    curves,
     engine::Engine,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use crate::picture::{Chart, Track};
+use crate::picture::Track;
 use anyhow::Result;
 use riprap::{
-    output::{Csv, Table},
+    output::Csv,
     scene::{self, Quantity},
 };
 use std::path::{Path, PathBuf};
@@ -107,10 +108,6 @@ impl<E: Engine> Recorder<E> for History {
     }
 
     fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
-        let table = Table::read(&self.path)?;
-        if table.column("time").is_none_or(|times| times.len() < 2) {
-            return Ok(());
-        }
         let names: Vec<[&str; 1]> = self.quantities.iter().map(|q| [q.name()]).collect();
         let tracks: Vec<Track<'_>> = self
             .quantities
@@ -125,10 +122,7 @@ impl<E: Engine> Recorder<E> for History {
                 }
             })
             .collect();
-        let path = self.path.with_extension("png");
-        let title = &engine.scene().title;
-        let drawn = Chart::history(title, &table, &tracks).and_then(|chart| chart.draw(&path));
-        notes.picture(path, drawn);
-        Ok(())
+        let scene = engine.scene();
+        curves::draw(scene, &self.path, &scene.title, &tracks, notes)
     }
 }

@@ -6,6 +6,7 @@
 
 mod batch;
 mod checkpoints;
+mod curves;
 mod dry;
 mod engine;
 mod estimate;

@@ -181,7 +181,9 @@ fn kept(checkpoint: Option<&Path>, step: Option<u64>, files: usize) -> String {
             "{files} files are kept; `--restart {}` goes on from step {step}",
             path.display()
         ),
-        _ => format!("{files} files are kept, and no checkpoint: set run.checkpoint_every"),
+        _ => format!(
+            "{files} files are kept, and no checkpoint yet: run.checkpoint_every gives earlier ones"
+        ),
     }
 }
 

@@ -1,6 +1,6 @@
-//! A number in a scene, by its place.
+//! A number or a formula in a scene, by its place.
 
-use riprap::{Error, Result};
+use riprap::{Error, Result, formula::Formula};
 use toml::{Table, Value};
 
 /// A place such as `boundaries.x_min.velocity[0]` or `blocks[1].position[2]`.
@@ -45,10 +45,11 @@ impl Key {
         })
     }
 
-    /// Gives the number in the scene another value. One that a table does not have yet is added.
+    /// Gives the number in the scene another value, or multiplies the formula that is there by it. A number that a table
+    /// does not have yet is added.
     ///
     /// # Errors
-    /// If there is no such place, or something other than a number.
+    /// If there is no such place, or something other than a number or a formula.
     pub fn set(&self, scene: &mut Table, value: f64) -> Result<()> {
         let Some((last, way)) = self.steps.split_last() else {
             return Ok(());
@@ -70,11 +71,17 @@ impl Key {
             }
             (last, at) => {
                 let number = self.enter(at, last)?;
-                if !matches!(number, Value::Integer(_) | Value::Float(_)) {
-                    let message = format!("it is {number}, and not a number");
-                    return Err(self.wrong(message));
-                }
-                *number = Value::Float(value);
+                *number = match number {
+                    Value::Integer(_) | Value::Float(_) => Value::Float(value),
+                    // Text that is none, such as a name, is not to be changed.
+                    Value::String(text) if text.parse::<Formula>().is_ok() => {
+                        Value::String(format!("({value})*({text})"))
+                    }
+                    other => {
+                        let message = format!("it is {other}, and neither a number nor a formula");
+                        return Err(self.wrong(message));
+                    }
+                };
                 Ok(())
             }
         }
@@ -119,7 +126,7 @@ mod tests {
             [numerics]
             mach = 0.1
             [boundaries]
-            x_min = { kind = "velocity", velocity = [1, 0.5, "t"] }
+            x_min = { kind = "velocity", velocity = [1, 0.5, "1 - t"] }
             [[blocks]]
             position = [[0, 1], [2, 3]]
         "#;
@@ -142,6 +149,16 @@ mod tests {
         let position = &changed["blocks"][0]["position"];
         assert_eq!(position[1][0], Value::Float(7.5));
         assert_eq!(position[1][1], Value::Integer(3));
+        // A formula is multiplied, whatever it is and whatever the sign.
+        let changed = set("boundaries.x_min.velocity[2]").unwrap();
+        let velocity = &changed["boundaries"]["x_min"]["velocity"];
+        assert_eq!(velocity[2].as_str(), Some("(7.5)*(1 - t)"));
+        let mut scene = scene();
+        let key = Key::parse("boundaries.x_min.velocity[2]").unwrap();
+        key.set(&mut scene, -2.5e-9).unwrap();
+        let text = scene["boundaries"]["x_min"]["velocity"][2].as_str();
+        let formula: Formula = text.unwrap().parse().unwrap();
+        assert_eq!(formula.eval(0.0, 0.0, 0.0, 5.0), 1e-8);
         // Keys that have a default need not be written.
         let changed = set("numerics.time_step").unwrap();
         assert_eq!(changed["numerics"]["time_step"], Value::Float(7.5));
@@ -156,8 +173,11 @@ mod tests {
             ("fluids.viscosity", "no `fluids`"),
             ("boundaries.x_mid.velocity[0]", "no `x_mid`, but x_min"),
             ("boundaries.x_min.velocity[3]", "no [3] among 3"),
-            ("boundaries.x_min.velocity[2]", "not a number"),
-            ("boundaries.x_min.kind", "not a number"),
+            (
+                "boundaries.x_min.velocity",
+                "neither a number nor a formula",
+            ),
+            ("boundaries.x_min.kind", "neither a number nor a formula"),
             ("numerics.mach[0]", "[0] is asked of float"),
             ("numerics.mach.x", "`x` is asked of float"),
         ] {

@@ -1,6 +1,6 @@
 //! `riprap threshold`: at which value of a number in a scene a block moves for the first time.
 //!
-//! Each trial runs the scene with another value and ends when a block moves, or with the scene. Between a
+//! A formula in the place of the number is multiplied by the value. Each trial runs the scene with another value and ends when a block moves, or with the scene. Between a
 //! value at which none moves and one at which one does, the next trial takes the middle.
 
 mod bracket;
@@ -27,7 +27,8 @@ pub struct Args {
     /// The scene, a TOML file
     pub scene: PathBuf,
     /// Where the number is in the scene, such as `boundaries.x_min.velocity[0]`; several times for numbers
-    /// that are to have the same value
+    /// that are to have the same value. Where the scene has a formula, it is multiplied by the value: A, B and T are
+    /// then factors
     #[arg(long, required = true, value_name = "KEY")]
     pub key: Vec<String>,
     /// Value at which no block moves

@@ -10,7 +10,7 @@ use riprap::{
 
 /// A scene at half the resolution of another.
 pub struct Halved {
-    /// It, without pictures and checkpoints.
+    /// It, without pictures.
     pub scene: Scene,
     /// What its resolution is.
     pub says: String,

@@ -1,12 +1,13 @@
-//! A table for each block that a probe follows: `NAME.csv`.
+//! A table for each block that a probe follows, `NAME.csv`, and its forces and torques over time, `NAME.png`.
 
 use super::super::{
+    curves,
     engine::Engine,
     history::table,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::{Rock, Safety};
+use super::{Rock, Safety, forces};
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{
@@ -195,5 +196,18 @@ impl<E: Engine> Recorder<E> for BlockProbe {
             notes.file(self.path.clone());
         }
         Ok(())
+    }
+
+    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
+        let Some(rock) = engine.rock() else {
+            return Ok(());
+        };
+        let mut tracks = forces::FORCES.to_vec();
+        if self.block < rock.felt.len() {
+            tracks.splice(..0, forces::IN_FLUID);
+        }
+        let scene = engine.scene();
+        let title = format!("{}: {}", scene.title, rock.blocks.name(self.block));
+        curves::draw(scene, &self.path, &title, &tracks, notes)
     }
 }

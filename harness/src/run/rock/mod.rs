@@ -3,6 +3,7 @@
 mod block_files;
 mod block_probe;
 mod face_table;
+mod forces;
 mod rocks;
 mod safety;
 mod values;

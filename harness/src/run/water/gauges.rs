@@ -1,12 +1,15 @@
-//! A table for each probe in the water: `NAME.csv`. Where a probe is dry it has no number.
+//! A table for each probe in the water: `NAME.csv`. Where a probe is dry it has no number. Levels, places and volumes are
+//! drawn over time: `NAME.png`.
 
 use super::super::{
+    curves,
     engine::Engine,
     history::table,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
 use super::Pond;
+use crate::picture::Track;
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{
@@ -93,6 +96,47 @@ impl Recorder<Pond> for GaugeTable {
         }
         notes.file(self.path.clone());
         Ok(())
+    }
+
+    fn finish(&mut self, engine: &Pond, notes: &mut Notes) -> Result<()> {
+        let scene = engine.scene();
+        let title = format!("{}: {}", scene.title, self.probe.name);
+        let mut tracks = drawn(&self.probe.place);
+        if scene
+            .particles
+            .as_ref()
+            .is_some_and(|particles| particles.plane)
+        {
+            // Nothing happens along it.
+            tracks.retain(|track| *track.columns != ["y"]);
+        }
+        curves::draw(scene, &self.path, &title, &tracks, notes)
+    }
+}
+
+/// What is drawn of a probe at such a place; nothing of fields.
+fn drawn(place: &ProbePlace) -> Vec<Track<'static>> {
+    match place {
+        ProbePlace::Gauge { .. } => vec![track("level", "m", &["level"])],
+        ProbePlace::RunUp { .. } => vec![
+            track("farthest x", "m", &["x"]),
+            track("farthest y", "m", &["y"]),
+            track("farthest z", "m", &["z"]),
+        ],
+        ProbePlace::Box { .. } => vec![track("volume", "m³", &["volume"])],
+        _ => Vec::new(),
+    }
+}
+
+fn track(
+    quantity: &'static str,
+    unit: &'static str,
+    columns: &'static [&'static str],
+) -> Track<'static> {
+    Track {
+        quantity,
+        unit,
+        columns,
     }
 }
 

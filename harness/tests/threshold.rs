@@ -144,15 +144,15 @@ fn a_formula_at_the_key_is_multiplied() {
     let text = PUSH
         .replace(
             "velocity = [0, 0, 0]",
-            "velocity = [\"min(1, z/0.02)\", 0, 0]",
+            "velocity = [\"0.1*min(1, z/0.02)\", 0, 0]",
         )
         .replace("[run]\nsteps = 60", "[run]\nsteps = 40");
     let key = "boundaries.x_min.velocity[0]";
-    let report = go(&args(&folder, &text, &[key], [0.0, 3.0, 1.6]));
+    let report = go(&args(&folder, &text, &[key], [0.0, 30.0, 16.0]));
     assert!(report.complete, "{report}");
     let [still, moves] = report.bracket.unwrap();
-    // Factors of a profile of 1 m/s.
-    assert!(0.0 <= still && moves <= 3.0, "{report}");
+    // Factors of a profile of 0.1 m/s: 30 m/s would be refused.
+    assert!(0.0 <= still && moves <= 30.0, "{report}");
     assert!(report.trials[1].moved.is_some() && report.trials[0].moved.is_none());
 }
 

@@ -126,13 +126,20 @@ impl Plane {
 pub(super) struct Uplift {
     /// Where r is counted from, m.
     centre: DVec3,
-    plane: Plane,
+    /// Less what the weight of the water makes of it.
+    head: Plane,
+    /// Least and highest of that, Pa.
+    range: [f64; 2],
+    /// Of the water, N/m³.
+    weight: DVec3,
 }
 
 impl Uplift {
     /// At a place (m), Pa.
     pub fn at(&self, x: DVec3) -> f64 {
-        self.plane.at(x - self.centre)
+        let r = x - self.centre;
+        let [least, most] = self.range;
+        self.head.at(r).max(least).min(most) + self.weight.dot(r)
     }
 }
 
@@ -145,14 +152,23 @@ impl Field for Uplift {
     }
 
     fn mean(fields: &[Self]) -> Self {
-        let centre = fields[0].centre;
+        let Self { centre, weight, .. } = fields[0];
         let share = 1.0 / fields.len() as f64;
-        let mut plane = Plane::default();
+        let mut mean = Self {
+            centre,
+            weight,
+            head: Plane::default(),
+            range: [f64::INFINITY, f64::NEG_INFINITY],
+        };
         for field in fields {
-            plane.value += share * field.at(centre);
-            plane.gradient += share * field.plane.gradient;
+            let way = centre - field.centre;
+            let lower = field.weight.dot(way);
+            mean.head.value += share * (field.head.at(way) + lower);
+            mean.head.gradient += share * field.head.gradient;
+            let [least, most] = field.range.map(|end| end + lower);
+            mean.range = [mean.range[0].min(least), mean.range[1].max(most)];
         }
-        Self { centre, plane }
+        mean
     }
 }
 
@@ -162,6 +178,10 @@ pub(super) struct Rim<'a> {
     /// Where r is counted from, m.
     centre: DVec3,
     plane: Plane,
+    /// Least and highest of the pressure less that of the weight, Pa.
+    range: [f64; 2],
+    /// Of the water, N/m³.
+    weight: DVec3,
 }
 
 impl<'a> Rim<'a> {
@@ -195,7 +215,7 @@ impl<'a> Rim<'a> {
         let samples = samples(&sides, pose.centre, weight);
         let dry = sides.iter().filter(|side| side.is_closed());
         let dry = dry.flat_map(|side| side.corners.iter().map(|x| x - pose.centre));
-        let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
+        let (plane, range) = limited(fit(&samples, cell)?, (&samples, cell), dry);
         let plane = Plane {
             gradient: plane.gradient + weight,
             ..plane
@@ -204,6 +224,8 @@ impl<'a> Rim<'a> {
             sides,
             centre: pose.centre,
             plane,
+            range,
+            weight,
         })
     }
 
@@ -211,7 +233,12 @@ impl<'a> Rim<'a> {
     pub fn pressure(&self) -> Uplift {
         Uplift {
             centre: self.centre,
-            plane: self.plane,
+            head: Plane {
+                gradient: self.plane.gradient - self.weight,
+                ..self.plane
+            },
+            range: self.range,
+            weight: self.weight,
         }
     }
 
@@ -413,12 +440,13 @@ fn fit(samples: &[Sample], cell: f64) -> Option<Plane> {
 }
 
 /// A plane made less steep about the middle of the samples where at some of `places` it would be beyond what it is at the
-/// edges of these: what is far from all of them is not known from slopes between neighbouring cells.
+/// edges of these, and what it is there at least and at most: what is far from all of them is not known from slopes
+/// between neighbouring cells.
 fn limited(
     plane: Plane,
     (samples, cell): (&[Sample], f64),
     places: impl Iterator<Item = DVec3>,
-) -> Plane {
+) -> (Plane, [f64; 2]) {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut middle, mut area) = (DVec3::ZERO, 0.0);
     for Sample { over, .. } in samples {
@@ -441,11 +469,12 @@ fn limited(
         } else {
             mean - least
         };
-        share.min(room / more.abs().max(f64::MIN_POSITIVE))
+        share.min(room.max(0.0) / more.abs().max(f64::MIN_POSITIVE))
     });
     let gradient = share * plane.gradient;
-    Plane {
+    let plane = Plane {
         value: mean - gradient.dot(middle),
         gradient,
-    }
+    };
+    (plane, [least, most])
 }

@@ -184,7 +184,9 @@ impl Sealed {
         let beside: Vec<_> = beside
             .map(|joint| (joint.block, joint.other, joint.way))
             .collect();
-        let inside = passed_on(&heads, |block| self.loaded[block], &beside);
+        // Dry rims are known too.
+        let unknown = |block: usize| self.loaded[block] && closed.rims[block].is_empty();
+        let inside = passed_on(&heads, unknown, &beside);
         for joint in &closed.joints {
             let heads = match [joint.block, joint.other].map(|block| heads[block]) {
                 [None, None] => (inside[joint.block], inside[joint.other]),
@@ -358,6 +360,24 @@ mod tests {
             assert!((load.force - push).length() < 1.0, "{}", load.force);
             assert!(load.torque().length() < 1.0, "{}", load.torque());
         }
+    }
+
+    /// Three columns on a floor between water and a dry side: between those whose rims are dry there is none, whatever is
+    /// beside them.
+    #[test]
+    fn water_does_not_go_through_blocks_to_a_dry_rim() {
+        let column = || cuboid(2.0, 2.0, 3.0);
+        let shapes = vec![column(), column(), column(), cuboid(20.0, 1.8, 1.0)];
+        let poses = [
+            at(-2.0, 0.0, 1.5),
+            at(0.0, 0.0, 1.5),
+            at(2.0, 0.0, 1.5),
+            at(0.0, 0.0, -0.5),
+        ];
+        let level = |x: DVec3| if x.x < -2.5 { 3.0 } else { -9.0 };
+        let found = loads(shapes, &poses, None, level);
+        assert!(found[0].force.z > 1e4, "{}", found[0].force);
+        assert_eq!(found[2].force.x, 0.0);
     }
 
     /// On a slope above the water, and with its foot in it.

@@ -107,6 +107,8 @@ impl FaceLoad {
             DVec3::new(aside.z, across.y, aside.x),
             DVec3::new(aside.y, aside.x, across.z),
         );
+        // All feet lie in the face: what is across it is rounding.
+        let along = DMat3::IDENTITY - outer(face.normal, face.normal);
         let mut load = Self {
             face,
             inside,
@@ -115,7 +117,7 @@ impl FaceLoad {
             force,
             moment,
             foot: block + foot,
-            spread: squares - outer(foot, foot),
+            spread: along * (squares - outer(foot, foot)) * along,
             height: at(6) / cells * cell,
             cells: cells as u32,
         };

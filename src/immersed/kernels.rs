@@ -265,6 +265,8 @@ impl Kernels {
     }
 }
 
+const _: () = assert!(PLANES == 9, "src/lattice/streams.rs makes room for as many");
+
 #[cfg(test)]
 mod tests {
     use super::{TURNS, turns};
@@ -275,5 +277,3 @@ mod tests {
         assert!((1..=MOST_FACES).all(|faces| turns(faces) <= TURNS));
     }
 }
-
-const _: () = assert!(PLANES == 9, "src/lattice/streams.rs makes room for as many");

@@ -35,7 +35,10 @@ impl Loads {
     ) -> Result<Self> {
         let of = |body| turns(hulls.iter().filter(|hull| hull.body == body));
         let most = (0..numbers.loaded).map(of).max().unwrap_or(1);
-        let range = WORKGROUP * (TURNS / most).max(1);
+        let range = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => WORKGROUP * (TURNS / most).max(1),
+            _ => numbers.water.max(1),
+        };
         let mut bound = Vec::new();
         for first in (0..numbers.water).step_by(range as usize) {
             let end = first.saturating_add(range).min(numbers.water);

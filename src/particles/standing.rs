@@ -46,6 +46,7 @@ impl Standing<'_> {
             heights.fold(f64::NEG_INFINITY, f64::max) + 0.5 * self.spacing
         };
         let tops: Vec<f64> = self.points.iter().map(top).collect();
+        let highest = tops.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // The top of each body with all that stands on it.
         let mut levels = tops.clone();
         for _ in bodies.clone() {
@@ -56,20 +57,20 @@ impl Standing<'_> {
                 }
             }
         }
+        // Up through the water and what is in it, to the top of the last body.
         let level = |body: usize, x: DVec3| {
-            let own = &self.waters[body];
             if levels[body] == tops[body] {
                 return tops[body];
             }
-            let mut above = x;
-            while is_in(own, above) {
+            let (mut top, mut above) = (tops[body], x);
+            loop {
                 above -= step;
-            }
-            let other = self.waters.iter().position(|water| is_in(water, above));
-            match other {
-                Some(other) => levels[other],
-                None if is_in(self.solids, above) => levels[body],
-                None => tops[body],
+                let other = self.waters.iter().position(|water| is_in(water, above));
+                match other {
+                    Some(other) => top = top.max(tops[other]),
+                    None if is_in(self.solids, above) && -down.dot(above) < highest => {}
+                    None => return top,
+                }
             }
         };
         let pressure = |body: usize, x: DVec3| match stands[body] {

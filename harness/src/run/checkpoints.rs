@@ -66,7 +66,16 @@ impl<E: Engine> Recorder<E> for Checkpoints {
         if step == 0 {
             return Ok(());
         }
-        engine.checkpoint(&self.path)?;
+        match engine.checkpoint(&self.path) {
+            // Nobody asked for it, and the run goes on without.
+            Err(error) if self.own.is_some() => {
+                notes
+                    .warnings
+                    .push(format!("no checkpoint at step {step}: {error:#}"));
+                return Ok(());
+            }
+            done => done?,
+        }
         notes.checkpoint = Some((step, self.path.clone()));
         notes.file(self.path.clone());
         if let (Some(run), Ok(file)) = (&self.own, self.path.metadata()) {

@@ -16,6 +16,12 @@ enum Step {
     Index(usize),
 }
 
+/// Whether the text there is a name or a word, which may look like a formula: `x`.
+fn names(step: &Step) -> bool {
+    const NAMES: [&str; 6] = ["name", "axis", "kind", "block", "material", "title"];
+    matches!(step, Step::Name(name) if NAMES.contains(&name.as_str()))
+}
+
 impl Key {
     /// Reads a place.
     ///
@@ -73,8 +79,7 @@ impl Key {
                 let number = self.enter(at, last)?;
                 *number = match number {
                     Value::Integer(_) | Value::Float(_) => Value::Float(value),
-                    // Text that is none, such as a name, is not to be changed.
-                    Value::String(text) if text.parse::<Formula>().is_ok() => {
+                    Value::String(text) if !names(last) && text.parse::<Formula>().is_ok() => {
                         Value::String(format!("({value})*({text})"))
                     }
                     other => {

@@ -1,6 +1,6 @@
 //! Steps of free water: particles and pairs a second.
 
-use super::{report::Machine, tank::Tank};
+use super::{report::Machine, rock::exponent, tank::Tank};
 use crate::gpu;
 use cpu_time::ProcessTime;
 use riprap::{particles::Neighbours, wgpu};
@@ -11,8 +11,10 @@ use std::time::{Duration, Instant};
 const STEPS: u32 = 4;
 /// Longest silence of a device that is not taken for a hang.
 const PATIENCE: Duration = Duration::from_secs(300);
-/// A step that takes longer, s, is the last that is tried.
-const LONGEST: f64 = 1.5;
+/// A step that takes longer, s, is the last that is tried, also where all sizes are wanted.
+const LONGEST: [f64; 2] = [1.5, 15.0];
+/// Looks at the clock: more where steps take less than the longest.
+const ROUNDS: [u32; 2] = [3, 7];
 /// Pairs a second that a GPU should reach.
 const TARGET: f64 = 1e10;
 /// Bytes that a pair reads of its other end in the sums of momentum and continuity, without lists: a particle, and in
@@ -74,7 +76,7 @@ pub fn measure(
                 .iter()
                 .rev()
                 .find(slow)
-                .is_some_and(|row| 8.0 * row.step > LONGEST)
+                .is_some_and(|row| 8.0 * row.step > LONGEST[usize::from(full)])
             {
                 println!(
                     "{:>10} {neighbours:?}: left out, a step would take seconds",
@@ -84,7 +86,8 @@ pub fn measure(
             }
             let mut tank = Tank::fill(device, queue, edge, neighbours)?;
             let mut step = f64::INFINITY;
-            for _ in 0..if quick { 3 } else { 7 } {
+            let mut round = 0;
+            while round < ROUNDS[usize::from(!quick && step <= LONGEST[0])] {
                 let (cpu, wall) = (ProcessTime::now(), Instant::now());
                 let done = tank.advance(device, queue, STEPS);
                 let steps = f64::from(gpu::drive(device, PATIENCE, "free water", done)??);
@@ -93,6 +96,7 @@ pub fn measure(
                     false => wall.elapsed().as_secs_f64(),
                 };
                 step = step.min(spent / steps);
+                round += 1;
             }
             let row = Row {
                 machine: machine.clone(),
@@ -116,6 +120,14 @@ pub fn measure(
                 row.bytes_a_second / 1e9
             );
             rows.push(row);
+        }
+    }
+    for neighbours in kinds {
+        let name = format!("{neighbours:?}");
+        let own = rows.iter().filter(|row| row.neighbours == name);
+        let points: Vec<_> = own.map(|row| (row.particles as f64, row.step)).collect();
+        if let Some(exponent) = exponent(&points) {
+            println!("{name}: a step costs (particles)^{exponent:.2}");
         }
     }
     if !machine.software {

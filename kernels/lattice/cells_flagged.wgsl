@@ -4,12 +4,38 @@
 
 @group(0) @binding(32) var<storage, read> flags: array<u32>;
 
+override CELLS_X: u32;
+override CELLS_Y: u32;
+override CELLS_Z: u32;
+// Faces of the domain that are no walls at rest: a bit each, x-, x+, y-, y+, z-, z+.
+override NO_WALLS: u32;
+
 fn cell_class(p: Place) -> u32 {
     return flags[p.element];
 }
 
 fn solid(cell: u32) -> Mask {
     return flag(cell, 7u);
+}
+
+fn beside_wall(cell: u32) -> Mask {
+    return flag(cell, 6u);
+}
+
+// Whether a wall at rest or a solid is beside a cell: face 0 to 5 is x-, x+, y-, y+, z-, z+.
+fn wall_at(p: Place, cell: u32, face: u32) -> Mask {
+    let at = p.coordinates;
+    var end: Mask;
+    switch face {
+        case 0u: { end = Mask(at.x == 0u); }
+        case 1u: { end = Mask(at.x + 1u == CELLS_X); }
+        case 2u: { end = Mask(at.y == 0u); }
+        case 3u: { end = Mask(at.y + 1u == CELLS_Y); }
+        case 4u: { end = in_slice(at.z, SLICES, 0u); }
+        default: { end = in_slice(at.z, SLICES, CELLS_Z - 1u); }
+    }
+    let open = Mask((NO_WALLS & (1u << face)) != 0u);
+    return flag(cell, face) & !(open & end);
 }
 
 // Cells that are not fluid hold the state of rest.

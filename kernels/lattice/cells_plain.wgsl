@@ -9,6 +9,14 @@ fn solid(cell: u32) -> Mask {
     return Mask(false);
 }
 
+fn beside_wall(cell: u32) -> Mask {
+    return Mask(false);
+}
+
+fn wall_at(p: Place, cell: u32, face: u32) -> Mask {
+    return Mask(false);
+}
+
 fn clear_solid(cell: u32, h: ptr<function, array<Real, 27>>) {
 }
 

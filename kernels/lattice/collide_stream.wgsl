@@ -39,7 +39,7 @@ fn collide_stream(
     var change: array<Real, 27>;
     relax(cell, saturation, shear_rate, &d, &change);
     add_source(p, u, &change);
-    saturate(turn, local, cell, saturation, excess, rho, u, &h, &change);
+    saturate(p, turn, local, cell, saturation, excess, rho, u, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];

@@ -22,6 +22,11 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (word & (1u << bit)) != 0u;
 }
 
+// Whether the cells at z, z + slices, ... are in the layer `layer`.
+fn in_slice(z: u32, slices: u32, layer: u32) -> Mask {
+    return z == layer;
+}
+
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<u32>(v) >= bitcast<u32>(limit);

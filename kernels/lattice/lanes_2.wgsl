@@ -22,6 +22,11 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (vec2(word) & (vec2(1u, 0x100u) << vec2(bit))) != vec2(0u);
 }
 
+// Whether the cells at z, z + slices, ... are in the layer `layer`.
+fn in_slice(z: u32, slices: u32, layer: u32) -> Mask {
+    return vec2(z) + vec2(0u, slices) == vec2(layer);
+}
+
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<vec2<u32>>(v) >= vec2<u32>(bitcast<u32>(limit));

@@ -23,6 +23,11 @@ fn flag(word: u32, bit: u32) -> Mask {
     return (vec4(word) & (vec4(1u, 0x100u, 0x10000u, 0x1000000u) << vec4(bit))) != vec4(0u);
 }
 
+// Whether the cells at z, z + slices, ... are in the layer `layer`.
+fn in_slice(z: u32, slices: u32, layer: u32) -> Mask {
+    return vec4(z) + slices * vec4(0u, 1u, 2u, 3u) == vec4(layer);
+}
+
 // Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<vec4<u32>>(v) >= vec4<u32>(bitcast<u32>(limit));

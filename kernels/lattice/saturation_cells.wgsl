@@ -1,12 +1,19 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
 // e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, workgroup, $cells, $operator, $reals
+// needs velocity, moments, workgroup, $cells, $operator, $reals
 
 // Nine planes of WORKGROUP elements for each brick: the sum of the fractions of all blocks, plus 8 in cells deep inside
-// one, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
+// one and 16 in full ones of joints, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
 // cells beside one that are fluid the last five are 1, rho - 1 and the fluid's velocity.
 @group(0) @binding(35) var<storage, read_write> saturation_planes: array<Reals>;
+
+// Most of B in full cells where blocks meet each other or a wall: what is in a full cell it would reflect for ever, so
+// that a block had the pressure of the day when its joint closed, and was tied to what it touches by the momentum between
+// them. Water seeps through these, along the joint, and blocks slide on it.
+const SEEPS = 0.02;
+// What blocks that touch may leave of a cell between them.
+const ROUGH = 2e-3;
 
 struct Saturation {
     // Sum over the blocks; more than 1 where they overlap.
@@ -15,6 +22,7 @@ struct Saturation {
     near: Mask,
     beside: Mask,
     deep: Mask,
+    joint: Mask,
 }
 
 fn plane(slot: u32, n: u32, local: u32) -> u32 {
@@ -23,14 +31,15 @@ fn plane(slot: u32, n: u32, local: u32) -> u32 {
 
 fn saturation_of(slot: u32, local: u32) -> Saturation {
     let kept = get_reals(saturation_planes[plane(slot, 0u, local)]);
-    let deep = kept >= Real(8.0);
+    let joint = kept >= Real(16.0);
+    let deep = (kept >= Real(8.0)) & !joint;
     let velocity = Vector(
         get_reals(saturation_planes[plane(slot, 1u, local)]),
         get_reals(saturation_planes[plane(slot, 2u, local)]),
         get_reals(saturation_planes[plane(slot, 3u, local)]),
     );
-    let fraction = max(select(kept, kept - Real(8.0), deep), Real(0.0));
-    return Saturation(fraction, velocity, kept != Real(0.0), kept < Real(0.0), deep);
+    let sum = kept - select(select(Real(0.0), Real(8.0), deep), Real(16.0), joint);
+    return Saturation(max(sum, Real(0.0)), velocity, kept != Real(0.0), kept < Real(0.0), deep, joint);
 }
 
 // What the eddy viscosity of the next step sees: the solid's velocity in the solid.
@@ -49,6 +58,7 @@ fn outside_solids(saturation: Saturation, nu_t: Real) -> Real {
 }
 
 fn saturate(
+    p: Place,
     slot: u32,
     local: u32,
     cell: u32,
@@ -61,9 +71,22 @@ fn saturate(
 ) {
     let e = min(saturation.fraction, Real(1.0));
     // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
-    let weight = select(e / (1.0 + (1.0 - e) / excess), Real(1.0), saturation.deep);
+    let open = e / (1.0 + (1.0 - e) / excess);
+    let full = (e > Real(1.0 - ROUGH)) & !saturation.deep;
+    var at_wall = Mask(false);
+    // What the water loses to walls along them.
+    var lost = Vector(Real(0.0), Real(0.0), Real(0.0));
+    for (var face = 0u; face < 6u; face++) { // unroll
+        let here = full & wall_at(p, cell, face);
+        at_wall = at_wall | here;
+        lost = lost_to_wall(face, here, h, lost);
+    }
+    let closed = select(open, min(open, Real(SEEPS)), saturation.joint | at_wall);
+    let weight = select(closed, Real(1.0), saturation.deep);
+    // Of what meets there: walls are at rest.
     let v = saturation.velocity;
-    var s = equilibrium(rho, v);
+    let share = select(Real(1.0), Real(0.5), at_wall);
+    var s = equilibrium(rho, Vector(share * v.x, share * v.y, share * v.z));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
@@ -75,9 +98,39 @@ fn saturate(
     let beside = saturation.beside & !solid(cell);
     let beta = select(Real(0.0), weight / max(saturation.fraction, Real(1e-30)), fluid);
     let a = factor * rho;
+    let each = 2.0 / max(saturation.fraction, Real(1.0));
     saturation_planes[plane(slot, 4u, local)] = put_reals(select(beta, Real(1.0), beside));
     saturation_planes[plane(slot, 5u, local)] = put_reals(select(beta * a, (*h)[0u], beside));
-    saturation_planes[plane(slot, 6u, local)] = put_reals(select(beta * (s[1u] - a * v.x), u.x, beside));
-    saturation_planes[plane(slot, 7u, local)] = put_reals(select(beta * (s[3u] - a * v.y), u.y, beside));
-    saturation_planes[plane(slot, 8u, local)] = put_reals(select(beta * (s[9u] - a * v.z), u.z, beside));
+    saturation_planes[plane(slot, 6u, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, beside));
+    saturation_planes[plane(slot, 7u, local)] = put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, beside));
+    saturation_planes[plane(slot, 8u, local)] = put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, beside));
+}
+
+// Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where
+// `here`. A full cell at a wall has the friction of the lattice there, which belongs to nobody: the block has it all.
+fn lost_to_wall(face: u32, here: Mask, h: ptr<function, array<Real, 27>>, before: Vector) -> Vector {
+    let way = select(Real(0.5), Real(-0.5), Mask(face % 2u == 1u));
+    let zero = Real(0.0);
+    var found: Vector;
+    switch face / 2u {
+        case 0u: {
+            found = Vector(zero, leaving((*h)[3u], (*h)[4u], (*h)[5u], way), leaving((*h)[9u], (*h)[10u], (*h)[11u], way));
+        }
+        case 1u: {
+            found = Vector(leaving((*h)[1u], (*h)[4u], (*h)[7u], way), zero, leaving((*h)[9u], (*h)[12u], (*h)[15u], way));
+        }
+        default: {
+            found = Vector(leaving((*h)[1u], (*h)[10u], (*h)[19u], way), leaving((*h)[3u], (*h)[12u], (*h)[21u], way), zero);
+        }
+    }
+    return Vector(
+        before.x + select(zero, found.x, here),
+        before.y + select(zero, found.y, here),
+        before.z + select(zero, found.z, here),
+    );
+}
+
+// The sum of f c_t over the directions with c_n = 1 or -1, from those of f c_t, f c_t c_n and f c_t (c_n^2 - 1/3).
+fn leaving(first: Real, second: Real, third: Real, way: Real) -> Real {
+    return 0.5 * (third + first * THIRD) + way * second;
 }

@@ -1,5 +1,5 @@
 // No block is in the fluid.
-// needs velocity, $lanes
+// needs velocity, grid, $lanes
 
 struct Saturation {
     unused: u32,
@@ -18,6 +18,7 @@ fn outside_solids(saturation: Saturation, nu_t: Real) -> Real {
 }
 
 fn saturate(
+    p: Place,
     slot: u32,
     local: u32,
     cell: u32,

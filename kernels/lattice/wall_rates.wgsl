@@ -19,7 +19,7 @@ struct OddRates {
 }
 
 fn wall_rates(cell: u32) -> OddRates {
-    let wall = flag(cell, 6u);
+    let wall = beside_wall(cell);
     return OddRates(
         select(Real(S10), Real(W10), wall),
         select(Real(S13), Real(W13), wall),

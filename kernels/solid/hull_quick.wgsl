@@ -1,6 +1,9 @@
 // Share of a convex polyhedron in a cell that at most one of its faces cuts.
 // needs tables, faces, one_plane
 
+// Gap between a cell and a face, cells, below which a joint is closed.
+const CLOSED = 1e-3;
+
 // r: the centre of the cell from the part's centroid.
 fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
     if (any(r + 1.5 <= part.low) || any(r - 1.5 >= part.high)) {
@@ -9,6 +12,7 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
     var reached = all(r + 0.5 > part.low) && all(r - 0.5 < part.high);
     var deep = true;
     var cuts = 0u;
+    var outside = 0u;
     var last: vec4<f32>;
     for (var k = 0u; k < part.faces; k++) {
         let face = faces[part.first_face + k];
@@ -18,15 +22,18 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         if (s >= 3.0 * w) {
             return 0.0;
         }
-        reached = reached && s < w - TOUCH;
+        outside += select(0u, 1u, s >= w - TOUCH);
         deep = deep && s <= -5.0 * w;
         if (s > TOUCH - w) {
-            last = vec4(face.xyz, s);
+            if (outside == 0u || s >= w - TOUCH) {
+                last = vec4(face.xyz, s);
+            }
             cuts++;
         }
     }
+    reached = reached && outside == 0u;
     if (!reached) {
-        return NEAR;
+        return select(NEAR, TOUCHES, outside == 1u && touches(part, r, last));
     }
     if (cuts == 0u) {
         return select(1.0, DEEP, deep);
@@ -35,5 +42,20 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         return UNDECIDED;
     }
     let share = one_plane_volume(last.xyz, last.w, half_width(last.xyz));
-    return select(NEAR, share, share > EMPTY);
+    if (share > EMPTY) {
+        return share;
+    }
+    return select(NEAR, TOUCHES, touches(part, r, last));
+}
+
+// Whether the foot of the cell's centre on a face, normal and height, lies in the face, so close that nothing is
+// between the cell and it.
+fn touches(part: Part, r: vec3<f32>, own: vec4<f32>) -> bool {
+    var here = own.w < half_width(own.xyz) + CLOSED;
+    let foot = r - own.w * own.xyz;
+    for (var k = 0u; k < part.faces && here; k++) {
+        let face = faces[part.first_face + k];
+        here = dot(face.xyz, foot) < face.w + CLOSED;
+    }
+    return here;
 }

@@ -69,7 +69,7 @@ fn reduce_faces(
         let job = jobs[turn];
         let tile = tiles[job.tile];
         for (var l = local; l < WORKGROUP; l += 64u) {
-            if (shares[job.tile * WORKGROUP + l] == NEAR) {
+            if (shares[job.tile * WORKGROUP + l] < 0.0) {
                 add_beside(job, tile, l);
             }
         }

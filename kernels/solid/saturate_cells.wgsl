@@ -13,6 +13,9 @@ override LANES_OF_ELEMENT: u32;
 @group(0) @binding(5) var<storage, read> shares: array<f32>;
 @group(0) @binding(6) var<storage, read_write> saturation: array<f32>;
 
+// What blocks that touch may leave of a cell between them.
+const ROUGH = 2e-3;
+
 @compute @workgroup_size(WORKGROUP)
 fn saturate_cells(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -31,6 +34,11 @@ fn saturate_cells(
     var sums: array<vec4<f32>, 4>;
     var deep: vec4<bool>;
     var near: vec4<bool>;
+    // The same of parts that touch only, each as one.
+    var beside: array<vec4<f32>, 4>;
+    // One more than the number of a block that has a share or touches, 0 where there is none; whether another one does.
+    var first_block: vec4<u32>;
+    var several: vec4<bool>;
     for (var k = slot_first[slot]; k < slot_first[slot + 1u]; k++) {
         let number = slot_tiles[k];
         let tile = tiles[number];
@@ -39,22 +47,29 @@ fn saturate_cells(
         let cell = tile.cell + vec3<i32>(place_in_brick(local));
         let u = velocity_at(motion, centre_from(cell, motion.base, motion.fraction));
         let added = clamp(mark, 0.0, 1.0) * vec4(u, 1.0);
+        let touching = select(0.0, 1.0, mark == TOUCHES) * vec4(u, 1.0);
         let here = vec4(tile.lane) == vec4(0u, 1u, 2u, 3u);
         for (var lane = 0u; lane < 4u; lane++) { // unroll
             sums[lane] += select(vec4(0.0), added, here[lane]);
+            beside[lane] += select(vec4(0.0), touching, here[lane]);
         }
         deep = deep | (here & vec4(mark == DEEP));
         near = near | (here & vec4(mark < 0.0));
+        let met = here & vec4(mark > 0.0 || mark == TOUCHES);
+        several = several | (met & (first_block != vec4(0u)) & (first_block != vec4(tile.block + 1u)));
+        first_block = select(first_block, vec4(tile.block + 1u), met);
     }
     for (var lane = 0u; lane < 4u; lane++) { // unroll
         if (lane < LANES_OF_ELEMENT) {
             let share = sums[lane].w;
             let some = share > 0.0;
+            let joint = several[lane] && !deep[lane] && share > 1.0 - ROUGH;
             let first = (slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + lane;
             let stride = WORKGROUP * LANES_OF_ELEMENT;
-            let solid = share + select(0.0, DEEP_SUM, deep[lane]);
+            let solid = share + select(0.0, DEEP_SUM, deep[lane]) + select(0.0, JOINT_SUM, joint);
             let empty = select(0.0, NEAR, near[lane]);
-            let u = select(vec3(0.0), sums[lane].xyz / share, some);
+            let all = sums[lane] + select(vec4(0.0), beside[lane], joint);
+            let u = select(vec3(0.0), all.xyz / all.w, some);
             saturation[first] = select(empty, solid, some);
             saturation[first + stride] = u.x;
             saturation[first + 2u * stride] = u.y;

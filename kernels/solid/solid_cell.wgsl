@@ -33,5 +33,8 @@ fn solid_cell(tile: Tile, share: f32, local: u32) -> SolidCell {
         saturation[first + 8u * stride],
     );
     let e = min(share, 1.0);
-    return SolidCell(r, e, -e * (a * velocity_at(motion, r) + g), saturation[first + 4u * stride]);
+    // Blocks that meet slide on what is between them: none of it is due to how they differ.
+    let mean = vec3(saturation[first + stride], saturation[first + 2u * stride], saturation[first + 3u * stride]);
+    let u = select(velocity_at(motion, r), mean, saturation[first] >= JOINT_SUM);
+    return SolidCell(r, e, -e * (a * u + g), saturation[first + 4u * stride]);
 }

@@ -49,10 +49,14 @@ struct Motion {
 const DEEP = 2.0;
 // Share of a part in a cell that it leaves empty, beside a cell that it does not.
 const NEAR = -1.0;
+// The same of a cell whose side lies on a face of the part.
+const TOUCHES = -2.0;
 // Share of a cell that is left to voxelise_edges.
 const UNDECIDED = 4.0;
 // Added to the shares of all parts in a cell that is deep in one of them.
 const DEEP_SUM = 8.0;
+// Added to them in a full cell of a closed joint, in which several blocks meet.
+const JOINT_SUM = 16.0;
 // Numbers that a cell of a saturated brick has: sum of the shares, velocity of the solid (3), beta, a, G (3).
 const PLANES = 9u;
 // Numbers that a block has: force (3), moment (9), held fluid, freed fluid, first moments of both (3 + 3).

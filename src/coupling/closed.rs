@@ -1,10 +1,10 @@
 //! What the water in closed joints does to a block: the uplift diagram, linear from rim to rim.
 //!
-//! No fluid reaches cells inside solids, and what is in them is reflected in place: under a block that lies on another
-//! one the lattice keeps the pressure of the start. Water in a closed joint has the pressure of its rim instead. Here
-//! the pressures beside the wet faces at the rim are fitted by a plane, p = p̄ + g·(x − x̄), with the least squares over
-//! their cells, above what the weight of the water makes of it; that acts on what of the block is dry. Nowhere there is
-//! it higher than at these faces, or lower.
+//! Water in a closed joint has the pressure of its rim. The lattice has it there only in the end, when what was in the full
+//! cells has seeped out, and shows it as part of the whole load; for single faces and factors of safety the pressures beside
+//! the wet faces at the rim are fitted by a plane, p = p̄ + g·(x − x̄), with the least squares over their cells, above what
+//! the weight of the water makes of it; that acts on what of the block is dry. Nowhere there is it higher than at these
+//! faces, or lower.
 //!
 //! ```text
 //!  p_heel  ┌───────┐          The mean of each wet face and, where all of it is wet, the slope along it that its
@@ -13,7 +13,7 @@
 //!           ╲▁▁▁▁▁▁
 //! ```
 
-use super::{Coupled, Felt, over::covered, passed_on::Field};
+use super::{Coupled, Felt, over::covered};
 use crate::{
     block::{Form, Part, Shape},
     bodies::{Pose, outer},
@@ -121,67 +121,11 @@ impl Plane {
     }
 }
 
-/// The pressure of the water in the joints of a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Uplift {
-    /// Where r is counted from, m.
-    centre: DVec3,
-    /// Less what the weight of the water makes of it.
-    head: Plane,
-    /// Least and highest of that, Pa.
-    range: [f64; 2],
-    /// Of the water, N/m³.
-    weight: DVec3,
-}
-
-impl Uplift {
-    /// At a place (m), Pa.
-    pub fn at(&self, x: DVec3) -> f64 {
-        let r = x - self.centre;
-        let [least, most] = self.range;
-        self.head.at(r).max(least).min(most) + self.weight.dot(r)
-    }
-}
-
-impl Field for Uplift {
-    fn moved(self, way: DVec3) -> Self {
-        Self {
-            centre: self.centre + way,
-            ..self
-        }
-    }
-
-    fn mean(fields: &[Self]) -> Self {
-        let Self { centre, weight, .. } = fields[0];
-        let share = 1.0 / fields.len() as f64;
-        let mut mean = Self {
-            centre,
-            weight,
-            head: Plane::default(),
-            range: [f64::INFINITY, f64::NEG_INFINITY],
-        };
-        for field in fields {
-            let way = centre - field.centre;
-            let lower = field.weight.dot(way);
-            mean.head.value += share * (field.head.at(way) + lower);
-            mean.head.gradient += share * field.head.gradient;
-            let [least, most] = field.range.map(|end| end + lower);
-            mean.range = [mean.range[0].min(least), mean.range[1].max(most)];
-        }
-        mean
-    }
-}
-
 /// The faces of a block with closed joints, and the pressure at the rim of these.
 pub(super) struct Rim<'a> {
     sides: Vec<Side<'a>>,
-    /// Where r is counted from, m.
-    centre: DVec3,
+    /// The pressure, r from the centroid of the block.
     plane: Plane,
-    /// Least and highest of the pressure less that of the weight, Pa.
-    range: [f64; 2],
-    /// Of the water, N/m³.
-    weight: DVec3,
 }
 
 impl<'a> Rim<'a> {
@@ -215,31 +159,12 @@ impl<'a> Rim<'a> {
         let samples = samples(&sides, pose.centre, weight);
         let dry = sides.iter().filter(|side| side.is_closed());
         let dry = dry.flat_map(|side| side.corners.iter().map(|x| x - pose.centre));
-        let (plane, range) = limited(fit(&samples, cell)?, (&samples, cell), dry);
+        let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
         let plane = Plane {
             gradient: plane.gradient + weight,
             ..plane
         };
-        Some(Self {
-            sides,
-            centre: pose.centre,
-            plane,
-            range,
-            weight,
-        })
-    }
-
-    /// The pressure in the joints.
-    pub fn pressure(&self) -> Uplift {
-        Uplift {
-            centre: self.centre,
-            head: Plane {
-                gradient: self.plane.gradient - self.weight,
-                ..self.plane
-            },
-            range: self.range,
-            weight: self.weight,
-        }
+        Some(Self { sides, plane })
     }
 
     /// Force (N) and torque (N m) on the wet faces and of the pressure of the rim on the dry ones.
@@ -446,7 +371,7 @@ fn limited(
     plane: Plane,
     (samples, cell): (&[Sample], f64),
     places: impl Iterator<Item = DVec3>,
-) -> (Plane, [f64; 2]) {
+) -> Plane {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut middle, mut area) = (DVec3::ZERO, 0.0);
     for Sample { over, .. } in samples {
@@ -472,9 +397,8 @@ fn limited(
         share.min(room.max(0.0) / more.abs().max(f64::MIN_POSITIVE))
     });
     let gradient = share * plane.gradient;
-    let plane = Plane {
+    Plane {
         value: mean - gradient.dot(middle),
         gradient,
-    };
-    (plane, [least, most])
+    }
 }

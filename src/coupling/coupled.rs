@@ -1,8 +1,6 @@
 //! The blocks of a scene in its lattice.
 
-use super::{
-    Company, Felt, Gap, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet, stale::Stale,
-};
+use super::{Company, Felt, Gap, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet};
 use crate::{
     Result,
     bodies::{Blocks, Motion},
@@ -71,32 +69,18 @@ impl Coupled {
         .await?;
         let all = &rock.setup.setup.blocks;
         let blocks = &all[..in_fluid];
-        let mut stale = Stale {
-            shapes: all.iter().map(|block| block.shape.clone()).collect(),
-            period: rock.blocks.period(),
-            start: rock.blocks.poses(),
-            pressure: scene.start_pressure(),
-            closed: vec![Vec::new(); in_fluid],
-        };
-        for gap in gaps.iter().filter(|gap| gap.is_closed(units.cell)) {
-            let [a, b] = gap.blocks;
-            for (block, other) in [(a, b), (b, a)] {
-                if let Some(closed) = stale.closed.get_mut(block) {
-                    closed.push(other);
-                }
-            }
-        }
         let probes = blocks.iter().map(|block| asked(scene, &block.name));
         let probes: Vec<[bool; 2]> = probes.collect();
-        let closed = stale.closed.iter().zip(blocks).zip(&probes);
-        let submerged = closed.map(|((closed, block), [followed, faces])| Submerged {
+        let submerged = blocks.iter().zip(&probes);
+        let submerged = submerged.map(|(block, [followed, faces])| Submerged {
             shape: block.shape.clone(),
             loaded: block.motion != Motion::Fixed || *followed,
-            faces: *faces || !closed.is_empty() && (*followed || block.motion == Motion::Free),
+            faces: *faces,
         });
         let submerged = submerged.collect();
+        let period = rock.blocks.period();
         let mut coupled = Self {
-            wet: Wet::new(device, lattice, (scene, units), submerged, stale)?,
+            wet: Wet::new(device, lattice, (scene, units), submerged, period)?,
             rock,
             in_fluid,
             gaps,

@@ -26,7 +26,6 @@ mod reading;
 mod rim;
 mod rock;
 mod sealed;
-mod stale;
 mod state;
 mod wet;
 

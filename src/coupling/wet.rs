@@ -1,9 +1,9 @@
 //! The side of blocks on which a lattice feels them.
 
-use super::{Ambient, Felt, Gathered, Pace, Reading, loads::sum, stale::Stale};
+use super::{Ambient, Felt, Gathered, Pace, Reading, loads::sum};
 use crate::{
     Error, Result,
-    bodies::{Load, Pose},
+    bodies::{Load, Period, Pose},
     immersed::{FaceLoad, Frame, Immersed, Submerged},
     lattice::Lattice,
     scene::Scene,
@@ -20,7 +20,6 @@ pub(crate) struct Wet {
     /// Of the blocks in the fluid; empty before the first exchange.
     pub(super) faces: Vec<Vec<FaceLoad>>,
     pub(super) ambient: Ambient,
-    pub(super) stale: Stale,
     pub(super) gathered: Gathered,
     average: bool,
     /// Number of blocks in the fluid, the first ones.
@@ -35,7 +34,7 @@ impl Wet {
         lattice: &Lattice,
         (scene, units): (&Scene, &Units),
         blocks: Vec<Submerged>,
-        stale: Stale,
+        period: Option<Period>,
     ) -> Result<Self> {
         let frame = Frame {
             origin: DVec3::from(scene.domain.origin),
@@ -51,9 +50,8 @@ impl Wet {
                 density: scene.fluid.density,
                 acceleration: scene.fluid.acceleration.clone(),
                 gravity: DVec3::from(scene.rock.gravity),
-                period: stale.period,
+                period,
             },
-            stale,
             gathered: Gathered::default(),
             average: scene.coupling.average,
             placed: None,
@@ -149,17 +147,10 @@ impl Wet {
     /// Ends the time since the last exchange: the blocks feel the mean of its loads.
     pub fn exchange(&mut self) -> Vec<Felt> {
         let flows = self.gathered.take().unwrap_or_default();
-        let none = Vec::new();
-        let poses = self.placed.as_ref().unwrap_or(&none);
-        let grid = (self.immersed.frame().units.cell, &self.ambient);
-        let stale = match poses.is_empty() {
-            true => vec![Load::default(); flows.len()],
-            false => self.stale.loads(&self.faces, poses, grid),
+        let felt = |flow: Load| Felt {
+            flow,
+            buoyancy: self.ambient.buoyancy(&flow),
         };
-        let felt = |(flow, stale): (&Load, Load)| Felt {
-            flow: sum(*flow, stale),
-            buoyancy: self.ambient.buoyancy(flow),
-        };
-        flows.iter().zip(stale).map(felt).collect()
+        flows.into_iter().map(felt).collect()
     }
 }

@@ -35,7 +35,10 @@ pub use program::{
     saturate_cells, sum_faces, voxelise, voxelise_edges,
 };
 pub use shell::NearCell;
-pub use tables::{DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH};
+pub use tables::{
+    DEEP, DEEP_SUM, FACE_LOAD, FaceJob, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES, Tile,
+    WRENCH,
+};
 
 pub(crate) use outline::outline;
 pub(crate) use shell::near;

@@ -9,8 +9,14 @@ pub const DEEP: f32 = 2.0;
 /// Share of a part in a cell that it leaves empty, but not all of the 26 cells around.
 pub const NEAR: f32 = -1.0;
 
+/// The same of a cell whose side lies on a face of the part.
+pub const TOUCHES: f32 = -2.0;
+
 /// Added to the sum of the shares in a cell that is deep in one of its parts.
 pub const DEEP_SUM: f32 = 8.0;
+
+/// Added to it in a full cell of a closed joint, in which several blocks meet.
+pub const JOINT_SUM: f32 = 16.0;
 
 /// Numbers that each cell of a saturated brick has on the device.
 pub const PLANES: usize = 9;

@@ -1,6 +1,8 @@
 //! Which files and numbers make the kernels of a setup.
 
-use super::{Collision, Equilibrium, Force, Grid, Setup, SolidOperator, Storage, populations};
+use super::{
+    Collision, Equilibrium, Face, Force, Grid, Setup, SolidOperator, Storage, populations,
+};
 use crate::link::Program;
 
 /// Which cells a collide–stream kernel is for.
@@ -141,6 +143,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("CELLS_X", grid.cells[0].into()),
         ("CELLS_Y", grid.cells[1].into()),
         ("CELLS_Z", grid.cells[2].into()),
+        ("NO_WALLS", no_walls(setup).into()),
         ("BRICK_X", grid.brick[0].into()),
         ("BRICK_Y", grid.brick[1].into()),
         ("BRICK_Z", grid.brick[2].into()),
@@ -183,4 +186,11 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         all.extend([("FORCE_X", x), ("FORCE_Y", y), ("FORCE_Z", z)]);
     }
     all
+}
+
+/// A bit for each face that is no wall at rest: x−, x+, y−, ….
+fn no_walls(setup: &Setup) -> u32 {
+    let faces = setup.faces.iter().flatten().enumerate();
+    let others = faces.filter(|(_, face)| !matches!(face, Face::Wall([0.0, 0.0, 0.0])));
+    others.map(|(n, _)| 1 << n).sum()
 }

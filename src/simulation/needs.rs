@@ -43,7 +43,6 @@ impl Needs {
             .most_bindings
             .max(limits.max_storage_buffers_per_shader_stage);
         if scene.has_blocks() {
-            // Of faces where somebody asks, and of free blocks in closed joints.
             bindings = bindings.max(immersed::MOST_BINDINGS);
             // What they take is known once they are placed, and changes as they move.
             limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;

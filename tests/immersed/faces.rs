@@ -45,7 +45,7 @@ impl Case {
         let mut saturation = vec![f32::from_bits(POISON); scalars];
         for (number, tile) in tiling.tiles.iter().enumerate() {
             for local in 0..tiling.workgroup() {
-                if shares[number * tiling.workgroup() + local] != NEAR {
+                if shares[number * tiling.workgroup() + local] >= 0.0 {
                     continue;
                 }
                 let any = noise.next();
@@ -84,7 +84,7 @@ impl Case {
             let tiles = self.tiling.tiles.iter().enumerate();
             for (number, tile) in tiles.filter(|(_, tile)| tile.part == part) {
                 for local in 0..self.tiling.workgroup() {
-                    if self.shares[number * self.tiling.workgroup() + local] != NEAR {
+                    if self.shares[number * self.tiling.workgroup() + local] >= 0.0 {
                         continue;
                     }
                     let values = self.cell(tile, local, face as usize);

@@ -2,7 +2,8 @@
 
 use riprap::{
     immersed::{
-        DEEP, DEEP_SUM, FACE_LOAD, FaceJob, Motion, NEAR, PLANES, Part, Tile, WRENCH, reduce_faces,
+        DEEP, DEEP_SUM, FACE_LOAD, FaceJob, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES, Tile,
+        WRENCH, reduce_faces,
     },
     lattice::Grid,
     layout::check,
@@ -91,7 +92,9 @@ fn constants() {
     };
     assert_eq!(there("DEEP"), DEEP);
     assert_eq!(there("NEAR"), NEAR);
+    assert_eq!(there("TOUCHES"), TOUCHES);
     assert_eq!(there("DEEP_SUM"), DEEP_SUM);
+    assert_eq!(there("JOINT_SUM"), JOINT_SUM);
     assert_eq!(there("PLANES"), PLANES as f32);
     assert_eq!(there("WRENCH"), WRENCH as f32);
     assert_eq!(there("FACE_LOAD"), FACE_LOAD as f32);

@@ -6,7 +6,9 @@ use crate::{
     workbench::{POISON, Workbench},
 };
 use glam::DVec3;
-use riprap::immersed::{DEEP, PLANES, TileSum, WRENCH, constants, reduce_blocks, reduce_tiles};
+use riprap::immersed::{
+    DEEP, JOINT_SUM, PLANES, TileSum, WRENCH, constants, reduce_blocks, reduce_tiles,
+};
 
 const BLOCKS: u32 = 9;
 
@@ -41,6 +43,13 @@ impl Case {
                 if saturation[at(4)].to_bits() == POISON {
                     // Deep cells and walls have no beta.
                     let fluid = noise.next() > 0.3;
+                    let joint = noise.next() > 0.7;
+                    saturation[at(0)] = if joint { 1.0 + JOINT_SUM } else { 1.0 };
+                    // Nobody may use the mean velocity elsewhere.
+                    for plane in 1..4 {
+                        let any = 0.1 * noise.next() as f32;
+                        saturation[at(plane)] = if joint { any } else { f32::NAN };
+                    }
                     for plane in 4..PLANES {
                         let scale = if plane > 4 { 1e-3 } else { 1.0 };
                         let any = scale * noise.next() as f32;
@@ -71,8 +80,11 @@ impl Case {
                 let e = if share == DEEP { 1.0 } else { f64::from(share) };
                 let point = centre(tiling.cell(tile, local).unwrap());
                 let r = (point - moving.centre).to_array();
-                let u = moving.at(point).to_array();
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
+                let u = match at(0) >= f64::from(JOINT_SUM) {
+                    true => [at(1), at(2), at(3)],
+                    false => moving.at(point).to_array(),
+                };
                 let (beta, a) = (at(4), at(5));
                 let held = e * beta;
                 let freed = if beta > 0.0 { e - held } else { 0.0 };

@@ -5,7 +5,10 @@ use crate::{
     workbench::{POISON, Workbench},
 };
 use glam::{DMat3, DVec3};
-use riprap::immersed::{DEEP, DEEP_SUM, Motion, NEAR, PLANES, Tile, constants, saturate_cells};
+use riprap::immersed::{
+    DEEP, DEEP_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, constants, saturate_cells,
+};
+use std::collections::BTreeSet;
 
 /// How a block moves, in f64.
 pub struct Moving {
@@ -67,8 +70,9 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Noise) -> Vec<f32> {
     for tile in &tiling.tiles {
         shares.extend((0..tiling.workgroup()).map(|local| {
             let any = noise.next();
-            match (tiling.cell(tile, local), (8.0 * any) as u32) {
+            match (tiling.cell(tile, local), (9.0 * any) as u32) {
                 (None, _) | (_, 0..3) => 0.0,
+                (_, 8) => TOUCHES,
                 (_, 3) => NEAR,
                 (_, 4) => DEEP,
                 (_, 5) => 1.0,
@@ -83,10 +87,20 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Noise) -> Vec<f32> {
 fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f64, DVec3) {
     let [slot, lane, local] = at;
     let (mut sum, mut flux, mut deep, mut near) = (0.0, DVec3::ZERO, false, false);
+    let mut met = BTreeSet::new();
+    let (mut touching, mut touched) = (DVec3::ZERO, 0.0);
     let here = |tile: &Tile| tile.slot == slot && tile.lane == lane;
     for (number, tile) in tiling.tiles.iter().enumerate().filter(|(_, t)| here(t)) {
         let share = shares[number * tiling.workgroup() + local as usize];
-        near |= share == NEAR;
+        near |= share < 0.0;
+        if share > 0.0 || share == TOUCHES {
+            met.insert(tile.block);
+        }
+        if share == TOUCHES {
+            let cell = tiling.cell(tile, local as usize).unwrap();
+            touching += moving[tile.block as usize].at(centre(cell));
+            touched += 1.0;
+        }
         deep |= share == DEEP;
         let fraction = f64::from(share.clamp(0.0, 1.0));
         if fraction > 0.0 {
@@ -97,6 +111,10 @@ fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f6
     }
     match (sum > 0.0, near) {
         (true, _) if deep => (sum + f64::from(DEEP_SUM), flux / sum),
+        (true, _) if met.len() > 1 && sum > 0.998 => {
+            let mean = (flux + touching) / (sum + touched);
+            (sum + f64::from(JOINT_SUM), mean)
+        }
         (true, _) => (sum, flux / sum),
         (false, true) => (f64::from(NEAR), DVec3::ZERO),
         (false, false) => (0.0, DVec3::ZERO),
@@ -161,8 +179,8 @@ fn shares_add_and_velocities_are_their_mean() {
                     continue;
                 }
                 let (sum, u) = twin(&tiling, &shares, &moving, [slot, lane, local]);
-                shared += u32::from(sum > 2.0 && sum < 8.0);
-                assert!((f64::from(plane(0)) - sum).abs() < 2e-6, "{sum}");
+                shared += u32::from(sum > 16.0);
+                assert!((f64::from(plane(0)) - sum).abs() < 4e-6, "{sum}");
                 for (a, expected) in u.to_array().into_iter().enumerate() {
                     let error = f64::from(plane(1 + a as u32)) - expected;
                     // Speeds are below 1.

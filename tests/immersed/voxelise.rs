@@ -9,7 +9,7 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     block::HalfSpace,
-    immersed::{DEEP, NEAR, Tile, constants, voxelise, voxelise_edges},
+    immersed::{DEEP, NEAR, TOUCHES, Tile, constants, voxelise, voxelise_edges},
 };
 
 /// The shares of the listed tiles; what is not listed stays poison.
@@ -87,6 +87,11 @@ fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
     } else if far < -EDGE {
         assert_ne!(share, 0.0, "{r} is near");
     }
+    if share == TOUCHES {
+        let (height, w) = highest(placed, r);
+        let gap = (height - 1.0) * w;
+        assert!(exact < 1e-5 && gap < 1e-3 + EDGE, "{r} touches over {gap}");
+    }
     if exact < 1e-8 {
         assert!(share <= 2e-6, "{r} is empty: {share}");
     }
@@ -126,7 +131,8 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
                 false => hull_share(&placed.faces, r),
             };
             check_marks(placed, r, share, exact);
-            let known = share == DEEP || share == NEAR || (0.0..=1.0).contains(&share);
+            let marks = [DEEP, NEAR, TOUCHES];
+            let known = marks.contains(&share) || (0.0..=1.0).contains(&share);
             assert!(known, "{share}");
             let most = if cuts(placed, r) > 7 { COLUMNS } else { most };
             worst = worst.max((fraction(share) - exact).abs() / most);
@@ -144,6 +150,24 @@ fn grids(size: u32) -> [riprap::lattice::Grid; 4] {
         grid([size + 3, size, size + 1], 4, [8, 2, 4]),
         grid([size + 1, size + 2, size + 3], 4, [7, 6, 1]),
     ]
+}
+
+/// Cells beside the faces of a cube along the grid, to within a thousandth of a cell, and not those beside its edges.
+#[test]
+fn cells_that_touch_a_cube() {
+    let bench = Workbench::new(None);
+    for (gap, faces) in [(-4e-4, 6), (0.0, 6), (9e-4, 6), (1.2e-3, 0)] {
+        let cube = cuboid(4.0 - 2.0 * gap, 4.0 - 2.0 * gap, 4.0 - 2.0 * gap);
+        let at = DVec3::splat(6.0);
+        let placed = vec![Placed::hull(0, &cube, at, DQuat::IDENTITY)];
+        let tiling = Tiling::new(grid([12; 3], 1, [4, 4, 4]), [0; 3], placed);
+        let shares = all(&bench, &tiling);
+        let touching = shares.iter().filter(|share| **share == TOUCHES).count();
+        // A cube that is larger reaches into them.
+        let expected = if gap < 0.0 { 0 } else { faces * 16 };
+        assert_eq!(touching, expected, "{gap}");
+        check_cells(&tiling, &shares, ALMOST_PARALLEL);
+    }
 }
 
 #[test]

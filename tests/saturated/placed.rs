@@ -2,7 +2,7 @@
 
 use crate::{
     subject::Subject,
-    twin::{Solid, solid::force_on},
+    twin::Solid,
     twin_of::{limit, walled},
 };
 use glam::{DMat3, DQuat, DVec3};
@@ -14,7 +14,7 @@ use riprap::{
     readback::Readback,
     units::Units,
 };
-use std::sync::Arc;
+use std::{collections::BTreeSet, sync::Arc};
 
 /// A box along the axes, so that its share of a cell is a product, in lattice units.
 #[derive(Clone, Copy)]
@@ -50,6 +50,16 @@ impl Cuboid {
             .all()
     }
 
+    /// Whether a side of the cell at `centre` lies on the box, and its middle in one of the faces.
+    fn borders(&self, centre: DVec3) -> bool {
+        let over = (centre - self.centre).abs() - 0.5 * self.size;
+        let on = |axis: usize| {
+            let [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
+            (over[axis] - 0.5).abs() < 1e-3 && over[b] < 0.0 && over[c] < 0.0
+        };
+        (0..3).any(on)
+    }
+
     fn velocity_at(&self, x: DVec3) -> DVec3 {
         self.velocity + self.spin.cross(x - self.centre)
     }
@@ -79,19 +89,36 @@ fn images(cells: [usize; 3], periodic: [bool; 3], cell: usize) -> Vec<DVec3> {
 fn solid_of(boxes: &[Cuboid], centres: &[DVec3]) -> Solid {
     let mut flux = DVec3::ZERO;
     let mut solid = Solid::default();
-    for (block, &x) in boxes
-        .iter()
-        .flat_map(|b| centres.iter().map(move |x| (b, x)))
-    {
+    let mut met = BTreeSet::new();
+    let each = boxes.iter().enumerate();
+    for ((number, block), &x) in each.flat_map(|b| centres.iter().map(move |x| (b, x))) {
         let share = block.share(x);
+        if share > 0.0 || block.borders(x) {
+            met.insert(number);
+        }
         solid.fraction += share;
         flux += share * block.velocity_at(x);
         solid.deep |= block.holds(x, 2.5);
         solid.beside |= block.touches(x, 1.5);
     }
     solid.beside &= solid.fraction == 0.0;
+    solid.joint = met.len() > 1 && solid.fraction > 0.998 && !solid.deep;
     if solid.fraction > 0.0 {
         solid.velocity = (flux / solid.fraction).to_array();
+    }
+    if solid.joint {
+        // Those that touch it count as one each.
+        let mut all = solid.fraction;
+        for (block, &x) in boxes
+            .iter()
+            .flat_map(|b| centres.iter().map(move |x| (b, x)))
+        {
+            if block.share(x) == 0.0 && block.borders(x) {
+                flux += block.velocity_at(x);
+                all += 1.0;
+            }
+        }
+        solid.velocity = (flux / all).to_array();
     }
     solid
 }
@@ -111,10 +138,13 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
                     continue;
                 }
                 let r = x - block.centre;
-                let velocity = block.velocity_at(x).to_array();
-                let change = twin.solid_change(cell, velocity, tau);
+                // Where blocks meet the mean counts.
+                let velocity = match twin.blocks.as_ref().unwrap().1[cell].joint {
+                    true => solid.velocity,
+                    false => block.velocity_at(x).to_array(),
+                };
                 let weight = solid.weight(tau);
-                let force = DVec3::from_array(force_on(weight, &solid, share, &change));
+                let force = DVec3::from_array(twin.force_on(cell, share, velocity, tau));
                 let held = weight * share / solid.fraction;
                 load.force += force;
                 load.moment += DMat3::from_cols(force * r.x, force * r.y, force * r.z);

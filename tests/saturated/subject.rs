@@ -2,7 +2,7 @@
 
 use crate::{
     rig::Rig,
-    twin::{Solid, Twin, lattice::Q, lattice::W, solid::force_on},
+    twin::{Solid, Twin, lattice::Q, lattice::W},
     twin_of::{noise, poison, random_populations, twin_of},
 };
 use riprap::{
@@ -72,6 +72,7 @@ fn random_solid(cell: usize) -> Solid {
         // Two blocks in a cell, and one deep in another.
         16 => (1.0 + coarse(unit(1)), false),
         17 => (1.0 + coarse(unit(1)), true),
+        18 => (1.0, false),
         _ => (1.0, true),
     };
     Solid {
@@ -79,6 +80,7 @@ fn random_solid(cell: usize) -> Solid {
         velocity: [2, 3, 4].map(|n| f64::from((0.02 * (unit(n) - 0.5)) as f32)),
         beside: false,
         deep,
+        joint: !deep && fraction >= 1.0 && unit(5) > 0.5,
     }
 }
 
@@ -87,6 +89,7 @@ pub fn planes(solid: &Solid) -> [f32; 4] {
     let mark = match solid {
         Solid { beside: true, .. } => -1.0,
         Solid { deep: true, .. } => solid.fraction + 8.0,
+        Solid { joint: true, .. } => solid.fraction + 16.0,
         _ => solid.fraction,
     };
     let [x, y, z] = solid.velocity;
@@ -205,8 +208,7 @@ impl Subject {
             // One of two blocks: three tenths of the solid, with a velocity of its own.
             let part = 0.3 * solid.fraction;
             let velocity = [0, 1, 2].map(|a| solid.velocity[a] + 0.01 * noise(3 * cell + a));
-            let change = self.twin.solid_change(cell, velocity, tau);
-            let force = force_on(weight, &solid, part, &change);
+            let force = self.twin.force_on(cell, part, velocity, tau);
             worst = worst.max((part * at(4) - weight * part / solid.fraction).abs());
             for a in 0..3 {
                 let felt = -part * (at(5) * velocity[a] + at(6 + a));

@@ -80,6 +80,17 @@ impl Domain {
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
     }
 
+    /// Outward normals along the axes of the walls at rest and solids beside a cell.
+    pub fn walls_at(&self, cell: usize) -> impl Iterator<Item = [i32; 3]> {
+        let bounces = move |c: &[i32; 3]| self.link(cell, direction(*c)) == Link::Bounce;
+        let normal = |n: usize| {
+            let mut c = [0; 3];
+            c[n / 2] = [-1, 1][n % 2];
+            c
+        };
+        (0..6).map(normal).filter(bounces)
+    }
+
     /// The next fluid cell along `axis` (`step` = ±1), across a periodic face too.
     pub fn fluid_neighbour(&self, cell: usize, axis: usize, step: i32) -> Option<usize> {
         let mut c = [0; 3];

@@ -2,9 +2,9 @@
 
 use super::collide::collide;
 use super::domain::{Domain, Link};
-use super::lattice::{OPPOSITE, Q, W, c_dot, macroscopic};
+use super::lattice::{C, OPPOSITE, Q, W, c_dot, macroscopic};
 use super::rates::{Config, OddClass};
-use super::solid::{Solid, SolidOperator, solid_change};
+use super::solid::{Solid, SolidOperator, force_on, solid_change};
 use super::{start, wale};
 
 /// Force per cell.
@@ -82,9 +82,67 @@ impl Twin {
 
     /// What blocks leave of a cell.
     pub fn solid_at(&self, cell: usize) -> Solid {
-        self.blocks
-            .as_ref()
-            .map_or_else(Solid::default, |(_, cells)| cells[cell])
+        let Some((_, cells)) = &self.blocks else {
+            return Solid::default();
+        };
+        let own = cells[cell];
+        Solid {
+            joint: own.joint || self.is_full_at_wall(cell),
+            ..own
+        }
+    }
+
+    fn is_full_at_wall(&self, cell: usize) -> bool {
+        let Some((_, cells)) = &self.blocks else {
+            return false;
+        };
+        let full = cells[cell].share() > 0.998 && !cells[cell].deep;
+        full && self.domain.walls_at(cell).next().is_some()
+    }
+
+    /// Mean velocity of what meets in a full cell at a wall at rest, less that of its blocks.
+    fn with_walls(&self, cell: usize) -> [f64; 3] {
+        let share = if self.is_full_at_wall(cell) {
+            -0.5
+        } else {
+            0.0
+        };
+        self.solid_at(cell).velocity.map(|v| share * v)
+    }
+
+    /// Momentum that the water of a full cell has lost to walls at rest along these, when its populations came back.
+    fn lost_to_walls(&self, cell: usize) -> [f64; 3] {
+        let mut lost = [0.0; 3];
+        if !self.is_full_at_wall(cell) {
+            return lost;
+        }
+        for normal in self.domain.walls_at(cell) {
+            for i in 0..Q {
+                let along = |a: usize| normal[a] == 0;
+                let out: i32 = (0..3).map(|a| C[i][a] * normal[a]).sum();
+                if out == -1 {
+                    for a in (0..3).filter(|&a| along(a)) {
+                        lost[a] -= 2.0 * self.f[cell][i] * f64::from(C[i][a]);
+                    }
+                }
+            }
+        }
+        lost
+    }
+
+    /// Force on a block that has the share `part` of a cell and moves there with `velocity`.
+    pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
+        let solid = self.solid_at(cell);
+        let more = self.with_walls(cell);
+        let change = self.solid_change(cell, [0, 1, 2].map(|a| velocity[a] + more[a]), tau);
+        let force = force_on(solid.weight(tau), &solid, part, &change);
+        let lost = self.lost_to_walls(cell);
+        [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.fraction.max(1.0))
+    }
+
+    fn is_beside_wall(&self, cell: usize) -> bool {
+        let mut links = self.links[cell].iter();
+        links.any(|link| matches!(link, Link::Bounce | Link::Moving(_)))
     }
 
     /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE. Blocks take their share of it,
@@ -113,10 +171,11 @@ impl Twin {
         if self.solid_at(cell).is_near() {
             return OddClass::Block;
         }
-        let wall = self.links[cell]
-            .iter()
-            .any(|link| matches!(link, Link::Bounce | Link::Moving(_)));
-        if wall { OddClass::Wall } else { OddClass::Bulk }
+        if self.is_beside_wall(cell) {
+            OddClass::Wall
+        } else {
+            OddClass::Bulk
+        }
     }
 
     /// Populations after the collision of the coming step.
@@ -139,7 +198,9 @@ impl Twin {
     fn saturate(&self, cell: usize, fluid: &[f64; Q], tau: f64) -> [f64; Q] {
         let solid = self.solid_at(cell);
         let b = solid.weight(tau);
-        let change = self.solid_change(cell, solid.velocity, tau);
+        let more = self.with_walls(cell);
+        let velocity = [0, 1, 2].map(|a| solid.velocity[a] + more[a]);
+        let change = self.solid_change(cell, velocity, tau);
         let f = &self.f[cell];
         std::array::from_fn(|i| f[i] + (1.0 - b) * (fluid[i] - f[i]) + b * change[i])
     }

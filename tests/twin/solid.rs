@@ -26,7 +26,12 @@ pub struct Solid {
     pub beside: bool,
     /// Whether the cell and all within two layers of it are full of one block.
     pub deep: bool,
+    /// Whether it is full and blocks meet in it, or one and a wall.
+    pub joint: bool,
 }
+
+/// Most of B in a full cell of a closed joint, through which water seeps.
+const SEEPS: f64 = 0.02;
 
 impl Solid {
     /// Part of the cell that no fluid fills.
@@ -39,13 +44,14 @@ impl Solid {
         self.beside || self.fraction > 0.0
     }
 
-    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside.
+    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a fiftieth in joints.
     pub fn weight(&self, tau: f64) -> f64 {
         let (e, excess) = (self.share(), tau - 0.5);
-        if self.deep {
-            1.0
-        } else {
-            e * excess / ((1.0 - e) + excess)
+        let open = e * excess / ((1.0 - e) + excess);
+        match self {
+            Self { deep: true, .. } => 1.0,
+            Self { joint: true, .. } => open.min(SEEPS),
+            _ => open,
         }
     }
 

@@ -14,4 +14,5 @@ mod repeat;
 mod rest;
 #[path = "../rig/mod.rs"]
 mod rig;
+mod sliding;
 mod world;

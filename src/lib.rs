@@ -34,7 +34,7 @@
 //!         lattice.record(&mut pass);
 //!     }
 //!     // Density and velocity, in buffers that your own kernels can bind.
-//!     observer.record(&mut lattice, &mut pass);
+//!     observer.record(&mut lattice, &mut pass)?;
 //! }
 //! queue.submit([encoder.finish()]);
 //! assert_eq!(lattice.step(), 10);

@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             if look > 0 {
                 (0..EVERY).for_each(|_| lattice.record(&mut pass));
             }
-            observer.record(&mut lattice, &mut pass);
+            observer.record(&mut lattice, &mut pass)?;
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &bind, &[]);
             pass.dispatch_workgroups((rows as u32).div_ceil(32), 1, 1);

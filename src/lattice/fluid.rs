@@ -236,6 +236,11 @@ impl Lattice {
         self.streams.saturation()
     }
 
+    /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
+    pub(super) fn saturated_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
+        self.streams.saturated()
+    }
+
     /// Records the boundary passes of the coming step, unless that is done: after it the
     /// populations of every fluid cell are complete.
     pub(super) fn close(&mut self, pass: &mut wgpu::ComputePass<'_>) {

@@ -4,8 +4,9 @@ use super::{
     Lattice, State,
     fluid::{Dispatch, Extra, result_buffer},
     gather::Gather,
+    program,
 };
-use crate::{Result, readback::Readback};
+use crate::{Result, kernel::Kernel, readback::Readback};
 
 /// A number that follows from the velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +55,8 @@ pub struct Observer {
     derive: Vec<(Derived, Dispatch)>,
     sums: Option<(wgpu::Buffer, Dispatch)>,
     macroscopic: [Dispatch; 2],
+    /// Where blocks may be.
+    inside_solids: Option<(wgpu::Device, Kernel)>,
     gather: Gather,
     readback: Readback,
 }
@@ -79,6 +82,15 @@ impl Observer {
             lattice.cell_dispatch(device, &program, "macroscopic", odd, extra, cells as u32)
         };
         let macroscopic = [make(false)?, make(true)?];
+        let inside_solids = match lattice.saturation() {
+            Some(_) => {
+                let program = lattice.cell_program("inside_solids").link()?;
+                let constants = program::constants(&lattice.setup, &lattice.grid, false);
+                let kernel = Kernel::new(device, &program, "inside_solids", &constants)?;
+                Some((device.clone(), kernel))
+            }
+            None => None,
+        };
         Ok(Self {
             density,
             velocity,
@@ -86,14 +98,39 @@ impl Observer {
             derive: Vec::new(),
             sums: None,
             macroscopic,
+            inside_solids,
             gather: Gather::new(device, lattice)?,
             readback: Readback::default(),
         })
     }
 
     /// Records the density and velocity of the present state into [`Observer::density`] and
-    /// [`Observer::velocity`].
-    pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) {
+    /// [`Observer::velocity`]; in cells with solid the velocity is that in the middle of a step, so that in a steady flow a plane carries
+    /// what crosses it.
+    ///
+    /// # Errors
+    /// If the device cannot bind what blocks leave of their cells.
+    pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
+        self.record_cells(lattice, pass);
+        let (Some((device, kernel)), Some((list, slots))) =
+            (&self.inside_solids, lattice.saturated_bricks())
+        else {
+            return Ok(());
+        };
+        // Both may be other buffers than the last time.
+        let mut buffers = vec![("bricks", list), ("density", &self.density)];
+        buffers.extend(lattice.saturation().map(|kept| ("saturation_planes", kept)));
+        buffers.extend(VELOCITY_OUT.into_iter().zip(&self.velocity));
+        buffers.extend(lattice.buffers.named(false));
+        let bind = kernel.bind(device, &buffers)?;
+        let grid = &lattice.grid;
+        let cells = slots * grid.brick.iter().product::<u32>() * grid.lanes;
+        kernel.record(pass, &bind, cells.div_ceil(64));
+        Ok(())
+    }
+
+    /// The same without what solids do to the momentum of a cell in the middle of a step.
+    fn record_cells(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) {
         lattice.close(pass);
         self.macroscopic[lattice.parity()].record(pass);
     }
@@ -114,16 +151,17 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
         then: Option<&Dispatch>,
-    ) {
+    ) -> Result<()> {
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.record(lattice, &mut pass);
+            self.record(lattice, &mut pass)?;
             if let Some(dispatch) = then {
                 dispatch.record(&mut pass);
             }
         }
         queue.submit([encoder.finish()]);
+        Ok(())
     }
 
     /// Reads density and velocity of all cells.
@@ -150,7 +188,7 @@ impl Observer {
         lattice: &mut Lattice,
         cells: Option<&[u32]>,
     ) -> Result<State> {
-        self.submit(device, queue, lattice, None);
+        self.submit(device, queue, lattice, None)?;
         let count = lattice.grid.cell_count();
         let mut fields = [const { Vec::new() }; 4];
         let buffers = std::iter::once(&self.density).chain(&self.velocity);
@@ -211,7 +249,7 @@ impl Observer {
                 self.derive.len() - 1
             }
         };
-        self.submit(device, queue, lattice, Some(&self.derive[at].1));
+        self.submit(device, queue, lattice, Some(&self.derive[at].1))?;
         let readback = &mut self.readback;
         let values = match on {
             None => readback.read(device, queue, &buffer, cells).await,
@@ -251,7 +289,8 @@ impl Observer {
         )
     }
 
-    /// Reads the sums over the fluid cells.
+    /// Reads the sums over the fluid cells, of what is in them: in cells with solid a body force has put half of itself into
+    /// their momentum, of which nothing flows.
     ///
     /// # Errors
     /// If the device is lost.
@@ -276,7 +315,14 @@ impl Observer {
                 (buffer, dispatch)
             }
         };
-        self.submit(device, queue, lattice, Some(&dispatch));
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            // The ledger of blocks and fluid is that of what is in the cells.
+            self.record_cells(lattice, &mut pass);
+            dispatch.record(&mut pass);
+        }
+        queue.submit([encoder.finish()]);
         let partial: Vec<[f32; 8]> = self.readback.read(device, queue, &buffer, turns).await?;
         self.sums = Some((buffer, dispatch));
         let mut sums = Sums::default();

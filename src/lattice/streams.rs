@@ -84,6 +84,14 @@ impl Streams {
         self.saturation.as_ref()
     }
 
+    /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
+    pub fn saturated(&self) -> Option<(&wgpu::Buffer, u32)> {
+        let mut streams = self.streams.iter();
+        let stream =
+            streams.find(|stream| stream.reach == Reach::Saturated && stream.groups > 0)?;
+        Some((stream.list.as_ref()?, stream.groups))
+    }
+
     /// Has these bricks run by the kernel for blocks, and the others by those of their kind.
     pub fn set(
         &mut self,

@@ -7,6 +7,7 @@ mod crowd;
 mod density;
 mod faces;
 mod faults;
+mod flux;
 mod images;
 mod inlets;
 mod places;

@@ -246,7 +246,7 @@ fn over<'a>(polygon: &[DVec3], normal: DVec3, parts: &'a [Other], far: f64) -> V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{block::Polyhedron, particles::Body};
+    use crate::block::Polyhedron;
     use glam::DQuat;
     use std::f64::consts::PI;
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt;
 
 /// Energies of the water against those at the start of the scene, and works since then, J.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Energies {
     /// Gain of kinetic energy.
     pub kinetic: f64,

@@ -102,7 +102,7 @@ fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
     }
     if setup.film.is_some() {
         return refuse(
-            "films of fluid between blocks push guided ones aside; remove the film, or the guide",
+            "films of fluid between blocks (coupling.lubrication) push guided ones aside; turn them off, or remove the guide",
         );
     }
     let across = block.velocity - axis.dot(block.velocity) * axis;

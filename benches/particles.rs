@@ -83,7 +83,7 @@ fn bench(
                 let done = tank.advance(&device, &queue, STEPS);
                 let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
                 let steps = match done {
-                    Ok(Ok(steps)) => f64::from(steps),
+                    Ok(Ok([steps, _])) => f64::from(steps),
                     Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
                 };
                 let cores = std::thread::available_parallelism().map_or(1, usize::from);

@@ -194,18 +194,23 @@ fn levels_and_run_up_are_drawn_over_time() {
 fn a_restart_goes_on_to_the_same_bits() {
     let folder = folder("water_restart");
     let whole = args(&folder, &format!("{STILL}{MEASURED}"), "whole");
-    go(&whole);
+    let energies = go(&whole).water_energies.unwrap();
+    // At rest nothing works, to a thousandth of what its weight could do.
+    let scale = 1e-3 * 960.0 * 9.81 * 0.4;
+    assert_eq!((energies.bodies, energies.left), (0.0, 0.0));
+    assert!(energies.pressed.abs() < scale && energies.dissipated.abs() < scale);
     let part = Args {
         out: Some(folder.join("part")),
         steps: Some(5),
         ..whole.clone()
     };
     let checkpoint = go(&part).checkpoint.unwrap();
-    go(&Args {
+    let rest = go(&Args {
         steps: None,
         restart: Some(checkpoint.clone()),
         ..part
     });
+    assert_eq!(rest.water_energies, Some(energies));
     for file in ["water_000012.vtp", "bed.csv"] {
         let [a, b] = ["whole", "part"].map(|run| fs::read(folder.join(run).join(file)).unwrap());
         // The table of the part has the row of its own end, too.
@@ -243,6 +248,12 @@ fn what_leaves_through_an_open_face_is_counted() {
     // It comes 0.8 m far, and all of it was within 0.6 m of the face.
     assert!(pool.escaped >= 30, "{}", pool.escaped);
     assert!(summary.to_string().contains("left through open faces"));
+    // 40 kg each that move at 10 m/s.
+    let taken = summary.water_energies.unwrap().left / (10.0 * f64::from(pool.escaped));
+    assert!(
+        (taken / (0.5 * 100.0 + 9.81 * 0.4) - 1.0).abs() < 0.1,
+        "{taken}"
+    );
 }
 
 #[test]
@@ -274,10 +285,30 @@ fn a_block_falls_into_water_and_its_books_close() {
     )
     .replace("steps = 12", "duration = 0.15")
     .replace("size = [1.2, 1, 1.2]", "size = [1.2, 1, 2]");
-    let summary = go(&args(&folder, &text, "out"));
+    let whole = args(&folder, &text, "out");
+    let summary = go(&whole);
     let out = folder.join("out");
     let rocks = summary.rocks.unwrap();
     assert_eq!(rocks.blocks, 1);
+    // What its loads took from the block it gave up; the water got it, but for a mean of two loads and the time between.
+    let energies = summary.water_energies.unwrap();
+    let given = -rocks.ledger.loads;
+    assert!(given > 100.0, "{given} J");
+    assert!((energies.blocks - given).abs() < 1e-3 * given, "{energies}");
+    assert!(energies.unmatched.abs() < 0.05 * given, "{energies}");
+    assert!(energies.dissipated > 0.0, "{energies}");
+    let part = Args {
+        out: Some(folder.join("part")),
+        steps: Some(4),
+        ..whole
+    };
+    let restart = go(&part).checkpoint;
+    let rest = go(&Args {
+        steps: None,
+        restart,
+        ..part
+    });
+    assert_eq!(rest.water_energies, Some(energies));
     assert!(rocks.energy_error.abs() < 1e-3, "{}", rocks.energy_error);
     let height = last(&out, "path.csv", "position_z");
     // In the air it would be at 1 − 0.15 − ½ g t² = 0.74 m.
@@ -351,6 +382,10 @@ fn energies_of_water_and_blocks_close_together() {
         );
     }
     assert_eq!(summary.pool.unwrap().escaped, 0);
+    let energies = summary.water_energies.unwrap();
+    assert!((energies.blocks - lost).abs() < 1e-3 * lost, "{energies}");
+    assert!(energies.unmatched.abs() < 0.02 * lost, "{energies}");
+    assert!(energies.dissipated > 0.0, "{energies}");
 }
 
 /// It meets the water more often than sound alone would want, or each wave of its own would throw it farther.

@@ -1,14 +1,14 @@
 // Monaghan 2005, Rep. Prog. Phys. 68:1703, momentum with artificial viscosity: the velocities at the end of the step,
-// and how long the next one may be.
-// needs invocation, particle_grid, $runs, $state, wendland, clock, $around, $friction
+// and how long the next one may be. Cercos-Pita et al. 2017, Comput. Methods Appl. Mech. Eng. 317:771: what energy the
+// particles of shells give beyond the work of their bodies.
+// needs invocation, particle_grid, $runs, $state, wendland, clock, shelter, $around, $friction
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> shell: array<Particle>;
 // Velocity, and the longest step.
 @group(0) @binding(4) var<storage, read_write> fresh: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
-// 1 for each particle that has one of a shell near it.
-@group(0) @binding(6) var<storage, read_write> shelter: array<u32>;
+@group(0) @binding(6) var<storage, read_write> shelter: array<Shelter>;
 
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = 0.0;
@@ -29,6 +29,9 @@ var<private> pressure: f32;
 var<private> rate: vec3<f32>;
 var<private> shear: f32;
 var<private> nearest: f32;
+// Sums of what shells give: times the velocity of the particle, and of theirs.
+var<private> given: vec3<f32>;
+var<private> taken: f32;
 
 fn meet_water(j: u32) {
     let other = particles[j];
@@ -56,6 +59,10 @@ fn meet_shell(j: u32) {
     if (square < SUPPORT_SQUARED) {
         let steep = slope(sqrt(square));
         rate += push * steep * r;
+        // Kinetic energy by this push, energy of compression by the density that drift will give it.
+        let beyond = (push - pressure / (1.0 + here.excess)) * steep * r;
+        given += beyond;
+        taken += dot(beyond, other.velocity);
         nearest = min(nearest, square);
         rub_shell(j, steep / densities);
     }
@@ -74,16 +81,21 @@ fn accelerate(
     here = particles[n];
     if (here.at.x < 0) {
         fresh[n] = vec4(0.0, 0.0, 0.0, ENDLESS);
-        shelter[n] = 0u;
+        shelter[n] = Shelter(0u, 0.0, 0.0);
         return;
     }
     pressure = pressure_of(here.excess);
     rate = vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
     shear = 0.0;
     nearest = ENDLESS;
+    given = vec3(0.0);
+    taken = 0.0;
     around(n, here.at);
-    shelter[n] = select(0u, 1u, nearest < NEAR * NEAR);
     let velocity = here.velocity + clock.step * rate;
+    // Velocity changes evenly in a step.
+    let middle = 0.5 * (here.velocity + velocity);
+    let near_ = select(0u, 1u, nearest < NEAR * NEAR);
+    shelter[n] = Shelter(near_, clock.step * (dot(given, middle) - taken), 0.0);
     let by_force = sqrt(SMOOTHING / max(length(rate), 1e-30));
     let by_sound = SMOOTHING / (max(1.0, 10.0 * length(velocity)) + shear);
     fresh[n] = vec4(velocity, min(COURANT * min(by_force, by_sound), longest_step()));

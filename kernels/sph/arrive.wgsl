@@ -27,7 +27,9 @@ fn arrive(n: u32, particle: Particle) {
     let to = vec3(KEPT_TO_X, KEPT_TO_Y, KEPT_TO_Z);
     if (any(at < from_) || any(at >= to)) {
         atomicAdd(&clock.escaped, 1u);
-        moved[n] = Particle(vec3(-1), here.id, vec3(0.0), 0.0);
+        // With the energy that it had.
+        here.at = vec3(-1 - max(at.x, 0), at.y, at.z);
+        moved[n] = here;
         return;
     }
     here.at = at;

@@ -33,4 +33,8 @@ struct Clock {
     sorts: u32,
     // The highest speed at the end of any step since the start.
     fastest: f32,
+    // Work since the start of the exchange of the particles of shells beyond what their bodies did, and of what pushes water
+    // out of bodies.
+    pressed: f32,
+    pushed: f32,
 }

@@ -17,4 +17,6 @@ struct ClockShared {
     missed: u32,
     sorts: u32,
     fastest: f32,
+    pressed: f32,
+    pushed: f32,
 }

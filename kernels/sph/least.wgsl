@@ -1,8 +1,7 @@
-// Merrill & Grimshaw 2009, Parallel scan for stream architectures, the way up: the longest step that all particles of
-// each run of 64 allow, and the highest speed.
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, the way up: of each run of 64 the highest speed, the
+// works of shells and pushes, and the longest step that all allow.
 // needs invocation
 
-// Velocities, or speeds as first numbers, and steps.
 @group(0) @binding(0) var<storage, read> limits: array<vec4<f32>>;
 // One a run.
 @group(0) @binding(1) var<storage, read_write> run_limits: array<vec4<f32>>;
@@ -20,12 +19,10 @@ fn least(
         return;
     }
     let end = min((n + 1u) * RUN, arrayLength(&limits));
-    var limit = limits[n * RUN].w;
-    var square = 0.0;
-    for (var k = n * RUN; k < end; k++) {
+    var least = limits[n * RUN];
+    for (var k = n * RUN + 1u; k < end; k++) {
         let here = limits[k];
-        limit = min(limit, here.w);
-        square = max(square, dot(here.xyz, here.xyz));
+        least = vec4(max(least.x, here.x), least.yz + here.yz, min(least.w, here.w));
     }
-    run_limits[n] = vec4(sqrt(square), 0.0, 0.0, limit);
+    run_limits[n] = least;
 }

@@ -24,6 +24,8 @@ pub(super) struct Body {
     /// Its number among those that deform, or [`RIGID`].
     pub deforming: u32,
     pub drive: Drive,
+    /// Unit vector along which alone it moves, without turning, if it is guided.
+    pub guide: Option<Box<DVec3>>,
     /// kg.
     pub mass: f64,
     /// kg m².
@@ -105,7 +107,11 @@ impl Body {
             force += more.force;
             torque += integrate::axial(more.moment);
         }
-        [force / self.mass + gravity, torque]
+        let rate = force / self.mass + gravity;
+        match self.guide.as_deref() {
+            Some(axis) => [axis.dot(rate) * *axis, DVec3::ZERO],
+            None => [rate, torque],
+        }
     }
 
     /// 1/kg; 0 if forces do not move it.

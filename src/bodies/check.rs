@@ -2,8 +2,9 @@
 
 mod deformable;
 
-use super::{Motion, Setup, Sleep, narrow::Joints, narrow::label};
+use super::{Guide, Motion, Setup, Sleep, narrow::Joints, narrow::label};
 use crate::{Error, Result, law::Joint};
+use glam::DVec3;
 
 /// # Errors
 /// [`Error::Scene`] naming the first number that cannot be used.
@@ -72,6 +73,41 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let place = label(i, &block.name);
         deformable::check(setup, block, &place)?;
         deformable::check_acting(block, &place)?;
+    }
+    setup
+        .guides
+        .iter()
+        .try_for_each(|guide| check_guide(setup, guide))
+}
+
+/// A guided block is free and rigid, and starts along its guide.
+fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
+    let Some(block) = setup.blocks.get(guide.block) else {
+        let (asked, known) = (guide.block, setup.blocks.len());
+        let message = format!("there is no block {asked}, only {known}");
+        return Err(Error::scene("guides", message));
+    };
+    let refuse = |message: &str| {
+        let place = format!("{}: guide", label(guide.block, &block.name));
+        Err(Error::scene(place, message))
+    };
+    let axis = guide.axis.try_normalize();
+    let Some(axis) = axis.filter(|_| guide.axis.is_finite()) else {
+        return refuse("must be an axis of finite length, not 0, such as [0, 0, 1]");
+    };
+    if block.motion != Motion::Free || block.deformable.is_some() {
+        return refuse(
+            "only a free rigid block slides along one; remove motion or deformable, or the guide",
+        );
+    }
+    if setup.film.is_some() {
+        return refuse(
+            "films of fluid between blocks (coupling.lubrication) push guided ones aside; turn them off, or remove the guide",
+        );
+    }
+    let across = block.velocity - axis.dot(block.velocity) * axis;
+    if across.length() > 1e-9 * block.velocity.length() || block.spin != DVec3::ZERO {
+        return refuse("its velocity must be along its guide, and its spin 0");
     }
     Ok(())
 }

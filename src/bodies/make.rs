@@ -26,11 +26,15 @@ pub(super) fn make(setup: &Setup) -> (Vec<Body>, Vec<State>, DeformingBlocks) {
             material: block.material as u32,
             deforming: deforming.add(index, block, material),
             drive: Drive::of(block),
+            guide: None,
             parts: first..first + count,
         };
         first += count;
         states.push(start(&body, block));
         bodies.push(body);
+    }
+    for guide in &setup.guides {
+        bodies[guide.block].guide = Some(Box::new(guide.axis.normalize()));
     }
     (bodies, states, deforming)
 }

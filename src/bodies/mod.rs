@@ -40,7 +40,7 @@ pub use period::Period;
 pub(crate) use pose::outer;
 pub use pose::{Load, Pose, skew};
 pub use setup::{
-    Block, Deformable, FixedPoint, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
+    Block, Deformable, FixedPoint, Guide, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
 };
 pub use snapshot::Snapshot;
 

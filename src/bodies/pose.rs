@@ -1,6 +1,6 @@
 //! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
-use crate::integrate::axial;
+use crate::{integrate::axial, law::inner};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
@@ -33,6 +33,15 @@ impl Pose {
     /// Place of the point X of the block, m.
     pub fn point(&self, x: DVec3) -> DVec3 {
         self.centre + self.deformation * x
+    }
+
+    /// Where it is `time` (s) later if it goes on evenly.
+    pub fn after(&self, time: f64) -> Self {
+        Self {
+            centre: self.centre + time * self.velocity,
+            deformation: self.deformation + self.deformation_rate * time,
+            ..*self
+        }
     }
 
     /// Velocity of the point X of the block, m/s.
@@ -94,6 +103,18 @@ impl Load {
             moment: outer(force, r),
             ..Self::default()
         }
+    }
+
+    /// Work (J) on a block that goes evenly from one pose to another under this load: F·Δc + Σ f ⊗ r : ΔF F⁻¹, with F in
+    /// the middle.
+    pub fn work(&self, from: &Pose, to: &Pose) -> f64 {
+        let change = to.deformation - from.deformation;
+        let way = self.force.dot(to.centre - from.centre);
+        if change == DMat3::ZERO {
+            return way;
+        }
+        let middle = 0.5 * (from.deformation + to.deformation);
+        way + inner(self.moment, change * middle.inverse())
     }
 
     /// Torque about the centroid, Σ r × f, N m.

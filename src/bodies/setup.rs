@@ -49,6 +49,8 @@ pub struct Setup {
     pub film: Option<Film>,
     /// The box after which space repeats, if it does: blocks then meet the images of others, too.
     pub period: Option<Period>,
+    /// Free rigid blocks on rails.
+    pub guides: Vec<Guide>,
 }
 
 impl Default for Setup {
@@ -69,8 +71,19 @@ impl Default for Setup {
             corner_area: 0.0,
             film: None,
             period: None,
+            guides: Vec::new(),
         }
     }
+}
+
+/// A rail without friction on which a free rigid block slides, and does not turn: what pulls it across is taken up, and does no
+/// work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guide {
+    /// Which of [`Setup::blocks`].
+    pub block: usize,
+    /// Along which it slides, of any length but 0.
+    pub axis: DVec3,
 }
 
 /// One block at the start.

@@ -4,7 +4,7 @@ use crate::{
     Error, Result,
     bodies::{Load, Snapshot},
     output::replace,
-    particles::{Particle, State},
+    particles::{Particle, State, Works},
 };
 use glam::{DMat3, DVec3};
 use std::path::Path;
@@ -28,15 +28,20 @@ pub struct WaterCheckpoint {
     pub state: State,
     /// Mean load on each block in the last exchange; none before the first one.
     pub loads: Vec<Load>,
+    /// What blocks gave up since the start in joints that have no water, J.
+    pub joints: f64,
+    /// What blocks gave up to all of their water, J.
+    pub given: f64,
     /// The blocks.
     pub blocks: Snapshot,
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap water  2\n";
+const MAGIC: &[u8; 16] = b"riprap water  3\n";
 /// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
-/// last exchange, velocities, loads, lower corner and size of the domain, spacing.
-const WORDS: usize = 16;
+/// last exchange, velocities, loads, lower corner and size of the domain, spacing, works of bodies, pushes, dummy
+/// particles, joints and blocks.
+const WORDS: usize = 21;
 /// Bytes of a particle.
 const PARTICLE: usize = size_of::<Particle>();
 /// Numbers of a body: a vector and a matrix.
@@ -67,6 +72,11 @@ impl WaterCheckpoint {
             size[1],
             size[2],
             self.spacing.to_bits(),
+            state.works.bodies.to_bits(),
+            state.works.pushed.to_bits(),
+            state.works.pressed.to_bits(),
+            self.joints.to_bits(),
+            self.given.to_bits(),
         ];
         let loads = self.loads.iter().map(|load| (load.force, load.moment));
         let bodies = state.before.iter().copied().chain(loads);
@@ -130,7 +140,14 @@ impl WaterCheckpoint {
                 steps: word(5),
                 lasted: f64::from_bits(word(6)),
                 before,
+                works: Works {
+                    bodies: f64::from_bits(word(16)),
+                    pushed: f64::from_bits(word(17)),
+                    pressed: f64::from_bits(word(18)),
+                },
             },
+            joints: f64::from_bits(word(19)),
+            given: f64::from_bits(word(20)),
             loads: loads.into_iter().map(load).collect(),
             blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
                 Error::Scene { message, .. } => {

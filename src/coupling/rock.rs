@@ -50,6 +50,8 @@ pub struct Rock {
     /// What blocks go back to if a step of theirs fails; its memory is used again.
     good: (Snapshot, Vec<InnerFluid>),
     met: u64,
+    /// What blocks, free and driven, have given up to the fluid since the start, J.
+    pub(crate) given: f64,
 }
 
 impl Rock {
@@ -80,6 +82,7 @@ impl Rock {
             inner: vec![InnerFluid::default(); blocks.len()],
             good: (Snapshot::default(), Vec::new()),
             met: 0,
+            given: 0.0,
             setup,
             blocks,
             finder,
@@ -150,6 +153,10 @@ impl Rock {
         if moved.is_err() {
             self.inner.clone_from(&self.good.1);
             self.blocks.restore(&self.good.0)?;
+        } else {
+            let ways = poses.iter().zip(self.blocks.poses());
+            let work = |(load, (from, to)): (&Load, (&Pose, Pose))| load.work(from, &to);
+            self.given -= loads.iter().zip(ways).map(work).sum::<f64>();
         }
         moved
     }

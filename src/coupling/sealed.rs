@@ -65,16 +65,20 @@ struct Joint {
 }
 
 impl Sealed {
-    /// Of blocks of these shapes in such water; `loaded` says whose loads are asked for.
-    pub fn new(shapes: Vec<Arc<Shape>>, period: Option<Period>, setup: &Setup) -> Self {
+    /// Of blocks of these shapes in such water, for the loads on those that are `asked` about.
+    pub fn new(
+        shapes: Vec<Arc<Shape>>,
+        period: Option<Period>,
+        setup: &Setup,
+        asked: &[bool],
+    ) -> Self {
         // Springs push wherever they are met.
         let walls_have_shells = setup.scheme == Scheme::Delta;
         Self {
             shapes,
-            loaded: setup
-                .bodies
+            loaded: asked
                 .iter()
-                .map(|body| body.loaded && walls_have_shells)
+                .map(|asked| *asked && walls_have_shells)
                 .collect(),
             period,
             spacing: setup.spacing,
@@ -242,7 +246,7 @@ fn over<'a>(polygon: &[DVec3], normal: DVec3, parts: &'a [Other], far: f64) -> V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{block::Polyhedron, particles::Body};
+    use crate::block::Polyhedron;
     use glam::DQuat;
     use std::f64::consts::PI;
 
@@ -265,14 +269,8 @@ mod tests {
         let mut setup = Setup::tank(DVec3::new(40.0, 40.0, 20.0), 0.1, 10.0);
         setup.origin = DVec3::new(-20.0, -20.0, -0.6);
         setup.gravity = DVec3::Z * -10.0;
-        setup.bodies = vec![
-            Body {
-                loaded: true,
-                ..Body::default()
-            };
-            shapes.len()
-        ];
-        let sealed = Sealed::new(shapes, period, &setup);
+        let asked = vec![true; shapes.len()];
+        let sealed = Sealed::new(shapes, period, &setup, &asked);
         let closed = sealed.closed(poses, &vec![true; poses.len()]);
         let pressure = |x: &DVec3| (1e4 * (level(*x) - x.z)).max(0.0);
         let pressures: Vec<f64> = closed.places().iter().map(pressure).collect();

@@ -32,8 +32,8 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
     "sph":
-        "accelerate", "admit", "around_cells", "arrive", "around_lists", "bodies", "body_load", "body_sums", "cling_none", "cling_walls", "clock", "clock_shared", "continued", "drag_laminar", "drag_none", "drift", "friction_laminar", "friction_none", "keep_out", "least", "list_water", "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "mueller_move", "near", "neighbours", "particle_grid", "penalty", "pressure_at", "runs_open",
-        "runs_periodic", "shell_force", "shell_neighbours", "shell_place", "shell_pressure", "sort_count", "sort_keep", "sort_list", "sort_order",
+        "accelerate", "admit", "around_cells", "arrive", "around_lists", "bodies", "body_load", "body_sums", "cling_none", "cling_walls", "clock", "clock_shared", "continued", "drag_laminar", "drag_none", "drift", "friction_laminar", "friction_none", "keep_out", "least", "least_of_water", "list_water", "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "mueller_move", "near", "neighbours", "particle_grid", "penalty", "pressure_at", "runs_open",
+        "runs_periodic", "shell_force", "shell_neighbours", "shell_place", "shell_pressure", "shelter", "sort_count", "sort_keep", "sort_list", "sort_order",
         "state_linear", "state_tait", "tick", "water_cells", "water_lists", "wendland";
 };
 

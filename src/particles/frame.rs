@@ -236,6 +236,11 @@ impl Frame {
         }
     }
 
+    /// A work of the device in J.
+    pub(super) fn work(&self, work: f32) -> f64 {
+        f64::from(work) * self.unit_force * self.spacing
+    }
+
     /// The mean pressure (Pa) over `time` (units of the device) of what the device added up.
     pub fn pressure(&self, sum: f32, time: f64) -> f64 {
         f64::from(sum) / time * self.unit_pressure

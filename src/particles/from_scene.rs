@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Error, Result,
     bodies::{Block, Motion},
-    scene::{self, Boundary, Face, ProbePlace, Scene},
+    scene::{self, Boundary, Face, Scene},
     simulation::{BlockSetup, scene_step},
 };
 use glam::DVec3;
@@ -29,17 +29,12 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         // Its walls are springs.
         scene::Scheme::Mueller => vec![Vec::new(); blocks.setup.blocks.len()],
     };
-    let probed = |name: &str| {
-        let of =
-            |place: &ProbePlace| matches!(place, ProbePlace::Block { block, .. } if block == name);
-        scene.probes.iter().any(|probe| of(&probe.place))
-    };
     let free_slip = |(face, boundary): (Face, &Boundary)| {
         matches!(boundary, Boundary::FreeSlip).then(|| format!("wall_{}", face.name()))
     };
     let slippery: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
     let all = &blocks.setup.blocks;
-    let shells = own(all, shells, |block| probed(&block.name));
+    let shells = own(all, shells, |block| scene.probes_block(&block.name));
     let lattice = Lattice::of(scene, particles);
     let mut solids = solid::solids(all, &lattice);
     if particles.scheme == scene::Scheme::Delta {
@@ -50,7 +45,8 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         shell,
         solids: solids.into_iter().map(|s| s.seen_from(block)).collect(),
         moves: block.motion != Motion::Fixed,
-        loaded: block.motion == Motion::Free || probed(&block.name),
+        // The work of what moves is booked.
+        loaded: block.motion != Motion::Fixed || scene.probes_block(&block.name),
         accelerates: matches!(block.motion, Motion::Driven { .. }),
         slips: slippery.contains(&block.name),
     });

@@ -1,7 +1,7 @@
 //! The kernels of a step and the memory that they share.
 
 use super::{
-    Clock, Frame, Home, Hull, Motion, Neighbours, Scheme, Setup,
+    Clock, Frame, Home, Hull, Motion, Neighbours, Scheme, Setup, Shelter,
     asked::Asked,
     loads::{Loads, starts},
     near::{Names, Near, shell_room, usual_room},
@@ -62,9 +62,8 @@ pub(super) struct Kernels {
     last: Option<(Kernel, wgpu::BindGroup)>,
     /// All by the names of their bindings.
     buffers: Vec<(&'static str, wgpu::Buffer)>,
-    least: Kernel,
     /// From many limits to one, with the number of those that come out.
-    leasts: Vec<(wgpu::BindGroup, u32)>,
+    leasts: Vec<(Kernel, wgpu::BindGroup, u32)>,
     tick: (Kernel, wgpu::BindGroup),
 }
 
@@ -87,7 +86,11 @@ impl Kernels {
         let forces = buffer("forces on shells", numbers.loaded_shell, 16)?;
         let loads = buffer("loads of bodies", numbers.loaded, 4 * NUMBERS)?;
         let fresh = buffer("velocities", numbers.water, 16)?;
-        let shelter = buffer("particles beside shells", numbers.water, 4)?;
+        let shelter = buffer(
+            "particles beside shells",
+            numbers.water,
+            size_of::<Shelter>(),
+        )?;
         let viscous = setup.laminar_viscosity > 0.0;
         let clinging = buffer(
             "velocities of shells",
@@ -168,13 +171,22 @@ impl Kernels {
             Scheme::Delta => Some(bound("keep_out")?),
             Scheme::Mueller { .. } => None,
         };
-        let least = kernel("least")?;
         let (mut limits, mut count, mut leasts) = (fresh.clone(), numbers.water.max(1), Vec::new());
-        while count > 1 {
+        while leasts.is_empty() || count > 1 {
+            let least = kernel(match leasts.is_empty() {
+                true => "least_of_water",
+                false => "least",
+            })?;
             count = count.div_ceil(RUN);
             let fewer = buffer("limits of runs", count, 16)?;
-            let names = [("limits", &limits), ("run_limits", &fewer)];
-            leasts.push((least.bind(device, &names)?, count));
+            let names = [
+                ("fresh", &fresh),
+                ("shelter", &shelter),
+                ("limits", &limits),
+                ("run_limits", &fewer),
+            ];
+            let bound = least.bind(device, &names)?;
+            leasts.push((least, bound, count));
             limits = fewer;
         }
         let tick = kernel("tick")?;
@@ -190,7 +202,6 @@ impl Kernels {
             admit,
             keep_out,
             buffers: buffers.map(|(name, of)| (name, of.clone())).to_vec(),
-            least,
             leasts,
             tick: (tick, tick_bound),
             sorting,
@@ -279,9 +290,8 @@ impl Kernels {
         if let Some((kernel, bind)) = &self.last {
             kernel.record(&mut pass, bind, water);
         }
-        for (bind, count) in &self.leasts {
-            self.least
-                .record(&mut pass, bind, count.div_ceil(WORKGROUP));
+        for (least, bind, count) in &self.leasts {
+            least.record(&mut pass, bind, count.div_ceil(WORKGROUP));
         }
         self.tick.0.record(&mut pass, &self.tick.1, 1);
     }

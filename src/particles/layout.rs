@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Particle {
-    /// Quanta; the first negative: it has left.
+    /// Quanta; the first negative, −1 less itself: it has left there.
     pub at: [i32; 3],
     /// What it is called, or the number of a particle of a shell.
     pub id: u32,
@@ -113,6 +113,23 @@ pub struct Clock {
     pub sorts: u32,
     /// The highest speed at the end of any step since the start, in speeds of sound.
     pub fastest: f32,
+    /// Work since the start of the exchange of particles of shells beyond that of their bodies, in m c₀², m being the mass
+    /// of a particle.
+    pub pressed: f32,
+    /// That of what pushes water out of bodies.
+    pub pushed: f32,
+}
+
+/// What a particle of water has of bodies beside it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Shelter {
+    /// 1 if a particle of a shell is near it.
+    pub near: u32,
+    /// Work on it in a step of particles of shells, beyond what their bodies did, in m c₀².
+    pub pressed: f32,
+    /// Work on it in a step of what pushes it out of a body.
+    pub pushed: f32,
 }
 
 /// A convex part of a body, by its faces.

@@ -1,7 +1,7 @@
 //! Water of particles on the device.
 
 use super::{
-    Clock, Frame, Home, Motion, Numbers, Particle, Setup, State, Water,
+    Clock, Frame, Home, Motion, Numbers, Particle, Setup, State, Water, Works,
     followed::Followed,
     hulls,
     kernels::{Kernels, NUMBERS},
@@ -50,6 +50,7 @@ pub struct Particles {
     kernels: Kernels,
     clock: Clock,
     followed: Followed,
+    works: Works,
     /// Whether the shells that never move are in their places.
     placed: bool,
     report: Option<wgpu::Buffer>,
@@ -152,6 +153,7 @@ impl Particles {
                 ..Clock::default()
             },
             followed: Followed::new(&setup.bodies),
+            works: Works::default(),
             placed: false,
             report: None,
             readback: Readback::default(),
@@ -207,7 +209,9 @@ impl Particles {
             if self.clock.step == 0.0 {
                 self.renewed = false;
                 self.steps += u64::from(self.clock.steps);
-                return Ok(self.exchange(bytemuck::cast_slice(sums), time));
+                let done = self.exchange(bytemuck::cast_slice(sums), time);
+                self.book(&done.loads, poses, time);
+                return Ok(done);
             }
         }
     }
@@ -252,6 +256,8 @@ impl Particles {
             left,
             steps: 0,
             sorts: 0,
+            pressed: 0.0,
+            pushed: 0.0,
             stale: stale.into(),
             travel: if stale { 0.0 } else { travel as f32 },
             body_speed: (self.followed.fastest(poses) / self.frame.sound_speed()) as f32,
@@ -386,6 +392,22 @@ impl Particles {
         }
     }
 
+    /// Books the works of an exchange of `time` (s).
+    fn book(&mut self, loads: &[Load], poses: &[Pose], time: f64) {
+        let moving = self.setup.bodies.iter().zip(loads.iter().zip(poses));
+        let moving = moving.filter(|(body, _)| body.moves);
+        self.works.bodies += moving
+            .map(|(_, (load, pose))| -load.work(pose, &pose.after(time)))
+            .sum::<f64>();
+        self.works.pushed += self.frame.work(self.clock.pushed);
+        self.works.pressed += self.frame.work(self.clock.pressed);
+    }
+
+    /// What was done to the water in the exchanges of [`Particles::advance`] since the start.
+    pub fn works(&self) -> Works {
+        self.works
+    }
+
     /// The water as it is.
     ///
     /// # Errors
@@ -417,6 +439,7 @@ impl Particles {
             steps: self.steps,
             lasted: self.followed.lasted,
             before: self.followed.before.clone(),
+            works: self.works,
         }
     }
 
@@ -460,6 +483,7 @@ impl Particles {
         };
         self.steps = state.steps;
         self.followed = self.followed.restored(&state.before, state.lasted);
+        self.works = state.works;
         self.placed = false;
         self.renewed = true;
         Ok(())

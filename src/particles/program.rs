@@ -16,7 +16,7 @@ const PENALTY: f64 = 0.5;
 const KEEP_OUT: f64 = 0.1;
 
 /// The kernels of a step, each an entry point of the file of its name.
-pub const KERNELS: [&str; 21] = [
+pub const KERNELS: [&str; 22] = [
     "sort_count",
     "sort_keep",
     "sort_list",
@@ -36,6 +36,7 @@ pub const KERNELS: [&str; 21] = [
     "mueller_move",
     "mueller_load",
     "mueller_drift",
+    "least_of_water",
     "least",
     "tick",
 ];

@@ -1,5 +1,6 @@
 //! What a checkpoint of water has beside its particles.
 
+use super::Works;
 use glam::{DMat3, DVec3};
 
 /// What water remembers besides its particles.
@@ -15,4 +16,6 @@ pub struct State {
     pub lasted: f64,
     /// Velocity (m/s) and Ḟ (1/s) of each body at its start.
     pub before: Vec<(DVec3, DMat3)>,
+    /// What was done to it since the start.
+    pub works: Works,
 }

@@ -1,6 +1,6 @@
 //! The state of the water as others see it, SI.
 
-use super::{Frame, Particle, Setup, StateEquation};
+use super::{Frame, Particle, Setup, StateEquation, Totals};
 use glam::{DVec3, Vec3};
 
 /// Particles of water that have not left, by their ids.
@@ -16,22 +16,30 @@ pub struct Water {
     pub densities: Vec<f64>,
     /// Pa.
     pub pressures: Vec<f64>,
+    /// What those have taken along that have left, as they were then.
+    pub left: Totals,
 }
 
 impl Water {
     pub(super) fn of(setup: &Setup, frame: &Frame, particles: &[Particle]) -> Self {
-        let mut there: Vec<&Particle> = particles.iter().filter(|p| p.at[0] >= 0).collect();
-        there.sort_unstable_by_key(|particle| particle.id);
+        let mut all: Vec<&Particle> = particles.iter().collect();
+        all.sort_unstable_by_key(|particle| particle.id);
         let mut water = Self::default();
-        for particle in there {
+        for particle in all {
             let excess = f64::from(particle.excess);
-            let mut position = frame.position(particle.at);
+            let [x, y, z] = particle.at;
+            let has_left = x < 0;
+            let mut position = frame.position([if has_left { -1 - x } else { x }, y, z]);
             if setup.plane {
                 position.y = setup.origin.y + 0.5 * setup.size.y;
             }
+            let velocity = Vec3::from(particle.velocity).as_dvec3() * setup.sound_speed;
+            if has_left {
+                water.left.add(setup, position, velocity, excess);
+                continue;
+            }
             water.ids.push(particle.id);
             water.positions.push(position);
-            let velocity = Vec3::from(particle.velocity).as_dvec3() * setup.sound_speed;
             water.velocities.push(velocity.as_vec3());
             water.densities.push(setup.density * (1.0 + excess));
             water.pressures.push(setup.pressure(excess));
@@ -58,6 +66,18 @@ impl Setup {
             StateEquation::Linear => unit * excess,
             StateEquation::Tait => unit * ((1.0 + excess).powi(7) - 1.0) / 7.0,
         }
+    }
+
+    /// Energy of compression of a kilogram, J, at a density that is higher than the reference density by the part
+    /// `excess` of it: ∫ p/ρ² dρ.
+    pub fn compression(&self, excess: f64) -> f64 {
+        let ratio = 1.0 + excess;
+        self.sound_speed.powi(2)
+            * match self.state {
+                // ln(1 + s) − s/(1 + s), whose first terms cancel.
+                StateEquation::Linear => excess.ln_1p() - excess / ratio,
+                StateEquation::Tait => (ratio.powi(6) / 6.0 + 1.0 / ratio - 7.0 / 6.0) / 7.0,
+            }
     }
 
     /// The density excess, in parts of the reference density, at a pressure (Pa).

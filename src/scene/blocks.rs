@@ -60,6 +60,10 @@ pub struct Block {
     /// Default none.
     #[schemars(default)]
     pub acceleration: Option<[Formula; 3]>,
+    /// Axis of a rail without friction on which a free rigid block slides, of any length: along it forces move the block, across
+    /// it nothing does, and it does not turn. Copies have the same. Default none.
+    #[schemars(default)]
+    pub guide: Option<[f64; 3]>,
     /// Rows of copies, each of all that those before it made: one for a stack, two for a wall, with
     /// turns for an arch. One table or a list of them. Default only the block itself.
     #[schemars(default, with = "OneOrMany<Repeat>")]
@@ -158,6 +162,7 @@ struct Flat {
     fixed_points: Option<Vec<FixedPoint>>,
     point_loads: Option<Vec<PointLoad>>,
     acceleration: Option<[Formula; 3]>,
+    guide: Option<[f64; 3]>,
     repeat: Option<OneOrMany<Repeat>>,
 }
 
@@ -192,6 +197,7 @@ impl Flat {
             fixed_points: self.fixed_points.unwrap_or_default(),
             point_loads: self.point_loads.unwrap_or_default(),
             acceleration: self.acceleration,
+            guide: self.guide,
             repeat: self.repeat.map_or_else(Vec::new, |rows| rows.0),
         })
     }
@@ -218,6 +224,7 @@ impl FlatPart {
             ("fixed_points", flat.fixed_points.is_some()),
             ("point_loads", flat.point_loads.is_some()),
             ("acceleration", flat.acceleration.is_some()),
+            ("guide", flat.guide.is_some()),
             ("repeat", flat.repeat.is_some()),
         ];
         if let Some((key, _)) = whole.iter().find(|(_, given)| *given) {

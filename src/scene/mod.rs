@@ -151,6 +151,13 @@ impl Scene {
         !self.blocks.is_empty() || !self.rock_masses.is_empty()
     }
 
+    /// Whether a probe follows the block of this name.
+    pub fn probes_block(&self, name: &str) -> bool {
+        let of =
+            |place: &ProbePlace| matches!(place, ProbePlace::Block { block, .. } if block == name);
+        self.probes.iter().any(|probe| of(&probe.place))
+    }
+
     /// Shortest time between two outputs of a kind, s, if any is asked for at intervals.
     pub fn shortest_interval(&self) -> Option<f64> {
         let histories = self.output.histories.iter().map(|history| history.every);

@@ -159,6 +159,26 @@ pub enum Quantity {
     MaxSpeed,
     /// Potential energy of particles in their gravity, against that at the time 0, J.
     PotentialEnergy,
+    /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, against that at the time 0, J.
+    CompressionEnergy,
+    /// Kinetic, potential and compression energy of the particles that have left, as they did, against the origin of the
+    /// coordinates, J.
+    EscapedEnergy,
+    /// Work of free and driven blocks on particles, J.
+    BodyWork,
+    /// Work on particles of what pushes them out of solids and blocks that do not move, J.
+    PushWork,
+    /// Work on particles of the dummy particles of walls and blocks beyond that of these: the error of this boundary condition,
+    /// J.
+    DummyWork,
+    /// What was done on particles, less what they hold and have taken along: taken by viscosity and diffusion, with the error
+    /// of the computation, J.
+    DissipatedEnergy,
+    /// What blocks have given up in joints too narrow for particles, J.
+    JointWork,
+    /// What free and driven blocks have given up to particles and in joints: `body_work` and `joint_work` but for the error
+    /// with which blocks and water go on by turns, J.
+    LostToWater,
     /// Kinetic energy of the blocks, with that of their spin, J.
     BlockKineticEnergy,
     /// Potential energy of the blocks in gravity, against that at the time 0, J.
@@ -198,6 +218,14 @@ impl Quantity {
             Self::MomentumZ => "momentum_z",
             Self::MaxSpeed => "max_speed",
             Self::PotentialEnergy => "potential_energy",
+            Self::CompressionEnergy => "compression_energy",
+            Self::EscapedEnergy => "escaped_energy",
+            Self::BodyWork => "body_work",
+            Self::PushWork => "push_work",
+            Self::DummyWork => "dummy_work",
+            Self::DissipatedEnergy => "dissipated_energy",
+            Self::JointWork => "joint_work",
+            Self::LostToWater => "lost_to_water",
             Self::BlockKineticEnergy => "block_kinetic_energy",
             Self::BlockPotentialEnergy => "block_potential_energy",
             Self::StrainEnergy => "strain_energy",
@@ -216,16 +244,27 @@ impl Quantity {
     /// Whether it sums up the blocks, not the fluid.
     pub fn is_of_blocks(self) -> bool {
         use Quantity::*;
-        !matches!(
+        !self.is_of_particles()
+            && !matches!(
+                self,
+                KineticEnergy | Enstrophy | Mass | MomentumX | MomentumY | MomentumZ | MaxSpeed
+            )
+    }
+
+    /// Whether only a fluid of particles has it.
+    pub fn is_of_particles(self) -> bool {
+        use Quantity::*;
+        matches!(
             self,
-            KineticEnergy
-                | Enstrophy
-                | Mass
-                | MomentumX
-                | MomentumY
-                | MomentumZ
-                | MaxSpeed
-                | PotentialEnergy
+            PotentialEnergy
+                | CompressionEnergy
+                | EscapedEnergy
+                | BodyWork
+                | PushWork
+                | DummyWork
+                | DissipatedEnergy
+                | JointWork
+                | LostToWater
         )
     }
 }

@@ -1,12 +1,12 @@
 //! Free water and the blocks in it.
 
-use super::{BlockSetup, block_setup, pool::Pool, scene_step::scene_step};
+use super::{BlockSetup, WaterLedger, block_setup, pool::Pool, scene_step::scene_step};
 use crate::{
     Error, Result,
     bodies::Blocks,
     checkpoint::WaterCheckpoint,
     coupling::{self, Company, Felt, Rock},
-    particles::{Neighbours, Particles, Water, particle_setup},
+    particles::{Neighbours, Particles, Totals, Water, particle_setup},
     scene::Scene,
 };
 use glam::DVec3;
@@ -133,6 +133,24 @@ impl FreeSurface {
         self.rock.felt()
     }
 
+    /// Where the energy of `water` is, as it is now, and what was done to it.
+    pub fn ledger(&self, water: &Water) -> WaterLedger {
+        let particles = &self.pool.particles;
+        let totals = Totals::of(particles.setup(), water);
+        let works = particles.works();
+        WaterLedger {
+            kinetic: totals.kinetic_energy,
+            potential: totals.potential_energy,
+            compression: totals.compression_energy,
+            left: water.left.energy(),
+            bodies: works.bodies,
+            pushed: works.pushed,
+            pressed: works.pressed,
+            joints: self.pool.joints,
+            blocks: self.rock.given,
+        }
+    }
+
     /// The particles.
     pub fn particles(&self) -> &Particles {
         &self.pool.particles
@@ -162,6 +180,8 @@ impl FreeSurface {
             particles: self.pool.particles().await?,
             state: self.pool.particles.state(),
             loads: self.pool.last.clone(),
+            joints: self.pool.joints,
+            given: self.rock.given,
             blocks: self.rock.blocks().snapshot(),
         })
     }
@@ -197,6 +217,7 @@ impl FreeSurface {
         // All is looked at before anything is changed.
         self.pool.particles.check(&checkpoint.particles)?;
         self.rock.restore(&checkpoint.blocks)?;
+        self.rock.given = checkpoint.given;
         self.pool.restore(checkpoint)?;
         self.step = checkpoint.step;
         Ok(())

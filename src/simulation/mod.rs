@@ -14,6 +14,7 @@ mod needs;
 mod pool;
 mod scene_step;
 mod wall_units;
+mod water_ledger;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use block_setup::{BlockSetup, LeftOut, block_setup};
@@ -27,6 +28,7 @@ pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
 pub(crate) use scene_step::scene_step;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
+pub use water_ledger::WaterLedger;
 
 use crate::{
     Error, Result,

@@ -2,13 +2,13 @@
 
 use crate::{
     Result,
-    bodies::{Load, Pose},
+    bodies::{Load, Motion, Pose},
     checkpoint::WaterCheckpoint,
     coupling::{Felt, Fluid, Pace, Rock, Sealed, longest_exchange},
     particles::{Particle, Particles, Water},
     scene::Scene,
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// The water of a scene.
 #[derive(Debug)]
@@ -26,6 +26,8 @@ pub(super) struct Pool {
     /// Mean loads of the last exchange, none before the first one.
     pub last: Vec<Load>,
     pub exchanges: u64,
+    /// What blocks gave up since the start in joints that have no water, J.
+    pub joints: f64,
     /// Steps of the water that sorted its particles.
     pub sorts: u64,
 }
@@ -41,8 +43,10 @@ impl Fluid for Pool {
         let closed = self.sealed.closed(poses, &self.wet);
         self.particles.ask(device, queue, &closed.places())?;
         let mut done = self.particles.advance(device, queue, poses, time).await?;
+        let own = done.loads.clone();
         let loads = &mut done.loads;
         self.sealed.push(closed, &done.pressures, poses, loads);
+        self.joints += joints_work(&own, loads, poses, time);
         let wet = |load: &Load| load.force != DVec3::ZERO;
         self.wet = done.loads.iter().map(wet).collect();
         self.time = until;
@@ -72,20 +76,25 @@ impl Pool {
         (scene, rock): (&Scene, &Rock),
         particles: Particles,
     ) -> Self {
-        let shapes = rock.setup().setup.blocks.iter();
-        let shapes = shapes.map(|block| block.shape.clone()).collect();
+        let blocks = &rock.setup().setup.blocks;
+        let shapes = blocks.iter().map(|block| block.shape.clone()).collect();
+        let asked: Vec<bool> = blocks
+            .iter()
+            .map(|block| block.motion == Motion::Free || scene.probes_block(&block.name))
+            .collect();
         let setup = particles.setup();
         Self {
             wet: vec![true; setup.bodies.len()],
             device: device.clone(),
             queue: queue.clone(),
-            sealed: Sealed::new(shapes, rock.blocks().period(), setup),
+            sealed: Sealed::new(shapes, rock.blocks().period(), setup, &asked),
             longest: longest_exchange(rock, setup.density * setup.sound_speed),
             particles,
             time: 0.0,
             average: scene.coupling.average,
             last: Vec::new(),
             exchanges: 0,
+            joints: 0.0,
             sorts: 0,
         }
     }
@@ -138,6 +147,25 @@ impl Pool {
         self.particles
             .restore(&self.queue, &checkpoint.particles, &checkpoint.state)?;
         self.last.clone_from(&checkpoint.loads);
+        self.joints = checkpoint.joints;
         Ok(())
     }
+}
+
+/// What blocks at `poses` give up (J) in `time` (s) to what they feel beside their `own` loads.
+fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
+    let each = own.iter().zip(all).zip(poses);
+    let moving = each.filter(|((own, all), pose)| {
+        own != all && (pose.velocity, pose.deformation_rate) != (DVec3::ZERO, DMat3::ZERO)
+    });
+    moving
+        .map(|((own, all), pose)| {
+            let joint = Load {
+                force: all.force - own.force,
+                moment: all.moment - own.moment,
+                ..Load::default()
+            };
+            -joint.work(pose, &pose.after(time))
+        })
+        .sum()
 }

@@ -130,6 +130,7 @@ fn totals_are_those_of_all_particles() {
         densities: vec![1001.0; count],
         pressures: vec![5.0; count],
         positions,
+        ..Water::default()
     };
     let totals = Totals::of(&setup, &water);
     // 500 kg, their centre at a height of 0.25 m.

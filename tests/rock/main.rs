@@ -8,6 +8,7 @@ mod deformable_faults;
 mod faults;
 mod film;
 mod free_body;
+mod guide;
 mod incline;
 mod law;
 mod ledger;

@@ -1,5 +1,6 @@
 //! Scenes of blocks: every key, the defaults, and what the blocks become.
 
+use glam::DVec3;
 use riprap::bodies;
 use riprap::scene::*;
 use riprap::simulation::block_setup;
@@ -204,6 +205,24 @@ animation = false
 }
 
 /// n copies turned by 2π/n about an axis close the circle: the last lies one turn before the first.
+#[test]
+fn copies_slide_along_the_same_guide() {
+    let more = "size = [1, 2, 3]\nguide = [0, 0, -2]\nrepeat = { count = 2, step = [3, 0, 0] }";
+    let setup = setup(&CUBE.replace("size = [1, 2, 3]", more)).unwrap();
+    let axis = DVec3::new(0.0, 0.0, -2.0);
+    assert_eq!(
+        setup.guides,
+        [0, 1].map(|block| bodies::Guide { block, axis })
+    );
+    refused(
+        changed(
+            "kind = \"box\"\nsize = [1, 2, 3]",
+            "kind = \"compound\"\nparts = [{ kind = \"box\", size = [1, 1, 1], guide = [0, 0, 1] }]",
+        ),
+        &["`guide` belongs to the whole block"],
+    );
+}
+
 #[test]
 fn rows_that_turn_go_round() {
     let blocks = setup(&CUBE.replace(

@@ -3,6 +3,7 @@
 #[path = "../rig/mod.rs"]
 mod rig;
 
+mod energy;
 mod held;
 mod mueller;
 mod programs;

@@ -6,7 +6,7 @@ use riprap::{
     layout,
     particles::{
         Clock, Frame, Home, Hull, KERNELS, MOST_BINDINGS, Motion, Neighbours, Particle, Setup,
-        Side, StateEquation, program,
+        Shelter, Side, StateEquation, program,
     },
 };
 use std::mem::offset_of;
@@ -100,8 +100,17 @@ fn structures_lie_as_on_the_device() {
         ("missed", offset_of!(Clock, missed)),
         ("sorts", offset_of!(Clock, sorts)),
         ("fastest", offset_of!(Clock, fastest)),
+        ("pressed", offset_of!(Clock, pressed)),
+        ("pushed", offset_of!(Clock, pushed)),
     ];
     layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
+    let shelter = [
+        ("near", offset_of!(Shelter, near)),
+        ("pressed", offset_of!(Shelter, pressed)),
+        ("pushed", offset_of!(Shelter, pushed)),
+    ];
+    let keep_out = program(&setup, &frame, "keep_out").link().unwrap();
+    layout::check::<Shelter>(&keep_out.module, "Shelter", &shelter).unwrap();
     let hull = [
         ("centre", offset_of!(Hull, centre)),
         ("radius", offset_of!(Hull, radius)),

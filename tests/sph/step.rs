@@ -250,6 +250,22 @@ fn check_with(setup: Setup) {
         .fold(0.0, |a: f64, b| a.max(b.abs()));
     assert!(worst < 1e-5 * scale * 0.2, "{worst}");
     assert_eq!(done.loads[0].moment, DMat3::ZERO);
+    let works = particles.works();
+    let end = pose.after(dt);
+    let bodies = -done.loads[1].work(&pose, &end);
+    // A product of a pressure, a velocity and a step, each pair of another sign.
+    let scale = scale * 0.5 * dt;
+    for (found, expected) in [
+        (works.pressed, width * exact.pressed),
+        (works.pushed, width * exact.pushed),
+        (works.bodies, bodies),
+    ] {
+        println!("work {found:.6e} {expected:.6e} of {scale:.2e}");
+        assert!(change(found, expected) < 1e-5 * scale, "{found} {expected}");
+    }
+    // In a plane the body moves, in space it keeps out what is in it.
+    assert!((works.bodies != 0.0) == plane && (works.pushed.abs() > 1e-3 * scale) != plane);
+    assert!(works.pressed.abs() > 1e-3 * scale);
 }
 
 #[test]

@@ -32,6 +32,10 @@ pub struct Outcome {
     pub forces: Vec<DVec3>,
     /// Longest next step.
     pub limit: f64,
+    /// Work of dummy particles beyond that of their bodies.
+    pub pressed: f64,
+    /// Work of the push of bodies.
+    pub pushed: f64,
 }
 
 /// The water's constants, and where the bodies are.
@@ -177,8 +181,10 @@ impl Twin<'_> {
         let velocities: Vec<DVec3> = walls.iter().map(|w| self.wall_velocity(water, w)).collect();
         let mut forces = vec![DVec3::ZERO; walls.len()];
         let (mut fresh, mut limit) = (Vec::new(), f64::INFINITY);
+        let (mut pressed, mut pushed) = (0.0, 0.0);
         for i in water {
             let (mut a, mut steepest) = (self.0.gravity, 0.0f64);
+            let mut beside = Vec::new();
             for j in water {
                 let r = self.between(i.x, j.x);
                 if r.length() >= 2.0 * h {
@@ -199,6 +205,9 @@ impl Twin<'_> {
                 let rho = self.density(pressures[k]);
                 let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
                 let r = self.between(i.x, w.x);
+                // Kinetic energy by the push, less what compresses: that is of walls of the reference density.
+                let beyond = push - self.pressure(i.rho) / (i.rho * self.0.density);
+                beside.push((w.v, m * m * beyond * self.gradient(r)));
                 let mut pull = m * push * self.gradient(r);
                 if !w.slips {
                     pull -= self.friction([i.rho, rho], r, i.v - velocities[k]);
@@ -211,7 +220,13 @@ impl Twin<'_> {
             let by_sound = h / (c.max(10.0 * v.length()) + steepest);
             let by_friction = h * h / (8.0 * self.0.laminar_viscosity);
             limit = limit.min((self.0.courant * by_force.min(by_sound)).min(by_friction));
-            fresh.push(v + self.kept_out(i, walls) * dt);
+            let middle = 0.5 * (i.v + v);
+            let works = beside.iter().map(|(wall, f)| -dt * f.dot(middle - *wall));
+            pressed += works.sum::<f64>();
+            let kept = self.kept_out(i, walls);
+            let end = v + kept * dt;
+            pushed += dt * m * kept.dot(0.5 * (i.v + end));
+            fresh.push(end);
         }
         let mut out = Vec::new();
         for (n, i) in water.iter().enumerate() {
@@ -243,6 +258,8 @@ impl Twin<'_> {
             water: out,
             forces,
             limit,
+            pressed,
+            pushed,
         }
     }
 }

@@ -7,8 +7,9 @@ use riprap::{
     particles::{Body, Neighbours, Particles, Setup, Side},
     wgpu,
 };
+use std::collections::HashMap;
 
-/// Water at rest, with what its steps meet.
+/// Water at rest or in motion, with what its steps meet.
 #[derive(Debug)]
 pub struct Tank {
     /// The water on the device.
@@ -35,20 +36,85 @@ impl Tank {
     ) -> Result<Self> {
         let (mut setup, positions) = tank(edge);
         setup.neighbours = neighbours;
+        let (water, walls) = pairs(&setup, &positions);
+        let pairs = [water, walls];
+        Self::begin((device, queue), setup, &positions, pairs)
+    }
+
+    /// The same tank with a column of half its width, whose dam has just gone; `pairs` are not known yet.
+    ///
+    /// # Errors
+    /// If the device does not hold it.
+    pub fn dam(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        edge: u32,
+        neighbours: Neighbours,
+    ) -> Result<Self> {
+        let (mut setup, mut positions) = tank(edge);
+        setup.neighbours = neighbours;
+        positions.retain(|x| x.x < 0.5 * setup.size.x);
+        Self::begin((device, queue), setup, &positions, [0.0; 2])
+    }
+
+    fn begin(
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        setup: Setup,
+        positions: &[DVec3],
+        pairs: [f64; 2],
+    ) -> Result<Self> {
         let still = vec![DVec3::ZERO; positions.len()];
         let pressure = |x: &DVec3| setup.density * 9.81 * (setup.size.z - x.z);
         let pressures: Vec<f64> = positions.iter().map(pressure).collect();
-        let (water, walls) = pairs(&setup, &positions);
-        let particles = Particles::new(device, queue, setup, &positions, &still, &pressures)?;
-        Ok(Self {
+        let particles = Particles::new(device, queue, setup, positions, &still, &pressures)?;
+        let mut tank = Self {
             particles,
             count: positions.len(),
-            neighbours: (water + walls) / positions.len() as f64,
-            pairs: 2.0 * water + 3.0 * walls,
-        })
+            neighbours: 0.0,
+            pairs: 0.0,
+        };
+        tank.meets(pairs);
+        Ok(tank)
     }
 
-    /// Takes about `steps` steps and says how many.
+    fn meets(&mut self, [water, walls]: [f64; 2]) {
+        self.neighbours = (water + walls) / self.count as f64;
+        self.pairs = 2.0 * water + 3.0 * walls;
+    }
+
+    /// Counts the pairs where the particles are now.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn count(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        let water = self.particles.water(device, queue).await?;
+        let setup = self.particles.setup();
+        let reach = 2.0 * setup.smoothing * setup.spacing;
+        let cell = |x: DVec3| (x / reach).floor().to_array().map(|n| n as i32);
+        let mut cells: HashMap<[i32; 3], Vec<(DVec3, usize)>> = HashMap::new();
+        let shell = setup.bodies.iter().flat_map(|body| &body.shell);
+        let all = water.positions.iter().map(|x| (*x, 0));
+        for (x, kind) in all.chain(shell.map(|x| (*x, 1))) {
+            cells.entry(cell(x)).or_default().push((x, kind));
+        }
+        let mut pairs = [0.0; 2];
+        for x in &water.positions {
+            let own = cell(*x);
+            for n in 0..27 {
+                let beside = [n % 3, n / 3 % 3, n / 9];
+                let beside = std::array::from_fn(|axis| own[axis] + beside[axis] - 1);
+                for (y, kind) in cells.get(&beside).into_iter().flatten() {
+                    if x.distance_squared(*y) < reach * reach && x != y {
+                        pairs[*kind] += 1.0;
+                    }
+                }
+            }
+        }
+        self.meets(pairs);
+        Ok(())
+    }
+
+    /// Takes about `steps` steps and says how many, and how many of them sorted.
     ///
     /// # Errors
     /// If the device is lost.
@@ -57,7 +123,7 @@ impl Tank {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         steps: u32,
-    ) -> Result<u32> {
+    ) -> Result<[u32; 2]> {
         let poses = [Pose {
             centre: DVec3::ZERO,
             deformation: DMat3::IDENTITY,
@@ -66,7 +132,7 @@ impl Tank {
         }];
         let time = self.particles.limit() * f64::from(steps) * 0.999;
         let done = self.particles.advance(device, queue, &poses, time).await?;
-        Ok(done.steps)
+        Ok([done.steps, done.sorts])
     }
 }
 

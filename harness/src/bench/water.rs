@@ -1,6 +1,6 @@
 //! Steps of free water: particles and pairs a second.
 
-use super::{report::Machine, rock::exponent, tank::Tank};
+use super::{copy_bandwidth, report::Machine, rock::exponent, tank::Tank};
 use crate::gpu;
 use cpu_time::ProcessTime;
 use riprap::{particles::Neighbours, wgpu};
@@ -21,6 +21,20 @@ const TARGET: f64 = 1e10;
 /// the second its new velocity too.
 const BYTES: f64 = 0.5 * (32.0 + 48.0);
 
+/// Bytes that a step moves for a particle at least, wherever the others are: its sort reads and writes it (32 each), momentum
+/// reads it and writes velocity and works (32 + 16 + 12), walls read the works (12), continuity reads it with its velocity and
+/// writes it (48 + 32), the search of the longest step reads velocity and works (28).
+const OWN_BYTES: f64 = 64.0 + 60.0 + 12.0 + 80.0 + 28.0;
+/// Bytes that are copied at most to see how many the device copies a second.
+const COPIED: u64 = 256 << 20;
+/// Bytes that both sums read of a list for each neighbour.
+const LIST_BYTES: f64 = 8.0;
+/// Operations of a pair in a sum, the mean of momentum (45) and continuity (38), as they stand in the kernels: roots and
+/// divisions count as one.
+const FLOPS: f64 = 0.5 * (45.0 + 38.0);
+/// Steps after which a dam of this many particles' edge has broken: about 0.3 s, the front half way.
+const BROKEN: u32 = 10;
+
 /// A tank that was timed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
@@ -29,6 +43,8 @@ pub struct Row {
     pub machine: Machine,
     /// What: `water`.
     pub part: &'static str,
+    /// Whether the water moves: a dam break, half way.
+    pub moving: bool,
     /// How neighbours were found.
     pub neighbours: String,
     /// Particles of water.
@@ -43,6 +59,16 @@ pub struct Row {
     pub pairs_a_second: f64,
     /// Bytes of the other ends of pairs a second: most of them come from caches.
     pub bytes_a_second: f64,
+    /// Steps that sorted the particles, and made lists of neighbours if there are any, of all.
+    pub sorted: f64,
+    /// Bytes that a step moves for a particle at least.
+    pub bytes_a_particle: f64,
+    /// Bytes that the device copies a second, read and written.
+    pub bandwidth: f64,
+    /// Part of that which those bytes take.
+    pub bandwidth_share: f64,
+    /// Operations of pairs a second.
+    pub flops: f64,
 }
 
 /// Measures tanks of growing size and prints a table as it goes.
@@ -55,9 +81,22 @@ pub fn measure(
     queue: &wgpu::Queue,
     machine: &Machine,
 ) -> anyhow::Result<Vec<Row>> {
+    let bandwidth = copy_bandwidth(device, queue, COPIED)?;
     println!(
-        "\nwater, h/Δx = 2\n{:>10} {:>6} {:>11} {:>10} {:>16} {:>16} {:>10}",
-        "particles", "around", "neighbours", "ms a step", "10⁶ particles/s", "10⁶ pairs/s", "GB/s"
+        "\nwater, h/Δx = 2; the device copies {:.1} GB/s\n{:>10} {:>6} {:>7} {:>11} {:>7} {:>10} {:>16} {:>16} {:>10} {:>10} \
+         {:>9}",
+        bandwidth / 1e9,
+        "particles",
+        "around",
+        "",
+        "neighbours",
+        "sorted",
+        "ms a step",
+        "10⁶ particles/s",
+        "10⁶ pairs/s",
+        "GB/s",
+        "of copies",
+        "GFLOP/s"
     );
     let edges: &[u32] = match (quick, full) {
         (true, _) => &[22],
@@ -68,7 +107,7 @@ pub fn measure(
         true => &[Neighbours::Lists, Neighbours::Cells],
         false => &[Neighbours::Cells, Neighbours::Lists],
     };
-    let mut rows: Vec<Row> = Vec::new();
+    let (mut rows, mut moving): (Vec<Row>, Vec<Row>) = (Vec::new(), Vec::new());
     for &edge in edges {
         for &neighbours in kinds {
             let slow = |row: &&Row| row.neighbours == format!("{neighbours:?}");
@@ -84,42 +123,18 @@ pub fn measure(
                 );
                 continue;
             }
-            let mut tank = Tank::fill(device, queue, edge, neighbours)?;
-            let mut step = f64::INFINITY;
-            let mut round = 0;
-            while round < ROUNDS[usize::from(!quick && step <= LONGEST[0])] {
-                let (cpu, wall) = (ProcessTime::now(), Instant::now());
-                let done = tank.advance(device, queue, STEPS);
-                let steps = f64::from(gpu::drive(device, PATIENCE, "free water", done)??);
-                let spent = match machine.software {
-                    true => cpu.elapsed().as_secs_f64() / machine.cores as f64,
-                    false => wall.elapsed().as_secs_f64(),
-                };
-                step = step.min(spent / steps);
-                round += 1;
+            let tank = Tank::fill(device, queue, edge, neighbours)?;
+            let rounds = |step: f64| ROUNDS[usize::from(!quick && step <= LONGEST[0])];
+            let timing = Timing { machine, bandwidth };
+            rows.push(timing.measure((device, queue), tank, neighbours, rounds)?);
+            if edge == edges[0] {
+                let mut dam = Tank::dam(device, queue, edge, neighbours)?;
+                let broken = dam.advance(device, queue, BROKEN * edge);
+                gpu::drive(device, PATIENCE, "a dam break", broken)??;
+                let count = dam.count(device, queue);
+                gpu::drive(device, PATIENCE, "counting pairs", count)??;
+                moving.push(timing.measure((device, queue), dam, neighbours, rounds)?);
             }
-            let row = Row {
-                machine: machine.clone(),
-                part: "water",
-                neighbours: format!("{neighbours:?}"),
-                particles: tank.count,
-                around: tank.neighbours,
-                step,
-                particles_a_second: tank.count as f64 / step,
-                pairs_a_second: tank.pairs / step,
-                bytes_a_second: BYTES * tank.pairs / step,
-            };
-            println!(
-                "{:>10} {:>6.1} {:>11} {:>10.2} {:>16.3} {:>16.1} {:>10.2}",
-                row.particles,
-                row.around,
-                row.neighbours,
-                1e3 * row.step,
-                row.particles_a_second / 1e6,
-                row.pairs_a_second / 1e6,
-                row.bytes_a_second / 1e9
-            );
-            rows.push(row);
         }
     }
     for neighbours in kinds {
@@ -138,5 +153,82 @@ pub fn measure(
         let verdict = if best >= TARGET { "met" } else { "missed" };
         println!("target {TARGET:.0e} pairs a second: {best:.2e}, {verdict}");
     }
+    rows.extend(moving);
     Ok(rows)
+}
+
+/// What all rows of a table share.
+struct Timing<'a> {
+    machine: &'a Machine,
+    bandwidth: f64,
+}
+
+impl Timing<'_> {
+    /// Times the steps of a tank, in so many `rounds` as its step (s) wants, and prints the row.
+    fn measure(
+        &self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        mut tank: Tank,
+        neighbours: Neighbours,
+        rounds: impl Fn(f64) -> u32,
+    ) -> anyhow::Result<Row> {
+        let machine = self.machine;
+        let moving = tank.particles.fastest() > 0.0;
+        let (mut step, mut round) = (f64::INFINITY, 0);
+        let (mut all, mut sorted) = (0.0, 0.0);
+        while round < rounds(step) {
+            let (cpu, wall) = (ProcessTime::now(), Instant::now());
+            let done = tank.advance(device, queue, STEPS);
+            let [steps, sorts] = gpu::drive(device, PATIENCE, "free water", done)??.map(f64::from);
+            let spent = match machine.software {
+                true => cpu.elapsed().as_secs_f64() / machine.cores as f64,
+                false => wall.elapsed().as_secs_f64(),
+            };
+            // Lists make some steps longer than others: of all that moves the mean counts.
+            step = match moving {
+                true if all > 0.0 => (step * all + spent) / (all + steps),
+                _ => step.min(spent / steps),
+            };
+            (all, sorted) = (all + steps, sorted + sorts);
+            round += 1;
+        }
+        let lists = match neighbours {
+            Neighbours::Lists => LIST_BYTES * tank.neighbours,
+            Neighbours::Cells => 0.0,
+        };
+        let bytes_a_particle = OWN_BYTES + lists;
+        let particles_a_second = tank.count as f64 / step;
+        let row = Row {
+            machine: machine.clone(),
+            part: "water",
+            moving,
+            neighbours: format!("{neighbours:?}"),
+            particles: tank.count,
+            around: tank.neighbours,
+            step,
+            particles_a_second,
+            pairs_a_second: tank.pairs / step,
+            bytes_a_second: BYTES * tank.pairs / step,
+            sorted: sorted / all,
+            bytes_a_particle,
+            bandwidth: self.bandwidth,
+            bandwidth_share: bytes_a_particle * particles_a_second / self.bandwidth,
+            flops: FLOPS * tank.pairs / step,
+        };
+        println!(
+            "{:>10} {:>6.1} {:>7} {:>11} {:>6.0}% {:>10.2} {:>16.3} {:>16.1} {:>10.2} {:>9.1}% {:>9.2}",
+            row.particles,
+            row.around,
+            if row.moving { "moving" } else { "at rest" },
+            row.neighbours,
+            100.0 * row.sorted,
+            1e3 * row.step,
+            row.particles_a_second / 1e6,
+            row.pairs_a_second / 1e6,
+            row.bytes_a_second / 1e9,
+            100.0 * row.bandwidth_share,
+            row.flops / 1e9
+        );
+        Ok(row)
+    }
 }

@@ -7,7 +7,7 @@ use super::{
     progress::clock,
     recorder::Notes,
     rock::{Rocks, Safety},
-    water::Pool,
+    water::{Energies, Pool},
 };
 use riprap::output::replace;
 use serde::Serialize;
@@ -84,6 +84,9 @@ pub struct Summary {
     /// What particles of water did, where there are some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pool: Option<Pool>,
+    /// Where the energy of the particles is and where it went.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub water_energies: Option<Energies>,
     /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
@@ -218,6 +221,9 @@ impl fmt::Display for Summary {
         }
         if let Some(pool) = &self.pool {
             writeln!(f, "{pool}")?;
+        }
+        if let Some(energies) = &self.water_energies {
+            writeln!(f, "{energies}")?;
         }
         if let Some(coupling) = &self.coupling {
             writeln!(f, "{coupling}")?;

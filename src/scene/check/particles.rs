@@ -256,10 +256,14 @@ impl Scene {
             }
         }
         for (index, history) in self.output.histories.iter().enumerate() {
-            if history.quantities.contains(&Quantity::PotentialEnergy) {
+            let of_particles = |quantity: &&Quantity| quantity.is_of_particles();
+            if let Some(quantity) = history.quantities.iter().find(of_particles) {
                 return refuse(
                     format!("output.histories[{index}].quantities"),
-                    "only particles have a potential energy; leave potential_energy out",
+                    format!(
+                        "only particles have one of these; leave {} out",
+                        quantity.name()
+                    ),
                 );
             }
         }

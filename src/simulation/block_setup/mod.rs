@@ -13,7 +13,7 @@ pub(crate) use shapes::{rotation, shape};
 
 use crate::{
     Error, Result,
-    bodies::{Block, Period, Setup, Sleep},
+    bodies::{Block, Guide, Period, Setup, Sleep},
     scene::{Boundary, Face, ProbePlace, Scene},
 };
 use glam::DVec3;
@@ -69,7 +69,14 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     setup.period = period(scene);
     let mut left_out = Vec::new();
     for (index, block) in scene.blocks.iter().enumerate() {
+        let first = setup.blocks.len();
         setup.blocks.extend(rows::blocks(scene, index, block)?);
+        let all = first..setup.blocks.len();
+        let axis = block.guide.map(DVec3::from);
+        setup.guides.extend(
+            axis.into_iter()
+                .flat_map(|axis| all.clone().map(move |block| Guide { block, axis })),
+        );
     }
     for (index, mass) in scene.rock_masses.iter().enumerate() {
         let (blocks, lost) = masses::blocks(scene, index, mass)?;

@@ -2,6 +2,7 @@
 
 mod announce;
 mod clouds;
+mod energies;
 mod gauges;
 mod pool;
 mod shown;
@@ -15,6 +16,7 @@ use super::{
 };
 use crate::gpu;
 use clouds::Clouds;
+pub use energies::Energies;
 use gauges::GaugeTable;
 pub use pool::Pool;
 use riprap::{
@@ -23,7 +25,7 @@ use riprap::{
     checkpoint::WaterCheckpoint,
     particles::{self, Totals, Water},
     scene::{ProbePlace, Quantity, Scene},
-    simulation::FreeSurface,
+    simulation::{FreeSurface, WaterLedger},
     wgpu,
 };
 use std::{path::Path, rc::Rc, time::Duration};
@@ -40,8 +42,8 @@ pub struct Pond {
     pub warnings: Vec<String>,
     /// Energies of the blocks at the start, those that a restart has not seen included.
     start: Ledger,
-    /// Potential energy of the water at the start, J.
-    level: f64,
+    /// Energies of the water at the start, those that a restart has not seen included.
+    first: WaterLedger,
     /// The water as it was read last, and at which step: several recorders want it.
     read: Option<(u64, Rc<Water>)>,
     /// Largest speed of the water that was read, m/s.
@@ -74,12 +76,12 @@ impl Pond {
             device,
             simulation,
             warnings: Vec::new(),
-            level: 0.0,
+            first: WaterLedger::default(),
             read: None,
             fastest: 0.0,
         };
-        pond.level = pond.totals()?.potential_energy;
         let water = pond.water()?;
+        pond.first = pond.simulation.ledger(&water);
         let simulation = &pond.simulation;
         let setup = simulation.particles().setup();
         let advice = particles::advise(
@@ -118,6 +120,12 @@ impl Pond {
     fn totals(&mut self) -> Result<Totals> {
         let water = self.water()?;
         Ok(Totals::of(self.simulation.particles().setup(), &water))
+    }
+
+    /// Energies since the start of the scene.
+    fn ledger(&mut self) -> Result<WaterLedger> {
+        let water = self.water()?;
+        Ok(self.simulation.ledger(&water).since(&self.first))
     }
 
     /// Blocks that are shown, the first ones: the faces of the domain that hold water are none.
@@ -179,18 +187,25 @@ impl Engine for Pond {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        let totals = match quantities.iter().all(|quantity| quantity.is_of_blocks()) {
-            true => Totals::default(),
-            false => self.totals()?,
+        let (totals, ledger) = match quantities.iter().all(|quantity| quantity.is_of_blocks()) {
+            true => Default::default(),
+            false => (self.totals()?, self.ledger()?),
         };
-        let level = self.level;
         let of_fluid = |quantity| match quantity {
             Quantity::Mass => totals.mass,
             Quantity::MomentumX => totals.momentum[0],
             Quantity::MomentumY => totals.momentum[1],
             Quantity::MomentumZ => totals.momentum[2],
             Quantity::KineticEnergy => totals.kinetic_energy,
-            Quantity::PotentialEnergy => totals.potential_energy - level,
+            Quantity::PotentialEnergy => ledger.potential,
+            Quantity::CompressionEnergy => ledger.compression,
+            Quantity::EscapedEnergy => ledger.left,
+            Quantity::BodyWork => ledger.bodies,
+            Quantity::PushWork => ledger.pushed,
+            Quantity::DummyWork => ledger.pressed,
+            Quantity::DissipatedEnergy => ledger.dissipated(),
+            Quantity::JointWork => ledger.joints,
+            Quantity::LostToWater => ledger.blocks,
             Quantity::MaxSpeed => totals.max_speed,
             // A scene without blocks cannot ask for theirs.
             _ => f64::NAN,
@@ -251,6 +266,8 @@ impl Engine for Pond {
         let pool = Pool::of(self).since(summary.pool.as_ref(), time);
         summary.warnings.extend(pool.warnings(self));
         summary.pool = Some(pool);
+        // A lost device has told already why there is none.
+        summary.water_energies = self.ledger().ok().map(Energies::of);
     }
 }
 

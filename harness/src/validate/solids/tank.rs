@@ -70,6 +70,7 @@ pub fn block(shape: BlockShape, position: [f64; 3], motion: Motion) -> Block {
         fixed_points: Vec::new(),
         point_loads: Vec::new(),
         acceleration: None,
+        guide: None,
         repeat: Vec::new(),
     }
 }

@@ -137,3 +137,64 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
         assert!(of("full", file) == of("good", file), "{file}");
     }
 }
+
+/// 240³ cells: 1.5 GB of populations, and 0.2 GB on the host.
+const LARGE: &str = r#"
+[domain]
+size = [240, 240, 240]
+cell = 1
+[fluid]
+density = 1
+viscosity = 0.02
+[numerics]
+time_step = 1
+velocity_scale = 0.06
+[run]
+steps = 2
+"#;
+
+/// The program on a scene, with so many MiB of addresses.
+fn within(folder: &Path, scene: &str, mebibytes: u32) -> Output {
+    let file = folder.join("limited.toml");
+    fs::write(&file, scene).unwrap();
+    let command = format!(
+        "ulimit -v {} && exec \"$0\" run \"$1\" --out \"$2\"",
+        1024 * mebibytes
+    );
+    let mut shell = Command::new("sh");
+    shell.arg("-c").arg(command);
+    shell.arg(env!("CARGO_BIN_EXE_riprap")).arg(&file);
+    shell.arg(folder.join("limited")).output().unwrap()
+}
+
+/// On a CPU adapter the memory of the device is that of the process.
+#[test]
+fn a_device_whose_memory_ends_says_what_it_does_not_hold() {
+    let folder = folder("memory");
+    let small = LARGE.replace("240", "8");
+    let runs = |limit: &u32| within(&folder, &small, *limit).status.success();
+    let Some(least) = (3..12).map(|n| 256 * n).find(runs) else {
+        eprintln!("drivers take more addresses than are given here: not tested");
+        return;
+    };
+    // More and more, until there is room for what the host holds, without which the process ends; what the device does
+    // takes five times as much.
+    let mut all = (1..16).map(|n| within(&folder, LARGE, least + 128 * n));
+    let output = all.find(|output| output.status.code().is_some_and(|code| code < 128));
+    let Some(output) = output.filter(|output| !output.status.success()) else {
+        eprintln!("the device has memory of its own: not tested");
+        return;
+    };
+    let told = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    // 108 bytes a cell, and the guard.
+    for word in [
+        "13824000 cells",
+        "1492992016 bytes",
+        "populations",
+        "larger cell",
+        "16-bit",
+    ] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+}

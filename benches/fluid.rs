@@ -4,7 +4,10 @@
 //! on software adapters, wall time where a GPU has no timestamps. At the end a table compares the
 //! adapters.
 
-#[allow(dead_code)] // The harness uses more of these four than benches do.
+#[allow(dead_code)] // The harness uses more of these five than benches do.
+#[path = "../harness/src/bench/arithmetic.rs"]
+mod arithmetic;
+#[allow(dead_code)]
 #[path = "../harness/src/bench/clock.rs"]
 mod clock;
 #[allow(dead_code)]

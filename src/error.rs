@@ -239,6 +239,21 @@ impl Error {
     }
 }
 
+/// What a device says of an error, with its causes, in one line.
+pub(crate) fn told(error: &wgpu::Error) -> String {
+    let first: &dyn std::error::Error = error;
+    let causes = std::iter::successors(Some(first), |error| error.source());
+    let lines: Vec<String> = causes.map(ToString::to_string).collect();
+    let mut words: Vec<&str> = Vec::new();
+    for line in &lines {
+        // The first lines may hold the causes already.
+        if !words.join(" ").contains(line.trim()) {
+            words.extend(line.split_whitespace());
+        }
+    }
+    words.join(" ")
+}
+
 /// `std::result::Result` with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 

@@ -1,6 +1,6 @@
 //! A compute kernel on the caller's device: bound by name, recorded into the caller's pass.
 
-use crate::{Error, Result, link::Linked};
+use crate::{Error, Result, link::Linked, work::Work};
 
 /// A pipeline with the names of its bindings.
 #[derive(Debug)]
@@ -11,6 +11,8 @@ pub struct Kernel {
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     bindings: Vec<Binding>,
+    size: [u32; 3],
+    work: Work,
 }
 
 /// A storage or uniform buffer that a kernel wants.
@@ -107,6 +109,8 @@ impl Kernel {
             pipeline,
             layout,
             bindings,
+            size,
+            work: Work::of(linked, entry)?,
         })
     }
 
@@ -123,6 +127,16 @@ impl Kernel {
     /// Its slots and the files that fill them.
     pub fn slots(&self) -> &[(String, String)] {
         &self.slots
+    }
+
+    /// Invocations of a workgroup.
+    pub fn invocations(&self) -> u32 {
+        self.size.iter().product()
+    }
+
+    /// What an invocation computes and moves.
+    pub fn work(&self) -> Work {
+        self.work
     }
 
     /// What must be bound, in the order of the binding numbers.

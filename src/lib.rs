@@ -73,6 +73,7 @@ pub mod simulation;
 pub mod solid;
 pub mod timer;
 pub mod units;
+pub mod work;
 
 pub use error::{Error, Result};
 

@@ -4,7 +4,7 @@ use crate::{
     Result,
     kernel::Kernel,
     link::Program,
-    search::{BinsOf, Scan, ScanOf, WORKGROUP, at_most, storage, uniform},
+    search::{BinsOf, FEWER_BOXES, Scan, ScanOf, WORKGROUP, at_most, storage, uniform},
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -86,7 +86,7 @@ impl Comparison {
         let slices = candidates.div_ceil(SLICE).max(1);
         let invocations = u64::from(sorted.items) * u64::from(slices);
         let bytes = 4 * (invocations + 1);
-        at_most(device, "counts of pairs", bytes)?;
+        at_most(device, "counts of pairs", bytes, FEWER_BOXES)?;
         let counts = storage(device, "counts of pairs", bytes);
         let mut buffers = self.buffers(sorted);
         buffers.extend([("hits", &counts), ("header", &self.header)]);

@@ -22,7 +22,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "stream", "sums", "velocity", "wale", "wall_rates", "weights", "where_all", "where_listed",
         "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "measure":
-        "copy_four_vectors", "copy_scalar", "copy_vector", "stream_only";
+        "copy_four_vectors", "copy_scalar", "copy_vector", "multiply_add", "stream_only";
     "search":
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";

@@ -1,5 +1,6 @@
 //! Places in the water whose pressure somebody wants to know.
 
+use super::kernels::FEWER_PARTICLES;
 use super::near::Buffers;
 use crate::{
     Result,
@@ -42,7 +43,12 @@ impl Asked {
         places: &[[i32; 4]],
         others: &Buffers<'_>,
     ) -> Result<()> {
-        at_most(device, "places asked about", 16 * places.len() as u64)?;
+        at_most(
+            device,
+            "places asked about",
+            16 * places.len() as u64,
+            FEWER_PARTICLES,
+        )?;
         self.count = places.len() as u32;
         let room = self.memory.as_ref().map_or(0, |memory| memory.room);
         if self.count > room {

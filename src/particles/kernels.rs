@@ -67,6 +67,9 @@ pub(super) struct Kernels {
     tick: (Kernel, wgpu::BindGroup),
 }
 
+/// What to change where particles do not fit.
+pub(super) const FEWER_PARTICLES: &str = "use a larger spacing, less water, or another adapter";
+
 impl Kernels {
     pub fn new(
         device: &wgpu::Device,
@@ -78,7 +81,7 @@ impl Kernels {
     ) -> Result<Self> {
         let buffer = |label, count: u32, one: usize| {
             let bytes = u64::from(count.max(1)) * one as u64;
-            at_most(device, label, bytes)?;
+            at_most(device, label, bytes, FEWER_PARTICLES)?;
             Ok::<_, crate::Error>(storage(device, label, bytes))
         };
         let homes = buffer("homes of shells", numbers.shell, size_of::<Home>())?;

@@ -1,5 +1,6 @@
 //! Green (2010): particles sorted by the cells that they are in, by count, scan and scatter.
 
+use super::kernels::FEWER_PARTICLES;
 use super::{Frame, Setup, layout::Particle, program};
 use crate::{
     Result,
@@ -67,8 +68,8 @@ impl Sorting {
         let count = count.max(1);
         let bytes = u64::from(count) * size_of::<Particle>() as u64;
         let cells = 4 * (frame.cell_count() + 2);
-        at_most(device, "particles", bytes)?;
-        at_most(device, "cells of particles", cells)?;
+        at_most(device, "particles", bytes, FEWER_PARTICLES)?;
+        at_most(device, "cells of particles", cells, FEWER_PARTICLES)?;
         let unsorted = storage(device, "particles as they come", bytes);
         let sorted = storage(device, "particles by cells", bytes);
         let counts = storage(device, "numbers in cells", cells);

@@ -1,6 +1,6 @@
 //! Williams, Perkins & Cook 2004, CGRID: boxes sorted into buckets of cells by count, scan and scatter.
 
-use super::{DeviceBox, Level, MAX_LEVELS, Scan, ScanOf, WORKGROUP, at_most, storage};
+use super::{DeviceBox, FEWER_BOXES, Level, MAX_LEVELS, Scan, ScanOf, WORKGROUP, at_most, storage};
 use crate::{Result, kernel::Kernel, link::Program};
 
 /// The kernels that sort boxes into buckets.
@@ -55,8 +55,8 @@ impl Bins {
         let n = u64::from(items);
         let buckets = u64::from(buckets(items));
         let bytes = n * size_of::<DeviceBox>() as u64;
-        at_most(device, "boxes", bytes)?;
-        at_most(device, "buckets", 8 * buckets)?;
+        at_most(device, "boxes", bytes, FEWER_BOXES)?;
+        at_most(device, "buckets", 8 * buckets, FEWER_BOXES)?;
         let levels = (MAX_LEVELS * size_of::<Level>()) as u64;
         let boxes = storage(device, "boxes", bytes);
         let levels = storage(device, "levels", levels);

@@ -24,11 +24,15 @@ pub(crate) fn uniform(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::B
     })
 }
 
-/// Whether the device binds as many bytes at once.
+/// What to change where a search does not fit.
+pub(crate) const FEWER_BOXES: &str =
+    "search on the host, in parts of the scene, or on another adapter";
+
+/// Whether the device binds as many bytes at once; `remedy` is what to change if not.
 ///
 /// # Errors
 /// [`Error::Limit`] if not.
-pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64) -> Result<()> {
+pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64, remedy: &str) -> Result<()> {
     let limits = device.limits();
     let has = limits
         .max_storage_buffer_binding_size
@@ -40,6 +44,6 @@ pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64) -> Result<(
         name: format!("bytes of one storage binding ({what})"),
         wants: bytes,
         has,
-        remedy: "search on the host, in parts of the scene, or on another adapter".into(),
+        remedy: remedy.into(),
     })
 }

@@ -9,7 +9,7 @@ pub(crate) use bins::buckets;
 pub use bins::{Bins, BinsOf};
 pub use boxes::{DeviceBox, Level};
 pub(crate) use boxes::{MAX_LEVELS, NUMBER_BITS};
-pub(crate) use buffers::{at_most, storage, uniform};
+pub(crate) use buffers::{FEWER_BOXES, at_most, storage, uniform};
 pub use scan::{Scan, ScanOf};
 
 /// Invocations of a workgroup of every kernel in `kernels/search/`.

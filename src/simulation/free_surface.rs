@@ -6,6 +6,7 @@ use crate::{
     bodies::Blocks,
     checkpoint::WaterCheckpoint,
     coupling::{self, Company, Felt, Rock},
+    error::told,
     particles::{Neighbours, Particles, Totals, Water, particle_setup},
     scene::Scene,
 };
@@ -52,12 +53,15 @@ impl FreeSurface {
             &start.velocities,
             &start.pressures,
         );
-        let refused = validity.pop().await.or(memory.pop().await);
+        // What a buffer that is none is bound to is not valid either: memory is the cause.
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = (validity.await, memory.await);
         let particles = particles?;
-        if let Some(error) = refused {
+        if let Some(error) = refused.1.or(refused.0) {
             return Err(Error::Device(format!(
-                "it does not hold {} particles ({error}); use a larger spacing",
-                particles.numbers().water
+                "it does not hold {} particles ({}); use a larger spacing",
+                particles.numbers().water,
+                told(&error)
             )));
         }
         Ok(Self {

@@ -34,6 +34,7 @@ use crate::{
     Error, Result,
     checkpoint::Checkpoint,
     coupling::{self, Coupled, Rock},
+    error::told,
     lattice::{Collision, Derived, Lattice, Observer, State},
     scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
     units::Units,
@@ -95,12 +96,16 @@ impl Simulation {
             Ok((lattice, observer, coupled))
         };
         let made = made.await;
-        let refused = validity.pop().await.or(memory.pop().await);
+        // What a buffer that is none is bound to is not valid either: memory is the cause.
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = (validity.await, memory.await);
         let (lattice, observer, coupled) = made?;
-        if let Some(error) = refused {
+        if let Some(error) = refused.1.or(refused.0) {
+            let bytes: u64 = lattice.bytes().iter().map(|(_, bytes)| bytes).sum();
             return Err(Error::Device(format!(
-                "it does not hold {} cells ({error}); use a larger cell or 16-bit storage",
-                lattice.grid().cell_count()
+                "it does not hold {} cells, {bytes} bytes in its buffers ({}); use a larger cell or 16-bit storage",
+                lattice.grid().cell_count(),
+                told(&error)
             )));
         }
         Ok(Self {

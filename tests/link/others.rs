@@ -27,7 +27,12 @@ fn plain(program: &Program, entry: &str) {
 }
 
 const SEARCH: [&str; 4] = ["bin_count", "bin_scatter", "scan_sum", "scan_spread"];
-const MEASURE: [&str; 3] = ["copy_scalar", "copy_vector", "copy_four_vectors"];
+const MEASURE: [&str; 4] = [
+    "copy_scalar",
+    "copy_vector",
+    "copy_four_vectors",
+    "multiply_add",
+];
 
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![

@@ -1,10 +1,12 @@
 //! Measuring the variants of a group in turns, so that a busy minute strikes all of them alike.
 
 use super::{
+    arithmetic::Arithmetic,
     clock::{Clock, Spent},
     copy::{Copy, METHODS},
     flow::sheared_noise,
-    report::{Beside, Machine, Row},
+    report::{Beside, Machine, Moved, Row},
+    roofline::flops_a_step,
     subject::Subject,
     variant::{Group, STREAM_ONLY, Variant},
 };
@@ -34,6 +36,8 @@ pub fn measure(
         bytes.push(moved);
     }
     subjects.extend(METHODS.map(|method| Subject::Copying(&copy, method)));
+    let arithmetic = Arithmetic::new(&clock.device, &clock.queue)?;
+    subjects.push(Subject::Computing(&arithmetic));
     // The first turns compile and clear memory; the next ones tell how many fill the time. An even
     // number, because a lattice steps in pairs.
     let mut turns = Vec::new();
@@ -53,11 +57,14 @@ pub fn measure(
         }
     }
     let medians: Vec<Spent> = spent.iter().map(|all| median(all)).collect();
-    let (steps, copies) = medians.split_at(group.variants.len());
+    let (steps, others) = medians.split_at(group.variants.len());
+    let (copies, computing) = others.split_at(METHODS.len());
     let fastest = copies.iter().map(|s| s.basis).fold(f64::INFINITY, f64::min);
     let beside = Beside {
         copy_bandwidth: copy.traffic() / fastest,
         stream_only: steps[0].basis,
+        stream_bytes: bytes[0].bytes,
+        arithmetic: arithmetic.flops() / computing[0].basis,
     };
     let rows = group.variants.iter().zip(steps).zip(bytes);
     Ok(rows
@@ -69,18 +76,22 @@ pub fn measure(
         .collect())
 }
 
-/// The lattice of a variant in motion, and the bytes that a step of it moves.
-fn subject(clock: &Clock, variant: &Variant) -> Result<(Subject<'static>, u64), Error> {
+/// The lattice of a variant in motion, and what a step of it moves and computes.
+fn subject(clock: &Clock, variant: &Variant) -> Result<(Subject<'static>, Moved), Error> {
     let mut lattice = Lattice::new(&clock.device, variant.setup.clone())?;
     let state = sheared_noise(&variant.setup)?;
     lattice.start(&clock.device, &clock.queue, &state, true)?;
     let bytes = bytes_a_step(lattice.setup(), lattice.grid(), lattice.geometry());
-    let subject = if variant.name == STREAM_ONLY {
-        Subject::Streaming(Box::new(StreamOnly::new(&clock.device, lattice)?))
+    let flops = flops_a_step(&lattice);
+    Ok(if variant.name == STREAM_ONLY {
+        let stream = StreamOnly::new(&clock.device, lattice)?;
+        (
+            Subject::Streaming(Box::new(stream)),
+            Moved { bytes, flops: 0 },
+        )
     } else {
-        Subject::Steps(Box::new(lattice))
-    };
-    Ok((subject, bytes))
+        (Subject::Steps(Box::new(lattice)), Moved { bytes, flops })
+    })
 }
 
 /// The median of each kind of time by itself.

@@ -1,17 +1,20 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
-//! blocks meet and move, particles of water move, and what solids in the fluid cost.
+//! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing.
 
+mod arithmetic;
 mod clock;
 mod copy;
 mod flow;
 mod group;
 mod report;
 pub mod rock;
+mod roofline;
 mod solids;
 mod subject;
 mod table;
 mod tank;
 mod targets;
+mod unused;
 mod variant;
 mod water;
 
@@ -67,6 +70,8 @@ pub enum Part {
     Water,
     /// The solids in the fluid.
     Solids,
+    /// What nobody uses, which should cost nothing, and what the cost of a moving block follows.
+    Unused,
 }
 
 /// A result of a part: one object of the file.
@@ -133,6 +138,12 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         measured.extend(rows.into_iter().map(Measured::Solids));
     }
     if let Some((_, device, queue)) = &device
+        && asked(Part::Unused)
+    {
+        let rows = unused::measure(args.quick, device, queue, &machine)?;
+        measured.extend(rows.into_iter().map(Measured::Solids));
+    }
+    if let Some((_, device, queue)) = &device
         && args.all
     {
         // A GPU says itself when its memory ends.
@@ -167,6 +178,7 @@ fn fluid(
         for group in variant::groups(grid, machine, args.quick, budget, device) {
             rows.extend(group::measure(&mut clock, machine, group, args.quick)?);
         }
+        report::explain(grid, &rows);
         targets::print(grid, &rows, machine.software);
     }
     Ok(rows)

@@ -1,6 +1,11 @@
 //! A result, in the table and in the file.
 
-use super::{clock, clock::Spent, variant::Variant};
+use super::{
+    clock,
+    clock::Spent,
+    roofline::{self, Ceilings, Parts},
+    variant::Variant,
+};
 use crate::gpu;
 use riprap::{
     lattice::{Storage, bytes_a_cell},
@@ -137,6 +142,14 @@ pub struct Row {
     pub share_of_copy: f64,
     /// Time of streaming without collision in the same layout, over the time of this.
     pub ratio_to_stream_only: f64,
+    /// Floating-point operations of a step over its cells, counted from the code of its kernels.
+    pub flops_a_cell: f64,
+    /// Such operations a second.
+    pub flops: f64,
+    /// Those of a kernel that does nothing else, in the same rounds.
+    pub arithmetic_ceiling: f64,
+    /// Where the time goes, as parts of it.
+    pub parts: Parts,
     /// Where and when.
     #[serde(flatten)]
     pub machine: Machine,
@@ -149,16 +162,29 @@ pub struct Beside {
     pub copy_bandwidth: f64,
     /// Seconds of a step that only streams, in the same layout.
     pub stream_only: f64,
+    /// Bytes that it moves.
+    pub stream_bytes: u64,
+    /// Floating-point operations a second, where nothing else is done.
+    pub arithmetic: f64,
+}
+
+/// What a step moves and computes.
+#[derive(Clone, Copy, Debug)]
+pub struct Moved {
+    /// Bytes.
+    pub bytes: u64,
+    /// Floating-point operations.
+    pub flops: u64,
 }
 
 impl Row {
-    /// A row from the time of a step and the bytes that it moves.
+    /// A row from the time of a step and what it moves and computes.
     pub fn new(
         machine: &Machine,
         variant: &Variant,
         grid: u32,
         step: &Spent,
-        bytes: u64,
+        Moved { bytes, flops }: Moved,
         beside: Beside,
     ) -> Self {
         let cells = f64::from(grid).powi(3);
@@ -184,6 +210,20 @@ impl Row {
             copy_bandwidth: beside.copy_bandwidth,
             share_of_copy: bandwidth / beside.copy_bandwidth,
             ratio_to_stream_only: beside.stream_only / step.basis,
+            flops_a_cell: flops as f64 / cells,
+            flops: flops as f64 / step.basis,
+            arithmetic_ceiling: beside.arithmetic,
+            parts: Parts::of(
+                step.basis,
+                Ceilings {
+                    bytes: bytes as f64,
+                    copy_bandwidth: beside.copy_bandwidth,
+                    stream_only: beside.stream_only,
+                    stream_copy: beside.stream_bytes as f64 / beside.copy_bandwidth,
+                    flops: flops as f64,
+                    arithmetic: beside.arithmetic,
+                },
+            ),
             machine: machine.clone(),
         }
     }
@@ -211,6 +251,24 @@ impl fmt::Display for Row {
             100.0 * self.share_of_copy,
             100.0 * self.ratio_to_stream_only
         )
+    }
+}
+
+/// Prints where the time of the steps on a grid goes.
+pub fn explain(grid: u32, rows: &[Row]) {
+    let mut some = rows.iter().filter(|row| row.grid == grid).peekable();
+    let Some(first) = some.peek() else { return };
+    println!(
+        "\nwhere the time goes, of {:.1} GB/s copied and {:.1} Gflop/s computed at most\n{}",
+        first.copy_bandwidth / 1e9,
+        first.arithmetic_ceiling / 1e9,
+        roofline::HEAD
+    );
+    for row in some {
+        println!(
+            "{:<30} {:>5} {:>6} | {:>7} {:>9.0} | {}",
+            row.variant, row.storage, row.lanes, row.bytes_a_cell, row.flops_a_cell, row.parts
+        );
     }
 }
 

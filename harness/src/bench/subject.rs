@@ -1,6 +1,9 @@
 //! What is measured: a lattice that steps, one that only streams, or a copy.
 
-use super::copy::{Copy, Method};
+use super::{
+    arithmetic::Arithmetic,
+    copy::{Copy, Method},
+};
 use riprap::{
     lattice::{Lattice, StreamOnly},
     timer::{self, Timer},
@@ -15,6 +18,8 @@ pub enum Subject<'a> {
     Streaming(Box<StreamOnly>),
     /// Copies of a stretch of memory.
     Copying(&'a Copy, Method),
+    /// Arithmetic and nothing else.
+    Computing(&'a Arithmetic),
 }
 
 impl Subject<'_> {
@@ -36,6 +41,7 @@ impl Subject<'_> {
                 Self::Steps(lattice) => lattice.record(&mut pass),
                 Self::Streaming(lattice) => lattice.record(&mut pass),
                 Self::Copying(copy, method) => copy.record(*method, &mut pass),
+                Self::Computing(arithmetic) => arithmetic.record(&mut pass),
             }
         }
         timed

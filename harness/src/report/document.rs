@@ -102,7 +102,7 @@ impl Report {
     /// Runs the longest short run with the defaults of a class again.
     pub(super) fn repeat(&self, stand: &Stand, class: &Class) -> Option<Repeat> {
         /// Longest run that is done twice, s.
-        const SHORT: f64 = 4.0;
+        const SHORT: f64 = 2.0;
         let time = self.time.of();
         let rows = self.of(class.name);
         let point_of = |row: &Row| class.points.iter().find(|point| row.is_of(point));

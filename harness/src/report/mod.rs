@@ -7,6 +7,7 @@
 mod blocks;
 mod class;
 mod document;
+mod estimate;
 mod finding;
 mod flows;
 mod limit;
@@ -20,15 +21,20 @@ pub use document::{Repeat, Report, Time};
 pub use finding::{Choice, Finding, TARGETS};
 pub use row::{Row, Table};
 
-use crate::{bench::Machine, print::percent, validate::Stand};
+use crate::{
+    bench::Machine,
+    print::{duration, percent},
+    validate::Stand,
+};
 use anyhow::Context;
 use class::{Class, Point, Reference, classes};
+use estimate::Estimate;
 use std::{path::PathBuf, time::Instant};
 
 /// Draws error against run time and updates for every setting, and says which is the cheapest.
 #[derive(clap::Args, Clone, Debug, Default)]
 pub struct Args {
-    /// Finer grids, for a GPU; the short form takes minutes on two cores
+    /// Finer grids and more combinations, for a GPU; the short form takes less than five minutes on two cores
     #[arg(long)]
     pub full: bool,
     /// Folder for report.html, report.csv, report.json and a PNG of each class
@@ -71,22 +77,28 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         findings: Vec::new(),
     };
     let begin = Instant::now();
+    let mut estimate = Estimate::of(&classes);
+    println!("{estimate}");
     for class in &classes {
-        println!("{}: {}", class.name, class.title);
+        let points = class.points.len();
+        println!("{}: {}; {points} points", class.name, class.title);
         measure(&stand, class, &mut table)?;
         report.rows.clone_from(&table.rows);
         report.repeats.extend(report.repeat(&stand, class));
         report.conclude(&classes);
         report.write(folder, &classes)?;
         let chart = report.chart(class);
-        chart.draw(&folder.join(format!("{}.png", class.name)))?;
+        chart.draw(&folder.join(format!("{}.png", class.name.replace('-', "_"))))?;
+        if let Some(left) = estimate.after(class, begin.elapsed().as_secs_f64()) {
+            println!("     {left}");
+        }
     }
     println!("{}", report.noise_says());
     println!("{}", report.verdict());
     println!(
         "{} in {}",
         folder.join("report.html").display(),
-        crate::print::duration(begin.elapsed().as_secs_f64())
+        duration(begin.elapsed().as_secs_f64())
     );
     Ok(())
 }
@@ -116,6 +128,10 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
         Reference::None => Some((None, 0.0)),
         Reference::Known(value, uncertainty) => Some((Some(value), uncertainty)),
         Reference::Limit => None,
+        Reference::Recorded(values) => {
+            let (limit, uncertainty) = limit::limit(values);
+            Some((Some(limit), uncertainty))
+        }
     };
     for (n, point) in class.points.iter().enumerate() {
         if table.find(class.name, point).is_none() {

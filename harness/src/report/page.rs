@@ -121,6 +121,11 @@ fn reference(class: &Class, rows: &[&Row]) -> String {
             " That may be off by {}: smaller errors say no more, and are drawn and counted as that.",
             percent(uncertainty)
         ),
+        Reference::Recorded(_) => format!(
+            " The limit is a recorded one, of finer grids than these. It may be off by {}: smaller errors say no more, \
+             and are drawn and counted as that.",
+            percent(uncertainty)
+        ),
         Reference::Known(..) if uncertainty > 0.0 => {
             format!(" The reference has digits for {}.", percent(uncertainty))
         }

@@ -9,6 +9,7 @@ fn class() -> Class {
         resolution: "cells",
         update: "cell",
         reference: Reference::None,
+        seconds: None,
         points: Vec::new(),
     }
 }

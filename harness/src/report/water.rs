@@ -1,6 +1,6 @@
 //! Free water by particles, with both schemes.
 
-use super::class::{Class, Found, Point, Reference};
+use super::class::{Class, Found, Point, Reference, seconds};
 use crate::validate::{
     Stand, Trial,
     water::{dam, still, wave},
@@ -36,7 +36,7 @@ fn both(
 pub fn still(full: bool) -> Class {
     let layers: &[u32] = match full {
         true => &[10, 20, 40, 80],
-        false => &[5, 10, 16],
+        false => &[5, 8, 12],
     };
     Class {
         name: "still-tank",
@@ -45,6 +45,7 @@ pub fn still(full: bool) -> Class {
         resolution: "spacings of depth",
         update: "particle",
         reference: Reference::None,
+        seconds: seconds(full, 17.0),
         points: both(layers, |stand, layers, scheme| {
             let found = still::measure(stand, layers, scheme)?;
             Ok((found.trial, found.miss))
@@ -56,7 +57,7 @@ pub fn still(full: bool) -> Class {
 pub fn wave(full: bool) -> Class {
     let layers: &[u32] = match full {
         true => &[10, 25, 50],
-        false => &[8, 12],
+        false => &[6, 8, 12],
     };
     Class {
         name: "standing-wave",
@@ -65,6 +66,7 @@ pub fn wave(full: bool) -> Class {
         resolution: "spacings of depth",
         update: "particle",
         reference: Reference::Known(1.0, 0.0),
+        seconds: seconds(full, 20.0),
         points: both(layers, |stand, layers, scheme| {
             let found = wave::measure(stand, layers, wave::LENGTHS[0], scheme)?;
             Ok((found.trial, found.period))
@@ -85,6 +87,7 @@ pub fn dam(full: bool) -> Class {
         resolution: "spacings of the column's width",
         update: "particle",
         reference: Reference::Known(dam::SPEED, 0.0),
+        seconds: seconds(full, 8.0),
         points: both(columns, |stand, columns, scheme| {
             let (trial, [speed, _]) = dam::front(stand, columns, scheme)?;
             Ok((trial, speed))

@@ -107,6 +107,23 @@ z_max = { kind = "open" }
 kind = "box"
 size = [0.4, 0.1, 0.4]
 position = [0.2, 0.05, 0.2]
+[[materials]]
+name = "rock"
+density = 2650
+normal_stiffness = 1e7
+friction = 35
+damping = 0.2
+[[blocks]]
+name = "slab"
+kind = "box"
+size = [0.2, 0.1, 0.1]
+position = [0.2, 0.05, 0.05]
+[[blocks]]
+name = "stone"
+kind = "box"
+size = [0.1, 0.1, 0.1]
+position = [0.3, 0.05, 0.47]
+rotation = { axis = [0, 1, 0], angle = 20 }
 [run]
 duration = 1
 "#;
@@ -118,7 +135,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     let runs: [(&str, Run); 3] = [
         ("blocks in a flow", flow),
         ("dry blocks", rock),
-        ("free water", water),
+        ("free water with blocks", water),
     ];
     for (name, run) in runs {
         let begin = Instant::now();

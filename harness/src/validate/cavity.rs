@@ -9,6 +9,8 @@ use serde_json::Value;
 const SPEED: f64 = 0.1;
 /// Largest change of the velocity in a time L/U, in units of U, that counts as steady.
 const STEADY: f64 = 1e-5;
+/// Times L/U without a smaller change after which what changes is rounding, or a flow that is not to become steady.
+const STALLED: u64 = 10;
 /// Times L/U after which a cavity that is not steady is taken as it is.
 const LONGEST: u64 = 150;
 
@@ -99,10 +101,13 @@ pub fn measure(
     let mut before = State::rest((4 * n * n) as usize);
     let mut flow = stand.flow(setup, &before, false)?;
     let mut change = f64::INFINITY;
-    while change > STEADY && flow.trial().steps < LONGEST * turn {
+    let (mut least, mut since) = (f64::INFINITY, 0);
+    while change > STEADY && since < STALLED && flow.trial().steps < LONGEST * turn {
         flow.advance(turn)?;
         let state = flow.state()?;
         change = fields::largest_change(&before, &state) / SPEED;
+        since = if change < least { 0 } else { since + 1 };
+        least = least.min(change);
         before = state;
     }
     let at = |x: u32, y: u32| (x + n * y) as usize;

@@ -5,13 +5,12 @@ mod turns;
 mod voxels;
 mod world;
 
-pub use row::Row;
-pub use world::crowd;
+pub use row::{HEAD, Row};
+pub use turns::Turns;
+pub use world::{World, crowd};
 
 use super::{report::Machine, targets::Target, targets::show};
 use riprap::wgpu;
-use turns::Turns;
-use world::World;
 
 /// Cells across the spheres of a crowd.
 const ACROSS: f64 = 16.0;

@@ -1,6 +1,9 @@
 //! Boxes of fluid with blocks in them, in lattice units: cell, step and density are 1.
 
-use riprap::{scene::Scene, simulation::Simulation};
+use riprap::{
+    scene::{Motion, Probe, ProbePlace, Scene, Sleep},
+    simulation::Simulation,
+};
 use std::path::Path;
 
 /// Speed of what moves: a cell in fifty steps.
@@ -46,6 +49,52 @@ impl World {
             );
         }
         Self::of(n, "rock = { gravity = [0, 0, 0] }", blocks)
+    }
+
+    /// A fixed sphere at `place`, of which somebody wants to know the loads of its faces.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn asked(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
+        let mut world = Self::spheres(n, across, &[place], false)?;
+        let name = String::from("sphere");
+        world.scene.blocks[0].name = Some(name.clone());
+        world.scene.probes.push(Probe {
+            name: name.clone(),
+            place: ProbePlace::Block {
+                block: name,
+                faces: true,
+                safety: false,
+            },
+            fields: Vec::new(),
+            every: None,
+        });
+        Ok(world)
+    }
+
+    /// A free sphere at `place`, so heavy that it falls asleep at once and the fluid does not wake it.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn asleep(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
+        let mut world = Self::spheres(n, across, &[place], false)?;
+        world.scene.blocks[0].motion = Motion::Free;
+        world.scene.materials[0].density = 1e9;
+        world.scene.rock.sleep = Some(Sleep {
+            speed: 1e-3,
+            time: 1.0,
+        });
+        Ok(world)
+    }
+
+    /// Whether no block is awake.
+    pub fn sleeps(&self) -> bool {
+        let coupled = self.simulation.as_ref().and_then(Simulation::coupled);
+        coupled.is_some_and(|coupled| {
+            let blocks = coupled.blocks();
+            let mut all = blocks.asleep().enumerate();
+            all.all(|(block, asleep)| asleep || !blocks.moves(block))
+        })
     }
 
     /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference.

@@ -29,12 +29,16 @@ use riprap::{
     coupling::Coupled,
     lattice::{bytes_a_cell, bytes_a_step},
     output::Image,
+    readback::Readback,
     scene::{Field, ProbePlace, Quantity, Scene},
     simulation::{Needs, Simulation, Totals},
     wgpu,
 };
 use solids::solid_blocks;
-use std::{path::Path, time::Duration};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 use watch::Watch;
 
 /// Bytes whose copying shows what memory allows: more than caches hold.
@@ -100,6 +104,27 @@ impl Flow {
     fn shown(&self) -> usize {
         let in_fluid = self.simulation.coupled().map(Coupled::in_fluid);
         in_fluid.unwrap_or_default() + self.simulation.scene().solids.len()
+    }
+
+    /// Seconds that reading a few bytes back takes: the median of some.
+    fn reading(&self) -> Result<f64> {
+        const TIMES: usize = 9;
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("a few bytes"),
+            size: 64,
+            usage: wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let mut readback = Readback::default();
+        let mut times = Vec::new();
+        for _ in 0..TIMES {
+            let begin = Instant::now();
+            let read = readback.read::<u8>(&self.device, &self.queue, &buffer, 64);
+            gpu::drive(&self.device, PATIENCE, "a few bytes", read)??;
+            times.push(begin.elapsed().as_secs_f64());
+        }
+        times.sort_by(f64::total_cmp);
+        Ok(times[TIMES / 2])
     }
 
     /// Bytes a second that the device copies.
@@ -258,7 +283,11 @@ impl Engine for Flow {
         (summary.mlups, summary.bandwidth_share) = speed(summary, steps, time);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
         summary.rocks = Rocks::concluded(self, notes, (steps, time));
-        summary.coupling = Coupling::of(&self.simulation, steps);
+        summary.coupling = Coupling::of(&self.simulation, steps).map(|coupling| Coupling {
+            reading_seconds: self.reading().unwrap_or_default(),
+            step_seconds: time.as_secs_f64() / steps.max(1) as f64,
+            ..coupling
+        });
         self.look_at_walls(summary);
     }
 }

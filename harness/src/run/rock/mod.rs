@@ -4,6 +4,7 @@ mod block_files;
 mod block_probe;
 mod face_table;
 mod forces;
+mod program;
 mod rocks;
 mod safety;
 mod values;

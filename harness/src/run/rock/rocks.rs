@@ -1,6 +1,9 @@
 //! A run of blocks in numbers.
 
-use super::super::{engine::Engine, recorder::Notes};
+use super::{
+    super::{engine::Engine, recorder::Notes},
+    program,
+};
 use serde::Serialize;
 use std::{fmt, time::Duration};
 
@@ -19,6 +22,10 @@ pub struct Rocks {
     pub tests: u64,
     /// Linear programs that this took.
     pub programs: u64,
+    /// Seconds that one takes, measured at the end; 0 where it was not.
+    pub program_seconds: f64,
+    /// Seconds of this run's steps, without what was written.
+    pub seconds: f64,
     /// Longest sub-step at the end, s.
     pub sub_step: f64,
     /// Largest speed of a centroid at the end, m/s.
@@ -73,6 +80,8 @@ impl Rocks {
             pairs: blocks.candidates(),
             tests: blocks.counts().pairs,
             programs: blocks.counts().programs,
+            program_seconds: 0.0,
+            seconds: 0.0,
             sub_step: blocks.time_step().min(engine.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
@@ -103,6 +112,8 @@ impl Rocks {
         let now = Self::of(engine)?;
         Some(Self {
             max_speed_seen: notes.block_speed.max(now.max_speed),
+            program_seconds: program::seconds().unwrap_or_default(),
+            seconds: time.as_secs_f64(),
             steps_a_second: steps as f64 / time.as_secs_f64().max(1e-9),
             ..now
         })

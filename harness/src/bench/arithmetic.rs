@@ -1,0 +1,59 @@
+//! The arithmetic ceiling of an adapter: how many products and sums it does a second where it does nothing else.
+
+use riprap::{Error, kernel::Kernel, link::Program, wgpu};
+
+/// Turns of the loop: short, since drivers may end long ones.
+const TURNS: u32 = 64;
+/// Products and sums of a turn: 32 of each, of four components.
+pub const FLOPS: u64 = 2 * 32 * 4;
+/// Workgroups of 64: as many invocations as a large GPU holds several times over.
+const GROUPS: u32 = 4096;
+
+/// Products and sums of vectors in registers.
+pub struct Arithmetic {
+    kernel: Kernel,
+    bind: wgpu::BindGroup,
+}
+
+impl Arithmetic {
+    /// The kernel and its numbers.
+    ///
+    /// # Errors
+    /// If the device refuses it.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, Error> {
+        let linked = Program::new("multiply_add").link()?;
+        let kernel = Kernel::new(
+            device,
+            &linked,
+            "multiply_add",
+            &[("TURNS", f64::from(TURNS))],
+        )?;
+        // Numbers that stay finite: x ← 0.5 x + 0.5 goes to 1.
+        let factors = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("factors"),
+            size: 32,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let half: Vec<u8> = [0.5f32; 8].iter().flat_map(|x| x.to_le_bytes()).collect();
+        queue.write_buffer(&factors, 0, &half);
+        let sums = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("sums"),
+            size: u64::from(GROUPS) * 64 * 16,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        });
+        let bind = kernel.bind(device, &[("factors", &factors), ("sums", &sums)])?;
+        Ok(Self { kernel, bind })
+    }
+
+    /// Products and sums of a dispatch.
+    pub fn flops(&self) -> f64 {
+        f64::from(GROUPS) * 64.0 * f64::from(TURNS) * FLOPS as f64
+    }
+
+    /// Records a dispatch.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernel.record(pass, &self.bind, GROUPS);
+    }
+}

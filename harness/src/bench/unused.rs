@@ -1,0 +1,200 @@
+//! What a feature costs that nobody uses, and what the cost of a moving block follows: pairs of scenes, in turns.
+
+use super::{
+    report::Machine,
+    solids::{Row, Turns, World},
+    targets::{Target, show},
+};
+use riprap::{
+    formula::Formula,
+    scene::{EddyViscosity, SolidOperator},
+    simulation::Simulation,
+    wgpu,
+};
+
+/// Cells across the block.
+const ACROSS: f64 = 12.0;
+/// Cells across each of the blocks that move.
+const SMALL: f64 = 7.0;
+/// Cells across a block that hardly is one.
+const SPECK: f64 = 2.0;
+/// What a pair may differ by beyond the scene and itself, of a step.
+const NOISE: f64 = 0.03;
+
+/// A pair of scenes that should cost the same.
+struct Pair {
+    name: &'static str,
+    plain: World,
+    unused: World,
+    /// Whether the block of the second is to sleep.
+    sleeps: bool,
+}
+
+/// Measures, and prints a table as it goes.
+///
+/// # Errors
+/// If the device fails.
+pub fn measure(
+    quick: bool,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    machine: &Machine,
+) -> anyhow::Result<Vec<Row>> {
+    let (n, rounds) = match (machine.software, quick) {
+        (true, true) => (32, 5),
+        (true, false) => (48, 21),
+        (false, _) => (192, 21),
+    };
+    let turns = Turns::new(device, queue, machine, rounds, 0.1);
+    let mut rows = Vec::new();
+    let mut tell = |name: &str, of: &str, value: f64, unit| {
+        let mut row = Row::new(machine, name, of, value, unit);
+        row.part = "unused";
+        println!("{row}");
+        rows.push(row);
+    };
+    println!("\n{}", super::solids::HEAD);
+    let (mut worst, mut noise) = (0.0f64, None);
+    for pair in pairs(n)? {
+        let mut worlds = [pair.plain, pair.unused];
+        let times = turns.measure(&mut worlds)?;
+        let more = times.ratio(1, 0) - 1.0;
+        let kernels = match same_kernels(&worlds) {
+            true => "the same kernels",
+            false => "other kernels",
+        };
+        tell(pair.name, &format!("{n}³, {kernels}"), 100.0 * more, "%");
+        // The first is the scene beside itself.
+        let noise = *noise.get_or_insert(more.abs());
+        worst = worst.max(more - noise);
+        if pair.sleeps {
+            let said = "so it sleeps: 1, or not: 0";
+            tell(said, "", f64::from(u8::from(worlds[1].sleeps())), "");
+        }
+    }
+    let middle = [0.5 * f64::from(n) + 0.3; 3];
+    let mut worlds = [
+        World::spheres(n, ACROSS, &[middle], false)?,
+        World::asked(n, ACROSS, middle)?,
+    ];
+    let times = turns.measure(&mut worlds)?;
+    let more = 100.0 * (times.ratio(1, 0) - 1.0);
+    tell(
+        "loads of faces, where they are asked for",
+        &format!("{n}³"),
+        more,
+        "%",
+    );
+    let sizes: &[u32] = match (machine.software, quick) {
+        (true, true) => &[40, 48],
+        (true, false) => &[40, 56, 80],
+        (false, _) => &[96, 192, 384],
+    };
+    let places: Vec<[f64; 3]> = (0..27)
+        .map(|k| [k % 3, k / 3 % 3, k / 9].map(|i| 13.0 * f64::from(i) + 6.3))
+        .collect();
+    let mut costs = Vec::new();
+    for &n in sizes {
+        let mut worlds = [
+            World::spheres(n, SPECK, &places[..1], false)?,
+            World::spheres(n, SMALL, &places, true)?,
+        ];
+        let times = turns.measure(&mut worlds)?;
+        let more = times.median(1) - times.median(0);
+        let of = format!("{n}³, D {SMALL}, a step {:.2} ms", 1e3 * times.median(0));
+        tell("27 moving blocks, more", &of, 1e3 * more, "ms");
+        costs.push(more);
+    }
+    let growth = match (costs.first(), costs.last()) {
+        (Some(first), Some(last)) => last / first,
+        _ => f64::NAN,
+    };
+    // As much less is as wrong, and a cost below zero is none.
+    let apart = if growth > 0.0 {
+        growth.max(growth.recip())
+    } else {
+        f64::INFINITY
+    };
+    let cells = sizes.last().zip(sizes.first());
+    let cells = cells.map_or(1.0, |(last, first)| f64::from(last / first).powi(3));
+    let of = format!("{cells:.0} times the cells");
+    tell(
+        "their cost in the largest box over the smallest",
+        &of,
+        growth,
+        "",
+    );
+    show(
+        "unused",
+        &[
+            Target::at_most("what is unused costs ≤ 3 % beyond noise", worst, NOISE),
+            Target::at_most(
+                "moving blocks cost the same in any box, within 1.5",
+                apart,
+                1.5,
+            ),
+        ],
+    );
+    Ok(rows)
+}
+
+fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
+    let plain = || World::empty(n);
+    let with = |change: fn(&mut World)| -> riprap::Result<World> {
+        let mut world = World::empty(n)?;
+        change(&mut world);
+        Ok(world)
+    };
+    let pair = |name, unused| -> riprap::Result<Pair> {
+        Ok(Pair {
+            name,
+            plain: plain()?,
+            unused,
+            sleeps: false,
+        })
+    };
+    let middle = [0.5 * f64::from(n) + 0.3; 3];
+    let fixed = || World::spheres(n, ACROSS, &[middle], false);
+    Ok(vec![
+        pair("nothing: the scene itself again", plain()?)?,
+        pair(
+            "eddy viscosity said to be none",
+            with(|world| world.scene.numerics.eddy_viscosity = EddyViscosity::None)?,
+        )?,
+        pair(
+            "body force said to be zero",
+            with(|world| world.scene.fluid.acceleration = [0.0; 3].map(Formula::number))?,
+        )?,
+        pair(
+            "an operator of blocks, and no block",
+            with(|world| world.scene.numerics.solid_operator = SolidOperator::Noble)?,
+        )?,
+        Pair {
+            name: "a block that sleeps, beside a fixed one",
+            plain: fixed()?,
+            unused: World::asleep(n, ACROSS, middle)?,
+            sleeps: true,
+        },
+    ])
+}
+
+/// Whether both run the same kernels with the same slots and buffers.
+fn same_kernels(worlds: &[World; 2]) -> bool {
+    let kernels = |world: &World| {
+        let of = |simulation: &Simulation| {
+            let all = simulation.lattice().kernels(false);
+            all.map(|(kernel, groups)| {
+                let bindings: Vec<_> = kernel.bindings().iter().map(|b| b.name.clone()).collect();
+                (
+                    kernel.file().to_owned(),
+                    kernel.slots().to_vec(),
+                    bindings,
+                    groups,
+                )
+            })
+            .collect::<Vec<_>>()
+        };
+        world.simulation.as_ref().map(of)
+    };
+    kernels(&worlds[0]) == kernels(&worlds[1])
+}

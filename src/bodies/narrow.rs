@@ -3,6 +3,7 @@
 use super::{
     Body,
     body::Flight,
+    bonds::unbonded,
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     parts::Parts,
@@ -18,6 +19,10 @@ use crate::{
 };
 use glam::DVec3;
 use rayon::prelude::*;
+
+/// Share of the square of a block's width that one of the four corners of its face carries: see
+/// [`Setup::corner_area`](super::Setup::corner_area).
+const CORNER: f64 = 0.25;
 
 /// What the contacts are computed from.
 pub(super) struct Scene<'a> {
@@ -200,70 +205,32 @@ impl Scene<'_> {
         if touch.overlap <= limit {
             return Ok(touch);
         }
+        let usual = "take a greater normal_stiffness, press them together more slowly, or allow a \
+                     greater largest_overlap";
+        let corner = CORNER * (2.0 * TENTHS * touch.limit).powi(2);
         Err(Error::DeepOverlap {
             first: self.name(blocks[0]),
             second: self.name(blocks[1]),
             depth: touch.overlap,
             limit,
-            remedy: "take a greater normal_stiffness, press them together more slowly, or \
-                     allow a greater largest_overlap"
-                .into(),
+            remedy: match touch.area < corner {
+                true => format!(
+                    "they touch with a corner or an edge, over {:.1e} m², which is soft: set \
+                     rock.corner_area = {CORNER}, which counts it as {corner:.1e} m²; or {usual}",
+                    touch.area
+                ),
+                false => usual.into(),
+            },
         })
     }
 
-    fn joint(&self, blocks: [u32; 2]) -> &Joint {
+    pub(super) fn joint(&self, blocks: [u32; 2]) -> &Joint {
         let [a, b] = blocks.map(|block| self.flights[block as usize].material);
         self.joints.of(a, b)
     }
 
-    /// A bond where its parts are now; none where it breaks.
-    fn held(
-        &self,
-        (parts, blocks, way): ([u32; 2], [u32; 2], DVec3),
-        [first, second]: [&Placed; 2],
-        seam: &Seam,
-        before: Option<&Touch>,
-    ) -> Option<Touch> {
-        let now = seam.of(first, second);
-        let joint = self.joint(blocks);
-        let section = law::Section {
-            normal: now.normal,
-            overlap: now.overlap,
-            area: seam.area,
-            elastic_area: seam.area,
-            rolls: false,
-            gape: now.overlap - now.least(seam),
-        };
-        let fresh = History {
-            bonded: true,
-            ..History::default()
-        };
-        let history = before.map_or(fresh, |touch| touch.force.history);
-        let motion = self.motion(blocks, now.point, way);
-        let force = law::force(joint, &section, &motion, &history);
-        force.history.bonded.then(|| Touch {
-            parts,
-            blocks,
-            way,
-            point: now.point,
-            pressure_centre: now.point,
-            normal: now.normal,
-            overlap: now.overlap,
-            area: seam.area,
-            width: seam.width(),
-            limit: 0.1 * first.smallest_distance.min(second.smallest_distance),
-            force: law::Force {
-                bending: joint.normal_stiffness * now.moment(seam),
-                ..force
-            },
-            seam: *seam,
-            stored: before.map_or(0.0, |touch| touch.stored),
-            power: before.map_or(0.0, |touch| touch.power),
-        })
-    }
-
     /// How two blocks move about `at` (m), beside the first.
-    fn motion(&self, blocks: [u32; 2], at: DVec3, way: DVec3) -> law::Motion {
+    pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, way: DVec3) -> law::Motion {
         let [a, b] = blocks.map(|block| &self.flights[block as usize]);
         let [ra, rb] = [at - a.centre, at - way - b.centre];
         let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
@@ -341,15 +308,6 @@ impl Scene<'_> {
 
     fn name(&self, block: u32) -> String {
         label(block as usize, &self.bodies[block as usize].name)
-    }
-}
-
-/// What a contact remembers once it is no bond, or no more.
-fn unbonded(touch: &Touch) -> History {
-    History {
-        bonded: false,
-        slip: 0.0,
-        ..touch.force.history
     }
 }
 

@@ -21,6 +21,7 @@ use crate::{
     Error, Result,
     broadphase::Broadphase,
     contact::{Counts, Options},
+    integrate,
     law::{self, Joint},
 };
 use glam::DVec3;
@@ -276,6 +277,18 @@ impl Blocks {
     /// Gravity, m/s².
     pub fn gravity(&self) -> DVec3 {
         self.gravity
+    }
+
+    /// Force, N, and torque about its centroid, N m, of what acts on a block alone now: its point loads, and its mass
+    /// times its acceleration.
+    pub(crate) fn acting(&self, block: usize) -> [DVec3; 2] {
+        let body = &self.bodies[block];
+        let Some(acting) = body.acting() else {
+            return [DVec3::ZERO; 2];
+        };
+        let pose = pose(body, &self.states[block], &self.deforming.strains);
+        let pull = acting.pull(pose.deformation, body.mass, self.time);
+        [pull.force, integrate::axial(pull.moment)]
     }
 
     /// Energies since the start.

@@ -134,7 +134,7 @@ fn work(chunk: &mut Chunk, all: &All<'_>, dt: f64) {
         let velocity = all.velocity(second, touch.pressure_centre - touch.way)
             - all.velocity(first, touch.pressure_centre);
         let spin = all.states[second].spin - all.states[first].spin;
-        let spring = -force.spring.dot(velocity);
+        let spring = -force.spring.dot(velocity) - force.bending.dot(spin);
         let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
         chunk.dashpots.push(dashpots);
         touch.stored += 0.5 * dt * (touch.power + spring) - force.friction;

@@ -269,7 +269,7 @@ impl DeformingBlocks {
                 }
                 let arm = at - states[block as usize].centre;
                 // A torque is the skew part of a moment.
-                let moment = outer(touch.force.total(), arm) + couple(touch.force.moment);
+                let moment = outer(touch.force.total(), arm) + couple(touch.force.couple());
                 self.strains[k as usize].moment += moment * sign;
             }
         }

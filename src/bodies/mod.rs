@@ -7,6 +7,7 @@
 mod acting;
 mod blocks;
 mod body;
+mod bonds;
 mod books;
 mod bound;
 mod bytes;

@@ -3,6 +3,7 @@
 use super::{
     Body,
     body::Flight,
+    bonds::unbonded,
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     parts::Parts,
@@ -13,11 +14,15 @@ use super::{
 };
 use crate::{
     Error, Result,
-    contact::{Contact, Placed, Resolver, Squeeze, Verdict},
+    contact::{Contact, Placed, Resolver, Seam, Squeeze, Verdict},
     law::{self, History, Joint},
 };
 use glam::DVec3;
 use rayon::prelude::*;
+
+/// Share of the square of a block's width that one of the four corners of its face carries: see
+/// [`Setup::corner_area`](super::Setup::corner_area).
+const CORNER: f64 = 0.25;
 
 /// What the contacts are computed from.
 pub(super) struct Scene<'a> {
@@ -30,7 +35,7 @@ pub(super) struct Scene<'a> {
     pub touches: &'a Touches,
     /// s; 0 at the start.
     pub time_step: f64,
-    /// Whether contacts that begin now are bonded.
+    /// Whether faces that touch now are bonded.
     pub bonding: bool,
     /// Largest overlap, as a share of the smaller distance from centroid to face.
     pub largest_overlap: f64,
@@ -142,6 +147,23 @@ impl Scene<'_> {
                 image
             }
         };
+        let bonded = before.filter(|touch| touch.seam.area > 0.0);
+        if let Some(touch) = bonded {
+            let place = (pair.parts, blocks, way);
+            if let Some(held) = self.held(place, [first, second], &touch.seam, before) {
+                return self.hard(held, blocks).map(Some);
+            }
+        }
+        let joint = self.joint(blocks);
+        if self.bonding
+            && joint.tensile_strength > 0.0
+            && let Some(seam) = Seam::between(first, second)
+        {
+            let place = (pair.parts, blocks, way);
+            if let Some(held) = self.held(place, [first, second], &seam, None) {
+                return Ok(Some(held));
+            }
+        }
         let verdict = resolver
             .resolve(first, second, &mut pair.cache)
             .map_err(|error| {
@@ -161,31 +183,70 @@ impl Scene<'_> {
         Ok(match verdict {
             Verdict::Apart => None,
             Verdict::Touching => before.map(|touch| Touch {
+                seam: Seam::default(),
                 overlap: 0.0,
                 area: 0.0,
                 force: law::Force {
-                    history: touch.force.history,
+                    history: unbonded(touch),
                     ..law::Force::default()
                 },
                 ..*touch
             }),
-            Verdict::Contact(contact)
-                if contact.overlap > TENTHS * self.largest_overlap * contact.limit =>
-            {
-                return Err(Error::DeepOverlap {
-                    first: self.name(blocks[0]),
-                    second: self.name(blocks[1]),
-                    depth: contact.overlap,
-                    limit: TENTHS * self.largest_overlap * contact.limit,
-                    remedy: "take a greater normal_stiffness, press them together more slowly, or \
-                             allow a greater largest_overlap"
-                        .into(),
-                });
-            }
             Verdict::Contact(contact) => {
-                Some(self.touch((pair.parts, blocks, way), &contact, before))
+                let touch = self.touch((pair.parts, blocks, way), &contact, before);
+                Some(self.hard(touch, blocks)?)
             }
         })
+    }
+
+    /// Refuses what is pressed in too deep.
+    fn hard(&self, touch: Touch, blocks: [u32; 2]) -> Result<Touch> {
+        let limit = TENTHS * self.largest_overlap * touch.limit;
+        if touch.overlap <= limit {
+            return Ok(touch);
+        }
+        let usual = "take a greater normal_stiffness, press them together more slowly, or allow a \
+                     greater largest_overlap";
+        let corner = CORNER * (2.0 * TENTHS * touch.limit).powi(2);
+        Err(Error::DeepOverlap {
+            first: self.name(blocks[0]),
+            second: self.name(blocks[1]),
+            depth: touch.overlap,
+            limit,
+            remedy: match touch.area < corner {
+                true => format!(
+                    "they touch with a corner or an edge, over {:.1e} m², which is soft: set \
+                     rock.corner_area = {CORNER}, which counts it as {corner:.1e} m²; or {usual}",
+                    touch.area
+                ),
+                false => usual.into(),
+            },
+        })
+    }
+
+    pub(super) fn joint(&self, blocks: [u32; 2]) -> &Joint {
+        let [a, b] = blocks.map(|block| self.flights[block as usize].material);
+        self.joints.of(a, b)
+    }
+
+    /// How two blocks move about `at` (m), beside the first.
+    pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, way: DVec3) -> law::Motion {
+        let [a, b] = blocks.map(|block| &self.flights[block as usize]);
+        let [ra, rb] = [at - a.centre, at - way - b.centre];
+        let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
+        let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
+        if !self.deforming.is_empty() {
+            let [more, end_more] = self.stretch(blocks, [ra, rb]);
+            (mean, end) = (mean + more, end + end_more);
+        }
+        law::Motion {
+            way: mean * self.time_step,
+            velocity: end,
+            spin: b.spin - a.spin,
+            frame: a.rotation,
+            time_step: self.time_step,
+            mass: 1.0 / (a.inverse_mass + b.inverse_mass),
+        }
     }
 
     fn touch(
@@ -194,24 +255,9 @@ impl Scene<'_> {
         contact: &Contact,
         before: Option<&Touch>,
     ) -> Touch {
-        let [a, b] = blocks.map(|block| &self.flights[block as usize]);
-        let joint = self.joints.of(a.material, b.material);
+        let joint = self.joint(blocks);
         let at = contact.pressure_centre;
-        let [ra, rb] = [at - a.centre, at - way - b.centre];
-        let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
-        let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
-        if !self.deforming.is_empty() {
-            let [more, end_more] = self.stretch(blocks, [ra, rb]);
-            (mean, end) = (mean + more, end + end_more);
-        }
-        let motion = law::Motion {
-            way: mean * self.time_step,
-            velocity: end,
-            spin: b.spin - a.spin,
-            frame: a.rotation,
-            time_step: self.time_step,
-            mass: 1.0 / (a.inverse_mass + b.inverse_mass),
-        };
+        let motion = self.motion(blocks, at, way);
         let square = (2.0 * TENTHS * contact.limit).powi(2);
         let section = law::Section {
             normal: contact.normal,
@@ -221,12 +267,10 @@ impl Scene<'_> {
             rolls: parts
                 .iter()
                 .any(|&part| self.parts.placed[part as usize].is_sphere()),
+            gape: 0.0,
         };
-        let fresh = History {
-            bonded: self.bonding,
-            ..History::default()
-        };
-        let history = before.map_or(fresh, |touch| touch.force.history);
+        // What was bonded is so no more.
+        let history = before.map_or_else(History::default, unbonded);
         Touch {
             parts,
             blocks,
@@ -239,6 +283,7 @@ impl Scene<'_> {
             width: contact.width,
             limit: contact.limit,
             force: law::force(joint, &section, &motion, &history),
+            seam: Seam::default(),
             stored: before.map_or(0.0, |touch| touch.stored),
             power: before.map_or(0.0, |touch| touch.power),
         }

@@ -13,12 +13,12 @@ use super::{
 };
 use crate::{
     Error, Result,
-    contact::Cache,
+    contact::{Cache, Seam},
     law::{Force, History},
 };
 
 /// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 3\n";
+const MAGIC: &[u8; 16] = b"riprap blocks 4\n";
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
@@ -217,6 +217,7 @@ fields!(Touch {
     width,
     limit,
     force,
+    seam,
     stored,
     power,
 });
@@ -224,13 +225,24 @@ fields!(Force {
     spring,
     dashpot,
     moment,
+    bending,
     friction,
     history
 });
 fields!(History {
     shear,
     normal,
-    bonded
+    bonded,
+    slip
+});
+fields!(Seam {
+    area,
+    overlap,
+    arms,
+    normals,
+    axis,
+    extents,
+    seconds
 });
 fields!(Books {
     friction,

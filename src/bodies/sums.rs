@@ -28,7 +28,7 @@ pub(super) fn of_touches(
     for touch in touches.iter() {
         let [a, b] = touch.blocks.map(|block| block as usize);
         let joint = joints.of(flights[a].material, flights[b].material);
-        let (force, moment) = (touch.force.total(), touch.force.moment);
+        let (force, moment) = (touch.force.total(), touch.force.couple());
         let at = touch.pressure_centre;
         for (block, at, force, moment) in
             [(a, at, -force, -moment), (b, at - touch.way, force, moment)]

@@ -1,6 +1,9 @@
 //! A pair of parts that may touch, and its contact while it does.
 
-use crate::{contact::Cache, law::Force};
+use crate::{
+    contact::{Cache, Seam},
+    law::Force,
+};
 use glam::DVec3;
 
 /// No contact.
@@ -57,6 +60,8 @@ pub(super) struct Touch {
     pub limit: f64,
     /// On the second block.
     pub force: Force,
+    /// Where its faces are bonded.
+    pub seam: Seam,
     /// Work done on the springs less that taken by friction, J.
     pub stored: f64,
     /// Rate of work on the springs at the end of the last step, W.

@@ -110,8 +110,46 @@ fn ball_over_face(block: &Placed, ball: &Placed) -> Option<Squeeze> {
     })
 }
 
-/// The faces of two polyhedra that look at each other.
-fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
+/// Two faces that look at each other, and the polygon of the first that lies over the second.
+pub(super) struct Meeting {
+    /// Whether the first of the two faces is that of the second part.
+    pub flipped: bool,
+    /// Normals of the two faces.
+    pub out: DVec3,
+    opposite: DVec3,
+    /// Axes in the plane of the first face.
+    pub x: DVec3,
+    pub y: DVec3,
+    /// Where the polygon counts from, m.
+    origin: DVec3,
+    pub polygon: Polygon,
+    /// Way along `out` to the other face, `gap` + `slope` · X, m.
+    pub gap: f64,
+    pub slope: DVec2,
+    /// 1 where the faces are parallel to 5°, 0 from 10° on.
+    pub flatness: f64,
+}
+
+impl Meeting {
+    /// Unit normal from the first part to the second.
+    pub fn normal(&self) -> DVec3 {
+        let normal = (self.out - self.opposite).normalize();
+        if self.flipped { -normal } else { normal }
+    }
+
+    /// A place in the plane of the first face, m.
+    pub fn lift(&self, at: DVec2) -> DVec3 {
+        self.origin + self.x * at.x + self.y * at.y
+    }
+
+    /// A vector along the plane.
+    pub fn flat(&self, v: DVec3) -> DVec2 {
+        DVec2::new(self.x.dot(v), self.y.dot(v))
+    }
+}
+
+/// The faces of two polyhedra that look at each other over less than `range` (m).
+pub(super) fn meeting(first: &Placed, second: &Placed, range: f64) -> Option<Meeting> {
     // The face from which the other part is farthest parts the two; none is farther than they are apart.
     let of_first = beyond(first, second, range)?;
     let of_second = beyond(second, first, range)?;
@@ -155,10 +193,25 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
         );
     }
     polygon.clip(t1, range - t0);
-    let seconds = polygon.second_moments()?;
-    let gap = (t0 + t1.dot(seconds.centre)).max(0.0);
-    let normal = (out - opposite.normal).normalize();
-    let middle = origin + x * seconds.centre.x + y * seconds.centre.y + out * (0.5 * gap);
+    Some(Meeting {
+        flipped,
+        out,
+        opposite: opposite.normal,
+        x,
+        y,
+        origin: own.centre + origin,
+        polygon,
+        gap: t0,
+        slope: t1,
+        flatness,
+    })
+}
+
+/// The gap between the faces of two polyhedra that look at each other.
+fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
+    let meeting = meeting(first, second, range)?;
+    let seconds = meeting.polygon.second_moments()?;
+    let gap = (meeting.gap + meeting.slope.dot(seconds.centre)).max(0.0);
     let area = seconds.area;
     let [large, least] = seconds.principal;
     // The ellipse of the same area and ratio of axes; the sides of a strip of rounding make none.
@@ -171,17 +224,17 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
     let tilt = |long: f64, short: f64| {
         PI * long.powi(2) * (long * short).sqrt() * short / (6.0 * short + 2.0 * long)
     };
-    let along = x * seconds.axis.x + y * seconds.axis.y;
+    let along = meeting.x * seconds.axis.x + meeting.y * seconds.axis.y;
     Some(Squeeze {
-        normal: if flipped { -normal } else { normal },
-        point: own.centre + middle,
+        normal: meeting.normal(),
+        point: meeting.lift(seconds.centre) + meeting.out * (0.5 * gap),
         gap,
         shape: Facing::Flat {
             // St. Venant's A⁴/(4π² I_p), exact for ellipses, 8 % too much for a square, 9 % too little for a strip.
             torsion: area.powi(4) / (4.0 * PI * PI * (large + least)),
-            axes: [out.cross(along), along],
+            axes: [meeting.out.cross(along), along],
             tilts: [tilt(a2, b2), tilt(b2, a2)],
-            flatness,
+            flatness: meeting.flatness,
         },
     })
 }

@@ -9,6 +9,10 @@
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
 //! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere does not rock on
 //! its contact, it rolls: over a contact that goes with it the springs lose nothing, and no dashpot turns it.
+//!
+//! A bond is a contact whose springs pull too: it keeps the area that it began with, and bends over it as an elastic
+//! bed. It breaks, for good, where its tension reaches σ_t at a corner, or where it has slipped by σ_t/k_s: as far as
+//! it opens before it breaks. What is left is the contact without tension.
 
 use super::Joint;
 use glam::{DQuat, DVec3};
@@ -22,6 +26,8 @@ pub struct History {
     pub normal: DVec3,
     /// Whether the tensile strength still holds.
     pub bonded: bool,
+    /// How far a bond has slipped, m.
+    pub slip: f64,
 }
 
 /// Where two blocks overlap.
@@ -29,7 +35,7 @@ pub struct History {
 pub struct Section {
     /// Unit normal from the first to the second block.
     pub normal: DVec3,
-    /// u_n, m.
+    /// u_n, m; less than 0 where a bond is open.
     pub overlap: f64,
     /// A, m².
     pub area: f64,
@@ -37,6 +43,8 @@ pub struct Section {
     pub elastic_area: f64,
     /// Whether one of the two is a sphere there, which rolls.
     pub rolls: bool,
+    /// By how much a bond is open more where it is open the widest than in the middle, m: 0 where it does not bend.
+    pub gape: f64,
 }
 
 /// How two blocks move about their contact, of the second relative to the first.
@@ -65,6 +73,8 @@ pub struct Force {
     pub dashpot: DVec3,
     /// Moment of the dashpots about the pressure centre, N m.
     pub moment: DVec3,
+    /// Moment of the springs of a bond about the middle of its area, N m.
+    pub bending: DVec3,
     /// Work that friction has taken in this step, J.
     pub friction: f64,
     /// What the next step needs to know.
@@ -76,6 +86,11 @@ impl Force {
     pub fn total(&self) -> DVec3 {
         self.spring + self.dashpot
     }
+
+    /// Moment of springs and dashpots, N m.
+    pub fn couple(&self) -> DVec3 {
+        self.moment + self.bending
+    }
 }
 
 /// The force of a contact after a step.
@@ -86,6 +101,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         area,
         elastic_area,
         rolls,
+        gape,
     } = *section;
     let normal_stiffness = joint.normal_stiffness * elastic_area;
     let shear_stiffness = joint.shear_stiffness * elastic_area;
@@ -95,8 +111,9 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let opening = motion.velocity.dot(normal);
     let mut bonded = history.bonded;
     let pulled = pressing - dashpot(joint.damping, motion.mass, normal_stiffness) * opening;
+    // A bond breaks where its tension is the largest: bent, before the mean is σ_t.
     let least = if bonded {
-        -joint.tensile_strength * area
+        normal_stiffness * gape - joint.tensile_strength * area
     } else {
         0.0
     };
@@ -108,9 +125,11 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let sideways = motion.way - normal * motion.way.dot(normal);
     let tried = turned(history, normal, motion) - shear_stiffness * sideways;
     let shear = capped(tried, strength);
-    bonded &= shear == tried;
     // Slip is the way that the spring did not take; the force is the mean over it.
-    let friction = (tried - shear).dot(shear) / shear_stiffness;
+    let slip = (tried - shear) / shear_stiffness;
+    let friction = slip.dot(shear);
+    let slip = history.slip + slip.length();
+    bonded &= slip * joint.shear_stiffness <= joint.tensile_strength;
 
     let sliding = motion.velocity - normal * opening;
     let viscous = dashpot(joint.damping, motion.mass, shear_stiffness) * sliding;
@@ -128,18 +147,25 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     // No pressure pulls: the resultant stays in the face, half a side from its middle. Friction over a
     // square has the mean arm 0.3826 a.
     let most = 0.3826 * side * strength;
-    let moment = -capped(rock, 0.5 * side * pressed.max(0.0)) - normal * turn.clamp(-most, most);
+    let grip = if bonded {
+        pressed - least
+    } else {
+        pressed.max(0.0)
+    };
+    let moment = -capped(rock, 0.5 * side * grip) - normal * turn.clamp(-most, most);
 
     let inward = motion.frame.conjugate();
     Force {
         spring: normal * pressing + shear,
         dashpot: normal * (pressed - pressing) + (damped - shear),
         moment,
+        bending: DVec3::ZERO,
         friction,
         history: History {
             shear: inward * shear,
             normal: inward * normal,
             bonded,
+            slip: if bonded { slip } else { 0.0 },
         },
     }
 }

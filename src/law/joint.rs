@@ -13,7 +13,7 @@ pub struct Joint {
     pub friction_angle: f64,
     /// c, Pa.
     pub cohesion: f64,
-    /// σ_t, Pa, of the contacts that exist at the start, until they break.
+    /// σ_t, Pa, of the faces that touch at the start, until their bond breaks.
     pub tensile_strength: f64,
     /// ζ, of the critical damping of the two blocks on the contact's springs.
     pub damping: f64,

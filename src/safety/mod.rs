@@ -1,10 +1,10 @@
 //! Factors of safety of a block that stands: limit equilibrium of what it carries against what its contacts hold.
 //!
-//! A factor is what resists over what drives, from the weight W of the block, the force F of the fluid on it with its
-//! buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
+//! A factor is what resists over what drives, from the weight W of the block, the force F of its point loads, of its
+//! acceleration, and of the fluid on it with its buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
 //! [`crate::coupling::Coupled::with_closed_joints`]), and the contacts that it has: it stands while all are
 //! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
-//! Where nothing drives, a factor is infinite; where there is no contact, none is known: NaN. Contacts
+//! Where nothing drives, up to a share of 1e-9, which is rounding, a factor is infinite; where there is no contact, none is known: NaN. Contacts
 //! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a
 //! block in motion the factors say what it would need to stand.
 //!
@@ -16,7 +16,7 @@
 //! | sliding on one plane | (c A + N′ tan φ)/T, N′ = −R·n, T = \|R + N′ n\| | Wyllie & Mah 2004, chapter 6 |
 //! | sliding on two planes | Σ (c A + N′ tan φ)/T along their line of intersection s, T = R·s, the N′ from R = T s − Σ N′ n | Wyllie & Mah 2004, chapter 7; Goodman & Shi 1985, chapter 9 |
 //! | uplift | W/(F·e), e against gravity | limit equilibrium of a body that floats |
-//! | toppling | resisting over driving moments of N′, T and the fluid's torque about an edge of the base | Wyllie & Mah 2004, chapter 9; Goodman & Bray 1976 |
+//! | toppling | resisting over driving moments of N′, T and the torque of fluid and loads about an edge of the base | Wyllie & Mah 2004, chapter 9; Goodman & Bray 1976 |
 //!
 //! Which planes a block slides on follows from the direction of R alone: it may move into no neighbour that it touches (Goodman &
 //! Shi 1985, chapter 9).
@@ -33,9 +33,12 @@ pub use standing::Standing;
 pub use toppling::{Base, toppling};
 pub use uplift::uplift;
 
-/// What resists over what drives; infinite where nothing drives.
-fn factor(resisting: f64, driving: f64) -> f64 {
-    if driving > 0.0 {
+/// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.
+const ROUNDING: f64 = 1e-9;
+
+/// What resists over what drives; infinite where nothing drives but rounding of the `whole`.
+fn factor(resisting: f64, driving: f64, whole: f64) -> f64 {
+    if driving > ROUNDING * whole {
         resisting / driving
     } else {
         f64::INFINITY

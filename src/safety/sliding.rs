@@ -1,11 +1,7 @@
 //! Safety against sliding on one plane or on two.
 
-use super::factor;
+use super::{ROUNDING, factor};
 use glam::DVec3;
-
-/// Sine of the angle by which a way may lead into a plane, and share of a force that counts as none: the rounding of
-/// normals and sums.
-const ROUNDING: f64 = 1e-9;
 
 /// A plane on which a block stands, or that holds it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,7 +55,7 @@ impl Sliding {
     }
 }
 
-/// Safety against sliding under the resultant `force` (N) of weight and fluid, contacts left out: the least factor of
+/// Safety against sliding under the resultant `force` (N) of weight, loads and fluid, contacts left out: the least factor of
 /// those of the ways that are open.
 pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     if planes.is_empty() {
@@ -97,7 +93,7 @@ fn on_one(force: DVec3, planes: &[Plane], i: usize) -> Option<Sliding> {
     }
     let direction = rest / driving;
     is_open(direction, planes, &[i]).then(|| Sliding {
-        factor: factor(strength(plane, normal), driving),
+        factor: factor(strength(plane, normal), driving, force.length()),
         mode: Mode::OnOne(i),
         direction,
         driving,
@@ -120,7 +116,11 @@ fn on_two(force: DVec3, planes: &[Plane], i: usize, j: usize) -> Option<Sliding>
     let normals = [(p - cosine * q) / square, (q - cosine * p) / square];
     let pressed = normals.iter().all(|n| *n >= -ROUNDING * force.length());
     (pressed && is_open(direction, planes, &[i, j])).then(|| Sliding {
-        factor: factor(strength(a, normals[0]) + strength(b, normals[1]), driving),
+        factor: factor(
+            strength(a, normals[0]) + strength(b, normals[1]),
+            driving,
+            force.length(),
+        ),
         mode: Mode::OnTwo(i, j),
         direction,
         driving,

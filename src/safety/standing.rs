@@ -30,12 +30,14 @@ struct Support {
 
 impl Standing {
     /// Of the block `block` of `blocks`, which were made of `setup`, under the `force` (N) and `torque` about its
-    /// centroid (N m) of a fluid with its buoyancy; zero where there is none.
+    /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize, [force, torque]: [DVec3; 2]) -> Self {
         let pose = blocks.poses()[block];
         let weight = blocks.mass(block) * blocks.gravity();
         let supports = supports(setup, blocks, block);
         let planes: Vec<Plane> = supports.iter().map(|support| support.plane).collect();
+        let [push, turn] = blocks.acting(block);
+        let (force, torque) = (force + push, torque + turn);
         let resultant = weight + force;
         let pressed = |support: &&Support| -resultant.dot(support.plane.normal);
         let most = supports

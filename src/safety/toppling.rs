@@ -12,8 +12,8 @@ pub struct Base {
     pub corners: Vec<DVec3>,
 }
 
-/// Safety against toppling over an edge of the base: of the resultant `force` (N) of weight and fluid at the
-/// `centroid` (m), its part along the normal and the one across it, and the `torque` of the fluid about the centroid
+/// Safety against toppling over an edge of the base: of the resultant `force` (N) of weight, loads and fluid at the
+/// `centroid` (m), its part along the normal and the one across it, and the `torque` of fluid and loads about the centroid
 /// (N m), the sum of the moments about the edge that hold the block down over that of those that turn it over; the
 /// least of those of all edges that are `open`, which says whether a block may turn about an axis (unit vector)
 /// through a point (m). Infinite where nothing turns it, 0 on a point, NaN on nothing.
@@ -47,7 +47,8 @@ pub fn toppling(
             torque.dot(axis),
         ];
         let sum = |sign: f64| moments.iter().map(|m| (sign * m).max(0.0)).sum::<f64>();
-        least = least.min(factor(sum(-1.0), sum(1.0)));
+        let whole = force.length() * arm.length() + torque.length();
+        least = least.min(factor(sum(-1.0), sum(1.0), whole));
     }
     least
 }
@@ -140,6 +141,9 @@ mod tests {
         // W b/2 over P h/2.
         let pushed = factor(DVec3::new(0.25, 0.0, -1.0), DVec3::ZERO, &on);
         assert!((pushed - 1.0 / 0.375).abs() < 1e-14);
+        // Rounding turns nothing.
+        let still = factor(-DVec3::Z, 1e-17 * DVec3::Y, &on);
+        assert_eq!(still, f64::INFINITY);
         // About the other edge this torque holds.
         let turned = factor(-DVec3::Z, 0.5 * DVec3::Y, &on);
         assert!((turned - 2.0).abs() < 1e-14);

@@ -3,11 +3,11 @@
 use super::factor;
 use glam::DVec3;
 
-/// The weight (N, a vector) over the force of the fluid against it, buoyancy included (N): infinite where the fluid
-/// does not lift, NaN without weight.
-pub fn uplift(weight: DVec3, fluid: DVec3) -> f64 {
+/// The weight (N, a vector) over the force of fluid and loads against it, buoyancy included (N): infinite where they
+/// do not lift, NaN without weight.
+pub fn uplift(weight: DVec3, lifting: DVec3) -> f64 {
     match weight.try_normalize() {
-        Some(down) => factor(weight.length(), -fluid.dot(down)),
+        Some(down) => factor(weight.length(), -lifting.dot(down), weight.length()),
         None => f64::NAN,
     }
 }

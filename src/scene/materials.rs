@@ -23,7 +23,12 @@ pub struct Material {
     /// Cohesion c, Pa, of every contact. Default 0.
     #[serde(default)]
     pub cohesion: f64,
-    /// Tensile strength σ_t, Pa, of the contacts that exist at the start, until they open. Default 0.
+    /// Tensile strength σ_t, Pa, of faces that touch at the start, parallel to 5° and with no gap between them (nor an
+    /// overlap beyond 1 % of the block). Such a bond pulls over the area that it begins with, bends as an elastic bed,
+    /// and breaks for good where its tension reaches σ_t at an edge, or where it has slipped by σ_t/k_s; cohesion and
+    /// friction stay. Under tension its shear strength is the cohesion alone. A weight that comes on at once, as that of
+    /// a block that hangs from the start, swings to as much as twice itself: damping takes from that. Edges, corners and
+    /// spheres have no bonds. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at

@@ -25,6 +25,7 @@ mod rock;
 mod rock_masses;
 mod run;
 mod sample;
+mod slips;
 mod solids;
 mod tagged;
 mod views;

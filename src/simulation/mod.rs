@@ -68,6 +68,7 @@ impl Simulation {
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         let units = Units::of(scene)?;
         let mut advice = scene.advise(&units)?;
+        advice.extend(scene.slips(units.time_step));
         let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
         let mut start = start(scene, &units)?;

@@ -1,6 +1,6 @@
 //! A cube that falls on its corner.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::rig::{blocks, cuboid, joint, run, setup, try_run};
 use glam::{DQuat, DVec3};
 use riprap::bodies::{Block, Setup};
 
@@ -11,8 +11,8 @@ const MASS: f64 = 2500.0;
 /// At which it strikes, m/s.
 const SPEED: f64 = 0.5;
 
-/// Largest overlap, and the speed with which it leaves, of a cube without damping.
-fn struck(corner_area: f64) -> (f64, f64) {
+/// A cube above a floor, a corner down, without damping.
+fn falling(corner_area: f64) -> Setup {
     let half_diagonal = 0.75f64.sqrt();
     let turn = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
     let floor = Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed();
@@ -21,11 +21,18 @@ fn struck(corner_area: f64) -> (f64, f64) {
     cube.velocity = DVec3::Z * -SPEED;
     let mut law = joint(STIFFNESS, 30.0);
     law.damping = 0.0;
-    let mut blocks = blocks(Setup {
+    Setup {
         corner_area,
         gravity: DVec3::ZERO,
-        largest_overlap: 0.5,
         ..setup(vec![floor, cube], law)
+    }
+}
+
+/// Largest overlap of the cube, and the speed with which it leaves.
+fn struck(corner_area: f64) -> (f64, f64) {
+    let mut blocks = blocks(Setup {
+        largest_overlap: 0.5,
+        ..falling(corner_area)
     });
     let mut deepest = 0.0f64;
     for step in 1..=400 {
@@ -58,4 +65,14 @@ fn sinks_until_the_spring_holds_its_energy_and_gets_it_back() {
             "{corner_area}: {speed} m/s"
         );
     }
+}
+
+/// By the energies above its corner alone sinks 5.4 cm, beyond the tenth of half an edge, and with a quarter 5 mm.
+#[test]
+fn a_corner_that_sinks_too_deep_is_told_of_its_area() {
+    let error = try_run(&mut blocks(falling(0.0)), 0.4).expect_err("it sinks too deep");
+    let text = error.to_string();
+    assert!(text.contains("rock.corner_area = 0.25"), "{text}");
+    assert!(text.contains("2.5e-1 m²"), "{text}");
+    try_run(&mut blocks(falling(0.25)), 0.4).expect("it is stiff enough");
 }

@@ -20,6 +20,7 @@ const SECTION: Section = Section {
     area: 2.0,
     elastic_area: 2.0,
     rolls: false,
+    gape: 0.0,
 };
 
 const REST: Motion = Motion {

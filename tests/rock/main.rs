@@ -1,6 +1,7 @@
 //! Dry blocks against exact solutions.
 
 mod affine;
+mod bond;
 mod continuity;
 mod corner;
 mod deformable;

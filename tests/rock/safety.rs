@@ -2,13 +2,13 @@
 
 use crate::{
     incline::on_incline,
-    rig::{blocks, settled},
+    rig::{blocks, cuboid, joint, run, settled, setup},
     toppling::column,
     wedge,
 };
 use glam::DVec3;
 use riprap::{
-    bodies::Setup,
+    bodies::{Block, PointLoad, Setup},
     safety::{Mode, Standing},
 };
 
@@ -79,4 +79,48 @@ fn a_wedge_on_two_planes() {
     let found = standing(setup, block, DVec3::ZERO).sliding;
     assert!(matches!(found.mode, Mode::OnTwo(..)), "{found:?}");
     assert!((found.factor / 1.10662 - 1.0).abs() < 1e-3, "{found:?}");
+}
+
+/// A block b wide and h high of weight W on the level: a force P at the height z gives W tan φ/P and W b/(2 P z), an
+/// acceleration a gives g tan φ/a and g b/(a h). Without them nothing drives, whatever the contacts' rounding.
+#[test]
+fn point_loads_and_accelerations_drive() {
+    let standing = |change: &dyn Fn(&mut Block)| {
+        let floor = Block::new("floor", cuboid(4.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
+        let mut block = Block::new("block", cuboid(0.2, 0.3, 0.5), DVec3::Z * 0.25);
+        change(&mut block);
+        let setup = Setup {
+            damping: 50.0,
+            ..setup(vec![floor, block], joint(1e9, 45.0))
+        };
+        let mut blocks = blocks(setup.clone());
+        run(&mut blocks, 0.5);
+        let found = Standing::of(&setup, &blocks, 1, [DVec3::ZERO; 2]);
+        [found.sliding.factor, found.toppling, found.uplift]
+    };
+    let formulas = |texts: [&str; 3]| texts.map(|text| text.parse().expect("a formula"));
+    let weight = 0.03 * 2500.0 * 9.81;
+    let pushed = standing(&|block| {
+        block.point_loads = vec![PointLoad {
+            point: DVec3::new(0.1, 0.0, 0.2),
+            force: formulas(["100*min(1,t/0.3)", "0", "0"]),
+        }];
+    });
+    let accelerated = standing(&|block| {
+        block.acceleration = Some(formulas(["2*min(1,t/0.3)", "0", "0"]));
+    });
+    let lifted = standing(&|block| {
+        block.acceleration = Some(formulas(["0", "0", "4.905"]));
+    });
+    for (found, exact) in [
+        (pushed[0], weight / 100.0),
+        (pushed[1], weight * 0.1 / (100.0 * 0.45)),
+        (accelerated[0], 9.81 / 2.0),
+        (accelerated[1], 9.81 * 0.2 / (2.0 * 0.5)),
+        (lifted[2], 2.0),
+    ] {
+        assert!((found / exact - 1.0).abs() < 1e-3, "{found}, exact {exact}");
+    }
+    assert_eq!([pushed[2], accelerated[2]], [f64::INFINITY; 2]);
+    assert_eq!(standing(&|_| {}), [f64::INFINITY; 3]);
 }

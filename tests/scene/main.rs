@@ -10,6 +10,7 @@ mod particles;
 mod refusals;
 mod sampling;
 mod shipped;
+mod slips;
 mod solids;
 mod units;
 mod views;

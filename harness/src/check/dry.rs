@@ -35,6 +35,8 @@ pub struct RockReport {
     pub steps: u64,
     /// Simulated time of the run, s.
     pub duration: f64,
+    /// What may disappoint.
+    pub warnings: Vec<String>,
     /// One step, s.
     pub step_seconds: f64,
     /// The run without its output, s.
@@ -63,6 +65,11 @@ pub fn report(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<RockR
         given: scene.rock.time_step.is_some(),
         steps,
         duration: scene.run.length(time_step),
+        warnings: scene
+            .slips(time_step)
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
         step_seconds: step,
         run_seconds: step * steps as f64,
         trial_steps: trial,
@@ -115,6 +122,9 @@ impl RockReport {
                 self.trial_steps
             ),
         );
+        for warning in &self.warnings {
+            line("warning", warning.clone());
+        }
         text
     }
 }

@@ -87,6 +87,7 @@ fn forces(core: &Core, pile: &Pile, rounds: usize) -> Result<f64> {
             area: contact.area,
             elastic_area: contact.area,
             rolls: false,
+            gape: 0.0,
         };
         let motion = Motion {
             way: 1e-8 * DVec3::ONE,

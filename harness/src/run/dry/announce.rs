@@ -31,4 +31,7 @@ pub fn announce(engine: &Dry, folder: &Path, last: u64) {
         last as f64 * engine.time_step(),
         folder.display()
     );
+    for warning in engine.warnings() {
+        eprintln!("warning: {warning}");
+    }
 }

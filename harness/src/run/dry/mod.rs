@@ -40,6 +40,12 @@ impl Dry {
             adapter: adapter.map(Into::into),
         })
     }
+
+    /// What may disappoint in it.
+    fn warnings(&self) -> Vec<String> {
+        let slips = self.simulation.scene().slips(self.simulation.time_step());
+        slips.iter().map(ToString::to_string).collect()
+    }
 }
 
 impl Engine for Dry {
@@ -119,6 +125,7 @@ impl Engine for Dry {
             adapter: simulation.finder().describe(),
             time_step: simulation.time_step(),
             first_step: simulation.step(),
+            warnings: self.warnings(),
             rocks: Rocks::of(self),
             ..Summary::default()
         })

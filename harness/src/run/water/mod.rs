@@ -92,7 +92,9 @@ impl Pond {
             &water.positions,
         );
         let advice = gpu::drive(&pond.device, PATIENCE, "looking for gaps", advice)??;
-        pond.warnings = advice.iter().map(ToString::to_string).collect();
+        let slips = scene.slips(pond.time_step());
+        let all = advice.iter().chain(&slips);
+        pond.warnings = all.map(ToString::to_string).collect();
         Ok(pond)
     }
 

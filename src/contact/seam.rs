@@ -1,0 +1,136 @@
+//! Two faces that touch: where they do, as each of the two parts carries it along.
+
+use super::{Placed, squeeze::meeting};
+use glam::{DMat3, DVec2, DVec3};
+
+/// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
+const CLOSED: f64 = 1e-9;
+
+/// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
+/// the axes of its block's frame, before it deforms.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seam {
+    /// m².
+    pub area: f64,
+    /// Mean overlap, m; 0 where the faces touch within rounding.
+    pub overlap: f64,
+    /// Centroid of the patch, from that of the first and of the second part, m.
+    pub arms: [DVec3; 2],
+    /// Unit normal from the first part to the second, as both carry it.
+    pub normals: [DVec3; 2],
+    /// First principal axis of the patch, as the first part carries it.
+    pub axis: DVec3,
+    /// Least and largest distance of a corner from the centroid along the first and the second axis, m.
+    pub extents: [[f64; 2]; 2],
+    /// ∫ x² dA along the first and the second axis, m⁴.
+    pub seconds: [f64; 2],
+}
+
+/// A [`Seam`] where its parts are now, vectors along the axes of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opened {
+    /// Half-way between the centroids of the patch, m.
+    pub point: DVec3,
+    /// Unit normal from the first part to the second.
+    pub normal: DVec3,
+    /// Mean overlap; less than 0 where the seam is open, m.
+    pub overlap: f64,
+    /// Principal axes of the patch.
+    pub axes: [DVec3; 2],
+    /// Turn of the second part against the first about each of the axes, rad.
+    pub tilts: [f64; 2],
+}
+
+impl Seam {
+    /// The seam of two parts that touch or overlap, if they do so with faces that are parallel to 5°.
+    pub fn between(first: &Placed, second: &Placed) -> Option<Self> {
+        if first.is_sphere() || second.is_sphere() {
+            return None;
+        }
+        let range = CLOSED * first.radius.min(second.radius);
+        let meeting = meeting(first, second, range).filter(|meeting| meeting.flatness == 1.0)?;
+        let seconds = meeting.polygon.second_moments()?;
+        let normal = meeting.normal();
+        let overlap = -(meeting.gap + meeting.slope.dot(seconds.centre));
+        let point = meeting.lift(seconds.centre) - meeting.out * (0.5 * overlap);
+        let axis = meeting.x * seconds.axis.x + meeting.y * seconds.axis.y;
+        let along = [seconds.axis, meeting.flat(normal.cross(axis))];
+        let extents = along.map(|axis: DVec2| {
+            let heights = meeting.polygon.corners.iter();
+            let heights = heights.map(|corner| axis.dot(*corner - seconds.centre));
+            heights.fold([0.0, 0.0], |[least, most]: [f64; 2], height| {
+                [least.min(height), most.max(height)]
+            })
+        });
+        let [own, other] = [first, second].map(|part| part.deformation.inverse());
+        // Planes go with F⁻ᵀ.
+        let back = |part: &Placed| (part.deformation.transpose() * normal).normalize();
+        Some(Self {
+            area: seconds.area,
+            overlap: overlap.max(0.0),
+            arms: [
+                own * (point - first.centre),
+                other * (point - second.centre),
+            ],
+            normals: [back(first), back(second)],
+            axis: own * axis,
+            extents,
+            seconds: seconds.principal,
+        })
+    }
+
+    /// Where it is in parts that have moved.
+    pub fn of(&self, first: &Placed, second: &Placed) -> Opened {
+        let carried =
+            |part: &Placed, normal: DVec3| (cofactor(part.deformation) * normal).normalize();
+        let [a, b] = [
+            first.centre + first.deformation * self.arms[0],
+            second.centre + second.deformation * self.arms[1],
+        ];
+        let [n_a, n_b] = [
+            carried(first, self.normals[0]),
+            carried(second, self.normals[1]),
+        ];
+        let normal = (n_a + n_b).normalize();
+        let axis = (first.deformation * self.axis).reject_from_normalized(normal);
+        let axis = axis.normalize();
+        let axes = [axis, normal.cross(axis)];
+        let tilt = n_a.cross(n_b);
+        Opened {
+            point: 0.5 * (a + b),
+            normal,
+            overlap: self.overlap - (b - a).dot(normal),
+            axes,
+            tilts: axes.map(|axis| tilt.dot(axis)),
+        }
+    }
+
+    /// Largest extent of the patch, m.
+    pub fn width(&self) -> f64 {
+        let [along, across] = self.extents.map(|[least, most]| most - least);
+        along.hypot(across)
+    }
+}
+
+impl Opened {
+    /// Overlap where the seam is open the widest, m: u + θ₂ x₁ − θ₁ x₂ at the corners of the rectangle along the
+    /// axes that holds the patch.
+    pub fn least(&self, seam: &Seam) -> f64 {
+        let least = |slope: f64, [low, high]: [f64; 2]| (slope * low).min(slope * high);
+        self.overlap
+            + least(self.tilts[1], seam.extents[0])
+            + least(-self.tilts[0], seam.extents[1])
+    }
+
+    /// Moment of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point, over
+    /// its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments.
+    pub fn moment(&self, seam: &Seam) -> DVec3 {
+        let [first, second] = seam.seconds;
+        -(self.axes[0] * (second * self.tilts[0]) + self.axes[1] * (first * self.tilts[1]))
+    }
+}
+
+/// F⁻ᵀ.
+fn cofactor(deformation: DMat3) -> DMat3 {
+    deformation.inverse().transpose()
+}

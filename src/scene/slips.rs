@@ -1,0 +1,86 @@
+//! What computes, but is probably not what was meant.
+
+use super::{Advice, Scene, Warning};
+use glam::DVec3;
+
+/// Sine of the angle from which two directions differ, and share of a time that counts as none: the rounding of what
+/// scenes write.
+const ROUNDED: f64 = 1e-3;
+/// Share of the gravity of the blocks from which the acceleration of the fluid is a gravity, too: less drives a flow.
+const GRAVITY: f64 = 0.5;
+/// Angle of friction, degrees, below which the number is rather its tangent: that of 56°. Nothing between dry rocks is
+/// as slippery.
+const TANGENT: f64 = 1.5;
+
+impl Scene {
+    /// Warns of keys that contradict each other, or are probably in another unit than they should be, in a run in steps
+    /// of `time_step` (s).
+    pub fn slips(&self, time_step: f64) -> Advice {
+        let mut advice = Advice::new();
+        let mut warn = |place: String, message: String| advice.push(Warning { place, message });
+        if let Some((fluid, rock)) = self.gravities() {
+            warn(
+                "rock.gravity".into(),
+                format!(
+                    "the fluid weighs along {fluid:?} m/s² (fluid.acceleration) and the blocks fall along {rock:?} m/s² with \
+                     buoyancy against both; give one direction to both, or, where the acceleration drives a flow alone, \
+                     take no notice"
+                ),
+            );
+        }
+        let (hold, length) = (self.coupling.hold, self.run.length(time_step));
+        if self.has_blocks() && hold > 0.0 && hold >= length {
+            warn(
+                "coupling.hold".into(),
+                format!(
+                    "blocks are held for {hold} s and the run ends at {length:.6} s: none of them will move; take less, or run \
+                     longer"
+                ),
+            );
+        }
+        for probe in &self.probes {
+            let short = |every: &f64| *every < time_step * (1.0 - ROUNDED);
+            if let Some(every) = probe.every.filter(short) {
+                warn(
+                    format!("probes.{}.every", probe.name),
+                    format!(
+                        "{every} s is shorter than the step of {time_step:.4e} s: it measures in each step; use every ≥ \
+                         {time_step:.4e}"
+                    ),
+                );
+            }
+        }
+        let materials = self.materials.iter();
+        let materials =
+            materials.map(|one| (format!("materials.{}", one.name), Some(one.friction)));
+        let pairs = self.material_pairs.iter().enumerate();
+        let pairs = pairs.map(|(n, pair)| (format!("material_pairs[{n}]"), pair.friction));
+        for (place, friction) in materials.chain(pairs) {
+            let tangent = |degrees: &f64| *degrees > 0.0 && *degrees < TANGENT;
+            if let Some(degrees) = friction.filter(tangent) {
+                warn(
+                    format!("{place}.friction"),
+                    format!(
+                        "{degrees} is an angle in degrees; if it is tan φ, write friction = {:.1}",
+                        degrees.atan().to_degrees()
+                    ),
+                );
+            }
+        }
+        advice
+    }
+
+    /// Accelerations of the fluid and of blocks, m/s², if they lead to different sides.
+    fn gravities(&self) -> Option<([f64; 3], [f64; 3])> {
+        let rock = self.rock.gravity;
+        let constant = self.fluid.acceleration.each_ref().map(|a| a.constant());
+        let [Some(x), Some(y), Some(z)] = constant else {
+            return None;
+        };
+        let free = self.has_blocks() && self.has_fluid();
+        let [a, g] = [[x, y, z], rock].map(DVec3::from_array);
+        let weighs = a.length() >= GRAVITY * g.length() && g != DVec3::ZERO;
+        let apart = a.angle_between(g).sin() > ROUNDED || a.dot(g) < 0.0;
+        (free && weighs && apart).then_some(([x, y, z], rock))
+    }
+}

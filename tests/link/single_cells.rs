@@ -38,6 +38,18 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
+        "inside_solids",
+        &["inside_solids"],
+        &[
+            "bricks",
+            "saturation_planes",
+            "density",
+            "velocity_x_out",
+            "velocity_y_out",
+            "velocity_z_out",
+        ],
+    ),
+    (
         "sums",
         &["sum_cells"],
         &[

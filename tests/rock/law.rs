@@ -168,3 +168,39 @@ fn a_corner_is_as_stiff_as_its_elastic_area_and_as_strong_as_its_own() {
     let held = moved(0.1).x;
     assert!((held / -cap - 1.0).abs() < 1e-12, "{held} N");
 }
+
+#[test]
+fn a_bond_breaks_where_it_bends_the_most_or_has_slipped_as_far_as_it_opens() {
+    let joint = Joint {
+        tensile_strength: 1e4,
+        ..JOINT
+    };
+    let bond = History {
+        bonded: true,
+        ..History::default()
+    };
+    let open = |overlap: f64, gape: f64| {
+        let section = Section {
+            overlap,
+            gape,
+            ..SECTION
+        };
+        force(&joint, &section, &REST, &bond)
+    };
+    // σ_t/k_n = 0.1 mm in the middle and at the edge together.
+    let held = open(-0.6e-4, 0.39e-4);
+    assert!(
+        (held.spring.z + 1e8 * 2.0 * 0.6e-4).abs() < 1e-6,
+        "{held:?}"
+    );
+    assert!(held.history.bonded);
+    assert!(!open(-0.6e-4, 0.41e-4).history.bonded);
+    // σ_t/k_s = 0.2 mm; the cap is reached at 1.15 mm.
+    let cap = 2e5 * (PI / 6.0).tan() / 1e8;
+    let first = slid(&joint, cap + 1.5e-4, &bond).history;
+    assert!(
+        first.bonded && (first.slip - 1.5e-4).abs() < 1e-12,
+        "{first:?}"
+    );
+    assert!(!slid(&joint, 0.6e-4, &first).history.bonded);
+}

@@ -4,7 +4,7 @@
 //! acceleration, and of the fluid on it with its buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
 //! [`crate::coupling::Coupled::with_closed_joints`]), and the contacts that it has: it stands while all are
 //! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
-//! Where nothing drives, up to a share of 1e-9, which is rounding, a factor is infinite; where there is no contact, none is known: NaN. Contacts
+//! Where nothing drives, up to a share of 1e-7, the rounding of loads that a device adds up, a factor is infinite; where there is no contact, none is known: NaN. Contacts
 //! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a
 //! block in motion the factors say what it would need to stand.
 //!
@@ -34,7 +34,7 @@ pub use toppling::{Base, toppling};
 pub use uplift::uplift;
 
 /// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-7;
 
 /// What resists over what drives; infinite where nothing drives but rounding of the `whole`.
 fn factor(resisting: f64, driving: f64, whole: f64) -> f64 {

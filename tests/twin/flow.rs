@@ -202,6 +202,15 @@ impl Twin {
         let velocity = [0, 1, 2].map(|a| solid.velocity[a] + more[a]);
         let change = self.solid_change(cell, velocity, tau);
         let f = &self.f[cell];
+        if solid.joint && !solid.deep {
+            // The momentum alone.
+            let more = |a: usize| -> f64 {
+                let of = |i: usize| (change[i] - (fluid[i] - f[i])) * f64::from(C[i][a]);
+                b * (0..Q).map(of).sum::<f64>()
+            };
+            let more = [0, 1, 2].map(more);
+            return std::array::from_fn(|i| fluid[i] + 3.0 * W[i] * c_dot(i, more));
+        }
         std::array::from_fn(|i| f[i] + (1.0 - b) * (fluid[i] - f[i]) + b * change[i])
     }
 

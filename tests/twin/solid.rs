@@ -31,7 +31,7 @@ pub struct Solid {
 }
 
 /// Most of B in a full cell of a closed joint, through which water seeps.
-const SEEPS: f64 = 0.02;
+const SEEPS: f64 = 0.25;
 
 impl Solid {
     /// Part of the cell that no fluid fills.
@@ -44,7 +44,7 @@ impl Solid {
         self.beside || self.fraction > 0.0
     }
 
-    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a fiftieth in joints.
+    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a quarter in joints.
     pub fn weight(&self, tau: f64) -> f64 {
         let (e, excess) = (self.share(), tau - 0.5);
         let open = e * excess / ((1.0 - e) + excess);

@@ -7,7 +7,7 @@
 override CELLS_X: u32;
 override CELLS_Y: u32;
 override CELLS_Z: u32;
-// Faces of the domain that are no walls at rest: a bit each, x-, x+, y-, y+, z-, z+.
+// Faces of the domain that are neither walls at rest nor periodic: a bit each, x-, x+, y-, y+, z-, z+.
 override NO_WALLS: u32;
 
 fn cell_class(p: Place) -> u32 {

@@ -85,10 +85,8 @@ fn saturate(
     let seeps = saturation.joint | at_wall;
     let closed = select(open, min(open, Real(SEEPS)), seeps);
     let weight = select(closed, Real(1.0), saturation.deep);
-    // Of what meets there: walls are at rest.
     let v = saturation.velocity;
-    let share = select(Real(1.0), Real(0.5), at_wall);
-    var s = equilibrium(rho, Vector(share * v.x, share * v.y, share * v.z));
+    var s = equilibrium(rho, v);
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }

@@ -188,9 +188,10 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
     all
 }
 
-/// A bit for each face that is no wall at rest: x−, x+, y−, ….
+/// A bit for each face that neither is a wall at rest nor joined to another one: x−, x+, y−, ….
 fn no_walls(setup: &Setup) -> u32 {
     let faces = setup.faces.iter().flatten().enumerate();
-    let others = faces.filter(|(_, face)| !matches!(face, Face::Wall([0.0, 0.0, 0.0])));
+    let others =
+        faces.filter(|(_, face)| !matches!(face, Face::Wall([0.0, 0.0, 0.0]) | Face::Periodic));
     others.map(|(n, _)| 1 << n).sum()
 }

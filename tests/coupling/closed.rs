@@ -1,4 +1,4 @@
-//! Closed joints: what a block feels there is the water of their rim, whatever the lattice holds inside.
+//! Closed joints: what a block feels there is the water of their rim, once what the lattice held inside has seeped out.
 
 use crate::world::{DENSITY, World, fluid, material};
 use glam::DVec3;

@@ -100,16 +100,6 @@ impl Twin {
         full && self.domain.walls_at(cell).next().is_some()
     }
 
-    /// Mean velocity of what meets in a full cell at a wall at rest, less that of its blocks.
-    fn with_walls(&self, cell: usize) -> [f64; 3] {
-        let share = if self.is_full_at_wall(cell) {
-            -0.5
-        } else {
-            0.0
-        };
-        self.solid_at(cell).velocity.map(|v| share * v)
-    }
-
     /// Momentum that the water of a full cell has lost to walls at rest along these, when its populations came back.
     fn lost_to_walls(&self, cell: usize) -> [f64; 3] {
         let mut lost = [0.0; 3];
@@ -133,8 +123,7 @@ impl Twin {
     /// Force on a block that has the share `part` of a cell and moves there with `velocity`.
     pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
         let solid = self.solid_at(cell);
-        let more = self.with_walls(cell);
-        let change = self.solid_change(cell, [0, 1, 2].map(|a| velocity[a] + more[a]), tau);
+        let change = self.solid_change(cell, velocity, tau);
         let force = force_on(solid.weight(tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
         [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.fraction.max(1.0))
@@ -198,9 +187,7 @@ impl Twin {
     fn saturate(&self, cell: usize, fluid: &[f64; Q], tau: f64) -> [f64; Q] {
         let solid = self.solid_at(cell);
         let b = solid.weight(tau);
-        let more = self.with_walls(cell);
-        let velocity = [0, 1, 2].map(|a| solid.velocity[a] + more[a]);
-        let change = self.solid_change(cell, velocity, tau);
+        let change = self.solid_change(cell, solid.velocity, tau);
         let f = &self.f[cell];
         if solid.joint && !solid.deep {
             // The momentum alone.

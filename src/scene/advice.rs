@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Collision, EddyViscosity, Numerics, Scene};
+use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene};
 use crate::error::{Error, Result};
 use crate::units::Units;
 
@@ -68,7 +68,18 @@ impl Scene {
         adviser.bgk();
         adviser.cell_reynolds();
         adviser.weight();
+        adviser.pressures()?;
         Ok(adviser.advice)
+    }
+
+    /// By which part of the reference density the fluid is denser in one place than in another where its pressure is
+    /// what faces hold and the start has: Δp/(ρ c²), c being the speed of sound of the lattice.
+    ///
+    /// # Errors
+    /// If the formula of the pressure is not finite somewhere.
+    pub fn compression(&self, units: &Units) -> Result<f64> {
+        let [low, high] = self.pressure_range()?;
+        Ok(units.pressure_to_lattice(high - low) - 1.0)
     }
 }
 
@@ -239,5 +250,37 @@ impl Adviser<'_> {
                 ),
             );
         }
+    }
+
+    /// The same of what faces and the start hold it at.
+    fn pressures(&mut self) -> Result<()> {
+        let scene = self.scene;
+        let faces = ("boundaries", scene.face_pressures());
+        let start = match scene.initial.pressure {
+            InitialPressure::Given(_) => Some(("initial.pressure", scene.pressure_range()?)),
+            InitialPressure::Hydrostatic => None,
+        };
+        for (place, [low, high]) in [faces].into_iter().chain(start) {
+            let compression = self.units.pressure_to_lattice(high - low) - 1.0;
+            if compression > HIGH_COMPRESSION {
+                let part = (HIGH_COMPRESSION / compression).sqrt();
+                let step = self.units.time_step * part;
+                self.warn(
+                    place,
+                    format!(
+                        "pressures from {low:.3e} to {high:.3e} Pa, the reference being 0, make the fluid denser by \
+                         {:.1} %, which no liquid does: flows and forces are off by about half of that; use \
+                         time_step ≤ {step:.3e} s{}",
+                        100.0 * compression,
+                        match self.units.mach(self.speed) * part {
+                            mach if mach > 0.0 => format!(" (mach = {mach:.3})"),
+                            _ => String::new(),
+                        }
+                    ),
+                );
+                break;
+            }
+        }
+        Ok(())
     }
 }

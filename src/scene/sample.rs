@@ -118,6 +118,51 @@ impl Scene {
         (zero, gradient)
     }
 
+    /// Least and greatest pressure that faces hold, with the reference pressure, 0, among them, Pa.
+    pub(super) fn face_pressures(&self) -> [f64; 2] {
+        let held = |(_, boundary): (Face, &Boundary)| match boundary {
+            Boundary::Pressure { pressure, .. } => Some(*pressure),
+            _ => None,
+        };
+        range([0.0; 2], self.boundaries.iter().filter_map(held))
+    }
+
+    /// The same with the pressures at the time 0.
+    ///
+    /// # Errors
+    /// If a formula is not finite somewhere.
+    pub(super) fn pressure_range(&self) -> Result<[f64; 2]> {
+        let faces = self.face_pressures();
+        match self.start_pressure() {
+            StartPressure::Given(formula) => {
+                // One place does for a formula that has no place in it.
+                let places = match formula.is_constant() {
+                    true => 1,
+                    false => usize::MAX,
+                };
+                self.domain
+                    .centres()
+                    .take(places)
+                    .try_fold(faces, |found, x| {
+                        let value = formula.eval_at(x, 0.0);
+                        let value = finite("initial.pressure", &formula, value, x, 0.0)?;
+                        Ok(range(found, [value]))
+                    })
+            }
+            // It is linear: its greatest and least values are at corners, which its gradient points at.
+            start @ StartPressure::Linear { gradient, .. } => {
+                let (low, high) = (self.domain.origin, self.domain.end());
+                let corner = |up: bool| -> [f64; 3] {
+                    std::array::from_fn(|axis| match (gradient[axis] > 0.0) == up {
+                        true => high[axis],
+                        false => low[axis],
+                    })
+                };
+                Ok(range(faces, [false, true].map(|up| start.at(corner(up)))))
+            }
+        }
+    }
+
     /// Velocity on `face` at the time `t` in s, at the centres of the outer cell faces, the lower
     /// of the two in-plane axes fastest, m/s. At rest where the face gives no velocity.
     ///
@@ -217,6 +262,13 @@ impl Scene {
             self.on_cells(&format!("{key}[2]"), z)?,
         ])
     }
+}
+
+/// `known` widened so that it holds all of `values`.
+fn range(known: [f64; 2], values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values.into_iter().fold(known, |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
 }
 
 /// Euclidean length.

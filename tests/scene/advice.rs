@@ -141,3 +141,34 @@ fn water_that_its_own_weight_compresses_is_warned_of() {
     );
     assert_eq!(tank(2.5e-4).unwrap(), []);
 }
+
+#[test]
+fn water_that_given_pressures_compress_is_warned_of() {
+    // c² = Δx²/(3 Δt²) = 3.33e-5 m²/s² at 1 mm and 0.1 s: 0.01 Pa is 0.3 of ρ c², and 5 % at a step shorter by √6.
+    let duct = |pressure: f64, initial: &str| {
+        let scene = read(&format!(
+            "[domain]\nsize = [0.02, 0.01, 0.01]\ncell = 1e-3\n[run]\nsteps = 1\n\
+             [fluid]\nviscosity = 1e-6\n[initial]\n{initial}\n[boundaries]\n\
+             x_min = {{ kind = \"pressure\", pressure = {pressure} }}\nx_max = {{ kind = \"pressure\" }}\n\
+             [numerics]\ntime_step = 0.1\nvelocity_scale = 1e-4\n"
+        ))
+        .unwrap();
+        let units = Units::of(&scene).unwrap();
+        (scene.advise(&units), scene.compression(&units).unwrap())
+    };
+    let (advice, compression) = duct(0.01, "");
+    warned(
+        advice,
+        &[
+            "boundaries",
+            "30.0 %",
+            "half of that",
+            "time_step ≤ 4.082e-2 s",
+        ],
+    );
+    assert!((compression - 0.3).abs() < 1e-9, "{compression}");
+    assert_eq!(duct(1e-3, "").0.unwrap(), []);
+    let waves = "pressure = \"0.005*sin(100*pi*x)\"";
+    warned(duct(0.0, waves).0, &["initial.pressure", "time_step ≤"]);
+    warned(duct(0.01, waves).0, &["boundaries"]);
+}

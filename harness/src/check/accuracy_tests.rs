@@ -74,6 +74,17 @@ fn what_lies_beyond_the_table_is_said() {
 }
 
 #[test]
+fn a_spread_of_the_density_is_added() {
+    let rows = [row(CHANNEL, 12.0, 2.5, 0.01)];
+    let found = of_walls(&rows, 12.0, 2.5).unwrap();
+    assert_eq!(found.clone().compressed(0.01), found);
+    let dense = found.compressed(0.25);
+    assert!((dense.band[1] - 0.135).abs() < 1e-12, "{dense:?}");
+    let text = dense.text();
+    assert!(text.contains("12 % of it for the density"), "{text}");
+}
+
+#[test]
 fn the_report_that_ships_is_whole() {
     let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
     assert_eq!(rows.len(), MEASURED.lines().count() - 1);

@@ -124,6 +124,28 @@ fn a_criterion_of_speed_and_a_settled_start_give_the_same_threshold() {
 }
 
 #[test]
+fn a_block_that_was_under_way_at_the_end_is_said() {
+    let folder = folder("threshold_under_way");
+    // In 0.2 s an excess of 0.3 m/s² leads 6 mm away, a fifth of what counts, at a speed that covers 12 mm in as long:
+    // at 0.45 m/s² and more, 9 and 18 mm, another trial would see it.
+    let args = Args {
+        distance: Some(0.027),
+        ..args(&folder, SLIDE, &["rock.gravity[0]"], [4.0, 8.0, 0.1])
+    };
+    let report = go(&args);
+    let [still, _] = report.bracket.unwrap();
+    assert!((6.9..7.1).contains(&still), "{report}");
+    let told = report.to_string();
+    assert!(
+        told.contains("cube was under way") && told.contains("lower the threshold"),
+        "{told}"
+    );
+    assert!(!report.trials[0].under_way && report.trials.iter().any(|trial| trial.under_way));
+    let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
+    assert!(json.contains("\"warning\": \"at "), "{json}");
+}
+
+#[test]
 fn a_flow_that_is_fast_enough_moves_a_block() {
     let folder = folder("threshold_push");
     let key = "boundaries.x_min.velocity[0]";

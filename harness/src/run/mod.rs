@@ -28,7 +28,6 @@ pub(crate) use batch::Batch;
 pub(crate) use dry::Dry;
 pub(crate) use engine::Engine;
 pub(crate) use flow::Flow;
-pub(crate) use rock::Rock;
 pub(crate) use water::Pond;
 
 pub use estimate::{Estimate, Headline};

@@ -137,8 +137,7 @@ impl Search<'_> {
                 ));
             }
         }
-        report.bracket = bracket.found();
-        report.complete = bracket.is_narrow();
+        report.end(bracket.found(), bracket.is_narrow());
         report.write(&self.folder)?;
         Ok(report)
     }

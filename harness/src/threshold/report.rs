@@ -1,6 +1,7 @@
 //! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
 
 use super::{Args, Trial};
+use crate::print::percent;
 use riprap::output::replace;
 use serde::Serialize;
 use std::{
@@ -23,6 +24,8 @@ pub struct Report {
     pub bracket: Option<[f64; 2]>,
     /// Whether the bracket is as narrow as was asked for.
     pub complete: bool,
+    /// What is uncertain about the bracket.
+    pub warning: Option<String>,
 }
 
 impl Report {
@@ -35,7 +38,24 @@ impl Report {
             trials: Vec::new(),
             bracket: None,
             complete: false,
+            warning: None,
         }
+    }
+
+    /// Takes what the trials leave.
+    pub fn end(&mut self, bracket: Option<[f64; 2]>, complete: bool) {
+        (self.bracket, self.complete) = (bracket, complete);
+        self.warning = bracket.and_then(|[still, moves]| {
+            let ended = self.trials.iter().find(|trial| trial.value == still)?;
+            let motion = ended.closest.as_ref().filter(|_| ended.under_way)?;
+            Some(format!(
+                "at {still} {} was under way when the trial ended, by {} of what counts as motion: more --steps, or a \
+                 smaller --distance or --speed, {} the threshold",
+                motion.block,
+                percent(motion.part),
+                if still > moves { "raise" } else { "lower" }
+            ))
+        });
     }
 
     /// Adds a trial.
@@ -86,7 +106,11 @@ impl fmt::Display for Report {
                 0.5 * (moves - still).abs(),
                 self.trials.len(),
                 if self.complete { "" } else { ", stopped" }
-            ),
+            )
+            .and_then(|()| match &self.warning {
+                Some(warning) => write!(f, "\nwarning: {warning}"),
+                None => Ok(()),
+            }),
             None => write!(f, "{keys}: stopped before both ends were tried"),
         }
     }

@@ -1,6 +1,6 @@
 //! One run of the scene, until a block moves.
 
-use crate::run::{Batch, Engine, Rock};
+use crate::run::{Batch, Engine};
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{Error, bodies};
@@ -16,6 +16,9 @@ use std::{
 const LOOKS: u64 = 200;
 /// Part of a block's size by which it has moved.
 const SHARE: f64 = 0.01;
+/// Part of the distance from which on a block that still moves is under way: contacts that take up their load move it
+/// by less.
+const BEGUN: f64 = 0.1;
 
 /// What motion is.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +56,21 @@ pub struct Motion {
     pub distance: f64,
     /// m/s.
     pub speed: f64,
+    /// That distance or speed as a part of what counts as motion.
+    pub part: f64,
+}
+
+impl Motion {
+    /// Whether another such trial, at this speed or with this mean acceleration, would see it move.
+    fn goes_on(&self, criterion: Criterion) -> bool {
+        match criterion {
+            Criterion::Distance(_) => {
+                let rest = self.distance * (1.0 / self.part - 1.0);
+                self.part > BEGUN && self.speed * self.time >= rest
+            }
+            Criterion::Speed(_) => self.part >= 0.5,
+        }
+    }
 }
 
 /// What came of a trial.
@@ -64,6 +82,8 @@ pub struct Trial {
     pub moved: Option<Motion>,
     /// The block that came closest to moving, at its end.
     pub closest: Option<Motion>,
+    /// Whether none had moved at its end, but one was about to: it would have in another such trial.
+    pub under_way: bool,
     /// Steps that it took.
     pub steps: u64,
     /// Seconds that it took.
@@ -128,8 +148,10 @@ pub fn run<E: Engine>(mut engine: E, asked: &Asked<'_>) -> Result<Option<Trial>>
         advance(&mut engine, &mut batch, steps)?;
         (closest, moved) = watched.look(&engine, asked.criterion);
     }
+    let goes_on = |motion: &Motion| motion.goes_on(asked.criterion);
     Ok(Some(Trial {
         value: asked.value,
+        under_way: moved.is_none() && closest.as_ref().is_some_and(goes_on),
         moved,
         closest,
         steps: engine.step() - first,
@@ -191,22 +213,18 @@ impl Watched {
             }
         };
         let parts = self.blocks.iter().map(|block| (block, part(block)));
-        let Some((block, part)) = parts.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        let Some(((block, place, _), part)) = parts.max_by(|a, b| a.1.total_cmp(&b.1)) else {
             return (None, None);
         };
-        let motion = motion(&rock, block, rock.time - self.start);
+        let motion = Motion {
+            block: rock.blocks.name(*block).into(),
+            time: rock.time - self.start,
+            distance: (poses[*block].centre - *place).length(),
+            speed: poses[*block].velocity.length(),
+            part,
+        };
         let moved = (part >= 1.0).then(|| motion.clone());
         (Some(motion), moved)
-    }
-}
-
-fn motion(rock: &Rock<'_>, (block, place, _): &(usize, DVec3, f64), time: f64) -> Motion {
-    let pose = rock.blocks.poses()[*block];
-    Motion {
-        block: rock.blocks.name(*block).into(),
-        time,
-        distance: (pose.centre - *place).length(),
-        speed: pose.velocity.length(),
     }
 }
 
@@ -221,11 +239,43 @@ impl fmt::Display for Trial {
             ),
             (Some(motion), None) => write!(
                 f,
-                "{}: still after {:.4e} s; {} is {:.2e} m away at {:.2e} m/s",
-                self.value, motion.time, motion.block, motion.distance, motion.speed
+                "{}: {} after {:.4e} s; {} is {:.2e} m away at {:.2e} m/s",
+                self.value,
+                if self.under_way {
+                    "still, but under way,"
+                } else {
+                    "still"
+                },
+                motion.time,
+                motion.block,
+                motion.distance,
+                motion.speed
             ),
             (None, _) => write!(f, "{}: still", self.value),
         }?;
         write!(f, " ({} steps, {:.1} s)", self.steps, self.seconds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_another_trial_would_see_move_is_under_way() {
+        // 80 µm count as motion, 15 s are a trial.
+        let goes_on = |distance: f64, speed| {
+            let motion = Motion {
+                block: "s".into(),
+                time: 15.0,
+                distance,
+                speed,
+                part: distance / 8e-5,
+            };
+            motion.goes_on(Criterion::Distance(None))
+        };
+        assert!(goes_on(7.86e-5, 6.21e-6) && goes_on(3.69e-5, 9.84e-6));
+        // It has settled by less than a tenth, or comes to rest.
+        assert!(!goes_on(5.48e-8, 3.4e-10) && !goes_on(7e-6, 1e-5) && !goes_on(5e-5, 1e-6));
     }
 }

@@ -1,12 +1,13 @@
 //! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
 
 mod blocks;
+mod sealed;
 mod water;
 
 pub use blocks::BlockCheckpoint;
 pub use water::WaterCheckpoint;
 
-use crate::{Error, Result, coupling::CoupledState, lattice::Populations, output::replace};
+use crate::{Error, Result, coupling::CoupledState, lattice::Populations};
 use std::path::Path;
 
 /// The state of a simulation between two steps.
@@ -23,9 +24,9 @@ pub struct Checkpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap state  2\n";
-/// Magic, step, three cell counts, three lengths, time step, cell, bytes of the blocks.
-const HEADER: usize = 16 + 8 + 3 * 4 + 3 * 8 + 2 * 8 + 8;
+const MAGIC: &sealed::Magic = b"riprap state  3\n";
+/// Step, three cell counts, three lengths, time step, cell, bytes of the blocks.
+const HEADER: usize = 8 + 3 * 4 + 3 * 8 + 2 * 8 + 8;
 
 impl Checkpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
@@ -40,8 +41,7 @@ impl Checkpoint {
             velocity,
             carried,
         } = &self.populations;
-        replace(path, |file| {
-            file.write_all(MAGIC)?;
+        sealed::write(path, MAGIC, |file| {
             file.write_all(&step.to_le_bytes())?;
             for n in cells {
                 file.write_all(&n.to_le_bytes())?;
@@ -66,13 +66,10 @@ impl Checkpoint {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, is no checkpoint, or is cut short.
+    /// [`Error::File`] if it cannot be read, is no checkpoint, or is not as it was written.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
+        let bytes = sealed::read(path, MAGIC, "a fluid on a lattice")?;
         let broken = |message: &str| Error::file(path, message);
-        if bytes.len() < HEADER || bytes[..16] != *MAGIC {
-            return Err(broken("this is not a checkpoint of this version of riprap"));
-        }
         let long = |at: usize| {
             let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
             part.map(u64::from_le_bytes).ok_or_else(|| broken(CUT))
@@ -81,13 +78,13 @@ impl Checkpoint {
             let part = bytes.get(at..at + 4).and_then(|part| part.try_into().ok());
             part.map(u32::from_le_bytes).ok_or_else(|| broken(CUT))
         };
-        let cells = [short(24)?, short(28)?, short(32)?];
-        let lengths = [long(36)?, long(44)?, long(52)?];
+        let cells = [short(8)?, short(12)?, short(16)?];
+        let lengths = [long(20)?, long(28)?, long(36)?];
         let expected = lengths
             .iter()
             .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
-        let rest = (bytes.len() - HEADER) as u64;
-        if expected.saturating_add(long(76)?) != rest {
+        let rest = bytes.len().saturating_sub(HEADER) as u64;
+        if expected.saturating_add(long(60)?) != rest {
             return Err(broken(CUT));
         }
         let (values, blocks) = bytes[HEADER..].split_at(expected as usize);
@@ -105,11 +102,11 @@ impl Checkpoint {
             .map(|part| f32::from_le_bytes(std::array::from_fn(|k| part[k])));
         let mut list = |n: u64| values.by_ref().take(n as usize).collect();
         Ok(Self {
-            time_step: f64::from_bits(long(60)?),
-            cell: f64::from_bits(long(68)?),
+            time_step: f64::from_bits(long(44)?),
+            cell: f64::from_bits(long(52)?),
             blocks,
             populations: Populations {
-                step: long(16)?,
+                step: long(0)?,
                 cells,
                 values: list(lengths[0]),
                 velocity: list(lengths[1]),

@@ -174,9 +174,19 @@ fn broken_checkpoints_are_refused() {
     };
     saved.write(&file).unwrap();
     let bytes = std::fs::read(&file).unwrap();
+    let changed = |at: usize, to: u8| {
+        let mut bytes = bytes.clone();
+        bytes[at] = to;
+        bytes
+    };
+    let middle = bytes.len() / 2;
     for (content, hint) in [
         (&bytes[..bytes.len() - 5], "cut short"),
-        (&bytes[..40], "not a checkpoint"),
+        (&bytes[..40], "cut short"),
+        (&bytes[..14], "cut short"),
+        (&bytes[..3], "not a checkpoint"),
+        (&changed(middle, !bytes[middle]), "damaged"),
+        (&changed(14, b'2'), "version 2 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {
         std::fs::write(&file, content).unwrap();

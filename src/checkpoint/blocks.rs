@@ -1,6 +1,7 @@
 //! Blocks on disk.
 
-use crate::{Error, Result, bodies::Snapshot, output::replace};
+use super::sealed;
+use crate::{Error, Result, bodies::Snapshot};
 use std::path::Path;
 
 /// The state of blocks between two steps of a scene without fluid.
@@ -15,9 +16,9 @@ pub struct BlockCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap rocks  1\n";
-/// Magic, step, time step.
-const HEADER: usize = 16 + 8 + 8;
+const MAGIC: &sealed::Magic = b"riprap rocks  2\n";
+/// Step, time step.
+const HEADER: usize = 8 + 8;
 
 impl BlockCheckpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
@@ -25,8 +26,7 @@ impl BlockCheckpoint {
     /// # Errors
     /// [`Error::File`] if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
-        replace(path, |file| {
-            file.write_all(MAGIC)?;
+        sealed::write(path, MAGIC, |file| {
             file.write_all(&self.step.to_le_bytes())?;
             file.write_all(&self.time_step.to_le_bytes())?;
             file.write_all(&self.snapshot.to_bytes())
@@ -36,26 +36,23 @@ impl BlockCheckpoint {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, is no checkpoint of blocks, or is cut short.
+    /// [`Error::File`] if it cannot be read, is no checkpoint of blocks, or is not as it was written.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
-        let header = bytes.get(..HEADER).filter(|header| header[..16] == *MAGIC);
-        let Some(header) = header else {
-            return Err(Error::file(
-                path,
-                "this is not a checkpoint of blocks of this version of riprap",
-            ));
+        let bytes = sealed::read(path, MAGIC, "blocks alone")?;
+        let Some((header, rest)) = bytes.split_at_checked(HEADER) else {
+            let message = "the checkpoint is cut short; use an older one";
+            return Err(Error::file(path, message));
         };
         let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|k| header[at + k]));
-        let snapshot = Snapshot::from_bytes(&bytes[HEADER..]).map_err(|error| match error {
+        let snapshot = Snapshot::from_bytes(rest).map_err(|error| match error {
             Error::Scene { message, .. } => {
                 Error::file(path, format!("{message}; use an older checkpoint"))
             }
             other => other,
         })?;
         Ok(Self {
-            step: word(16),
-            time_step: f64::from_bits(word(24)),
+            step: word(0),
+            time_step: f64::from_bits(word(8)),
             snapshot,
         })
     }

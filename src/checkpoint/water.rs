@@ -1,9 +1,9 @@
 //! Free water and the blocks in it on disk.
 
+use super::sealed;
 use crate::{
     Error, Result,
     bodies::{Load, Snapshot},
-    output::replace,
     particles::{Particle, State, Works},
 };
 use glam::{DMat3, DVec3};
@@ -37,7 +37,7 @@ pub struct WaterCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &[u8; 16] = b"riprap water  3\n";
+const MAGIC: &sealed::Magic = b"riprap water  4\n";
 /// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
 /// last exchange, velocities, loads, lower corner and size of the domain, spacing, works of bodies, pushes, dummy
 /// particles, joints and blocks.
@@ -80,8 +80,7 @@ impl WaterCheckpoint {
         ];
         let loads = self.loads.iter().map(|load| (load.force, load.moment));
         let bodies = state.before.iter().copied().chain(loads);
-        replace(path, |file| {
-            file.write_all(MAGIC)?;
+        sealed::write(path, MAGIC, |file| {
             for word in words {
                 file.write_all(&word.to_le_bytes())?;
             }
@@ -101,14 +100,10 @@ impl WaterCheckpoint {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, is no checkpoint of free water, or is cut short.
+    /// [`Error::File`] if it cannot be read, is no checkpoint of free water, or is not as it was written.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|e| Error::file(path, e))?;
-        let Some(rest) = bytes.strip_prefix(MAGIC) else {
-            let message = "this is not a checkpoint of free water of this version of riprap";
-            return Err(Error::file(path, message));
-        };
-        let mut reader = Reader { rest, path };
+        let bytes = sealed::read(path, MAGIC, "free water")?;
+        let mut reader = Reader { rest: &bytes, path };
         let words = reader.take(WORDS, 8)?;
         let word = |n: usize| u64::from_le_bytes(std::array::from_fn(|k| words[8 * n + k]));
         let vector =

@@ -39,6 +39,7 @@ pub use csv::Csv;
 pub use image::{Array, Image};
 pub use pvd::Pvd;
 pub use quantities::VelocityQuantities;
+pub(crate) use replace::failure;
 pub use replace::replace;
 pub use surface::{Surface, write_surface};
 pub use table::Table;

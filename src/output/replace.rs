@@ -48,13 +48,16 @@ fn draft_of(path: &Path) -> PathBuf {
 }
 
 /// The error for `path`, with what to do about it.
-pub(super) fn failure(action: &str, path: &Path, error: &io::Error) -> Error {
+pub(crate) fn failure(action: &str, path: &Path, error: &io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             "free some space, write less often, or choose a folder on another disk"
         }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             "choose a folder that this user may write to"
+        }
+        ErrorKind::NotFound if action == "read" => {
+            "there is no such file: check the spelling of the path"
         }
         ErrorKind::NotFound => "create its folder first, or check the spelling of the path",
         ErrorKind::NotADirectory => {

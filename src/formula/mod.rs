@@ -135,9 +135,19 @@ impl fmt::Display for Formula {
     }
 }
 
+/// The text of a formula in a message: its beginning, where it is long.
+fn shown(text: &str) -> std::borrow::Cow<'_, str> {
+    /// Longest text that is shown whole, characters.
+    const MOST: usize = 200;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+        None => text.into(),
+    }
+}
+
 /// Why a text is not a formula.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("formula `{text}`, character {column}: {message}")]
+#[error("formula `{}`, character {column}: {message}", shown(text))]
 pub struct FormulaError {
     /// The text.
     pub text: String,

@@ -19,6 +19,8 @@ pub const SUGA_EXCESS: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
 const LEAST_TAU: f64 = 1e-6;
 /// Above this τ half-way walls and the discretisation lose accuracy quickly.
 const HIGH_TAU: f64 = 1.5;
+/// Above this τ the error of the lattice, which grows with τ², is larger than any flow: populations forget nothing.
+const MOST_TAU: f64 = 1e3;
 /// Above this Reynolds number of a cell the smallest eddies fall through the grid.
 const HIGH_CELL_REYNOLDS: f64 = 30.0;
 /// Below this τ − ½ one relaxation time oscillates at walls and solids.
@@ -53,7 +55,8 @@ impl Scene {
             scene: self,
             units,
             speed: self.numerics.velocity_scale.unwrap_or(0.0).max(sampled),
-            excess: units.tau(self.fluid.viscosity) - 0.5,
+            // Not τ less ½, which rounds what is small to nothing.
+            excess: 3.0 * self.fluid.viscosity * units.time_step / units.cell.powi(2),
             step_key: if self.numerics.time_step.is_some() {
                 "numerics.time_step"
             } else {
@@ -64,7 +67,7 @@ impl Scene {
         adviser.mach()?;
         adviser.low_tau()?;
         adviser.suga()?;
-        adviser.high_tau();
+        adviser.high_tau()?;
         adviser.bgk();
         adviser.cell_reynolds();
         adviser.weight();
@@ -147,11 +150,18 @@ impl Adviser<'_> {
         if self.excess >= LEAST_TAU {
             return Ok(());
         }
+        // A longer step is a remedy as long as the flow stays slow on the lattice.
+        let longer =
+            self.units.mach(self.speed) * LEAST_TAU <= Numerics::DEFAULT_MACH * self.excess;
+        let longer = match longer && self.scene.numerics.time_step.is_some() {
+            true => format!("time_step ≥ {:.3e} s, or ", self.step_for(LEAST_TAU)),
+            false => String::new(),
+        };
         Err(Error::scene(
             "fluid.viscosity",
             format!(
                 "τ − ½ is {:.3e}, below {LEAST_TAU:e}: the viscosity drowns in rounding; use \
-                 viscosity ≥ {:.3e} m²/s, or cell ≤ {:.3e} m at the same Mach number",
+                 {longer}viscosity ≥ {:.3e} m²/s, or cell ≤ {:.3e} m at the same Mach number",
                 self.excess,
                 self.scene.fluid.viscosity * LEAST_TAU / self.excess,
                 self.cell_for(LEAST_TAU)
@@ -184,7 +194,20 @@ impl Adviser<'_> {
         ))
     }
 
-    fn high_tau(&mut self) {
+    fn high_tau(&mut self) -> Result<()> {
+        if self.excess > MOST_TAU {
+            return Err(Error::scene(
+                self.step_key,
+                format!(
+                    "the relaxation time is {:.3e}, above {MOST_TAU}, where the lattice computes no flow of this \
+                     viscosity, {:e} m²/s: check it; at most use time_step ≤ {:.3e} s, and ≤ {:.3e} s to be accurate",
+                    0.5 + self.excess,
+                    self.scene.fluid.viscosity,
+                    self.step_for(MOST_TAU - 0.5),
+                    self.step_for(HIGH_TAU - 0.5)
+                ),
+            ));
+        }
         if self.excess > HIGH_TAU - 0.5 {
             self.warn(
                 self.step_key,
@@ -196,6 +219,7 @@ impl Adviser<'_> {
                 ),
             );
         }
+        Ok(())
     }
 
     fn bgk(&mut self) {

@@ -1,5 +1,6 @@
 //! Blocks alone: the loop of a scene without fluid.
 
+use super::countable::countable;
 use super::{BlockSetup, LeftOut, block_setup};
 use crate::{
     Error, Result,
@@ -98,6 +99,7 @@ impl<F: Broadphase> Dry<F> {
             // A whole number of steps, so that the run ends when it is said to.
             (None, Some(duration)) => duration / (duration / usual).ceil(),
         };
+        countable(time_step, &blocks)?;
         Ok(Self {
             scene: scene.clone(),
             time_step,

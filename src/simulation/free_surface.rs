@@ -1,5 +1,6 @@
 //! Free water and the blocks in it.
 
+use super::countable::countable;
 use super::{BlockSetup, WaterLedger, block_setup, pool::Pool, scene_step::scene_step};
 use crate::{
     Error, Result,
@@ -43,6 +44,7 @@ impl FreeSurface {
             inside: None,
         };
         let rock = Rock::new(device, queue, scene, setup, company).await?;
+        countable(time_step, rock.blocks())?;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let particles = Particles::new(

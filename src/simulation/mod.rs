@@ -3,6 +3,7 @@
 mod beside;
 mod block_fields;
 mod block_setup;
+mod countable;
 mod diverged;
 mod dry;
 mod face_surface;
@@ -30,6 +31,7 @@ pub(crate) use scene_step::scene_step;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
 
+use self::countable::countable;
 use crate::{
     Error, Result,
     checkpoint::Checkpoint,
@@ -85,7 +87,9 @@ impl Simulation {
                 true => {
                     let blocks = block_setup(scene)?;
                     let scene = (scene, &units);
-                    Some(Coupled::new(device, queue, &lattice, scene, blocks).await?)
+                    let made = Coupled::new(device, queue, &lattice, scene, blocks).await?;
+                    countable(units.time_step, made.blocks())?;
+                    Some(made)
                 }
                 false => None,
             };

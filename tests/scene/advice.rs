@@ -75,6 +75,20 @@ fn relaxation_times_are_bounded() {
         advise(1e-6, 1e-12, "time_step = 1e-2"),
         &["fluid.viscosity", "viscosity ≥ 3.333e-11 m²/s", "cell ≤"],
     );
+    // τ − ½ = 3e-24, and 1e-6 at a step that is longer by as much: sound takes it.
+    refused(
+        advise(1e-6, 1e-5, "time_step = 1e-25"),
+        &["fluid.viscosity", "3.000e-24", "use time_step ≥ 3.333e-8 s"],
+    );
+    refused(
+        advise(1e-6, 1e8, "time_step = 1e-2"),
+        &[
+            "numerics.time_step",
+            "3.000e12",
+            "no flow",
+            "time_step ≤ 3.33",
+        ],
+    );
 }
 
 #[test]

@@ -121,6 +121,9 @@ fn period(scene: &Scene) -> Option<Period> {
     })
 }
 
+/// Likeness (Jaro–Winkler) of names from which on one is meant for the other.
+const ALIKE: f64 = 0.75;
+
 /// Names differ, and those that probes name exist.
 fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
     let mut names = HashSet::with_capacity(setup.blocks.len());
@@ -142,12 +145,17 @@ fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
             let alike = |name: &&str| strsim::jaro_winkler(name, block);
             let all = setup.blocks.iter().map(|block| block.name.as_str());
             let best = all.max_by(|a, b| alike(a).total_cmp(&alike(b)));
+            let remedy = match best.filter(|best| alike(best) >= ALIKE) {
+                Some(best) => format!("did you mean `{best}`?"),
+                None => {
+                    let some = setup.blocks.iter().take(20);
+                    let names: Vec<_> = some.map(|block| format!("`{}`", block.name)).collect();
+                    format!("there are {}", names.join(", "))
+                }
+            };
             return Err(Error::scene(
                 format!("probes[{index}].block"),
-                format!(
-                    "there is no block `{block}`; did you mean `{}`?",
-                    best.unwrap_or_default()
-                ),
+                format!("there is no block `{block}`; {remedy}"),
             ));
         }
     }

@@ -58,6 +58,8 @@ fn a_scene_with_everything_names_its_kernels_and_solids() {
         bricks.iter().all(|kind| cells[kind].as_u64() > Some(0)),
         "{cells}"
     );
+    let free = json(&["check", &scene("couette"), "--json"]);
+    assert_eq!(free["cells"]["idle_bricks"], 0, "padding is no rock");
     let kernels = report["kernels"].as_array().unwrap();
     let entries: Vec<_> = kernels
         .iter()

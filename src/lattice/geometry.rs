@@ -257,7 +257,10 @@ impl Geometry {
                     }
                 }
             }
+            let first = [x * grid.brick[0], y * grid.brick[1], z * grid.brick[2]];
             match (flagged, solid) {
+                // It is padding behind the last cells, which no kernel has to leave out.
+                (_, true) if !grid.contains(first) => {}
                 (_, true) => self.solid_bricks += 1,
                 (true, _) => self.mixed.push(brick),
                 (false, _) => self.plain.push(brick),

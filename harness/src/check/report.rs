@@ -168,18 +168,15 @@ impl Report {
 impl Cells {
     fn of(lattice: &Lattice) -> Self {
         let (grid, geometry) = (lattice.grid(), lattice.geometry());
-        let all: u64 = grid.bricks().iter().map(|&n| u64::from(n)).product();
-        let mixed = geometry.mixed.len() as u64;
-        let idle = u64::from(geometry.solid_bricks);
         let open = geometry.open.iter().map(|(_, _, cells)| cells.len() as u64);
         Self {
             size: grid.cells,
             fluid: geometry.fluid_cells,
             solid: grid.cell_count() as u64 - geometry.fluid_cells,
             lanes: grid.lanes,
-            plain_bricks: all - mixed - idle,
-            mixed_bricks: mixed,
-            idle_bricks: idle,
+            plain_bricks: geometry.plain.len() as u64,
+            mixed_bricks: geometry.mixed.len() as u64,
+            idle_bricks: u64::from(geometry.solid_bricks),
             links: geometry.links.len() as u64,
             moving: geometry.moving.len() as u64,
             open: open.sum(),

@@ -143,14 +143,15 @@ impl Report {
     pub(super) fn conclude(&mut self, classes: &[Class]) {
         let [time, updates] = self.costs();
         let all: [Cost; 2] = [self.time.of(), |row| row.updates as f64];
-        // Updates are counted, and have no noise.
-        let noise = self.repeats.iter().map(Repeat::apart).fold(0.0, f64::max);
-        let costs = [
-            (time, all[0], SAME.max(1.0 + noise)),
-            (updates, all[1], SAME),
-        ];
         let findings = classes.iter().flat_map(|class| {
             let rows = self.of(class.name);
+            // That of other classes says nothing of this one; updates are counted, and have none.
+            let own = self.repeats.iter().filter(|one| one.class == class.name);
+            let noise = own.map(Repeat::apart).fold(0.0, f64::max);
+            let costs = [
+                (time, all[0], SAME.max(1.0 + noise)),
+                (updates, all[1], SAME),
+            ];
             let asked = TARGETS
                 .iter()
                 .flat_map(|target| costs.map(|cost| (*target, cost)));

@@ -29,6 +29,7 @@ use crate::{
 use anyhow::Context;
 use class::{Class, Point, Reference, classes};
 use estimate::Estimate;
+use riprap::output::replace;
 use std::{path::PathBuf, time::Instant};
 
 /// Draws error against run time and updates for every setting, and says which is the cheapest.
@@ -61,6 +62,10 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     let folder = &args.out;
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     let path = folder.join("report.csv");
+    let info = stand.device.adapter_info();
+    let form = if args.full { "full" } else { "short" };
+    let own = format!("{form} form on {} ({})\n", info.name, info.driver_info);
+    same_conditions(args, &own)?;
     let mut table = match args.resume {
         true => Table::resume(&path)?,
         false => Table::create(&path)?,
@@ -101,6 +106,23 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         duration(begin.elapsed().as_secs_f64())
     );
     Ok(())
+}
+
+/// Writes down in what form and on what the rows of the folder were measured; refuses to add others to them.
+fn same_conditions(args: &Args, own: &str) -> anyhow::Result<()> {
+    let path = args.out.join("conditions.txt");
+    // Reports that are older have none.
+    let written = std::fs::read_to_string(&path).ok();
+    if let Some(other) = written.filter(|other| args.resume && *other != own) {
+        anyhow::bail!(
+            "{} has rows of the {}, these would be of the {}: go on in the same form (--full) on the same --adapter, or \
+             give another --out",
+            args.out.display(),
+            other.trim_end(),
+            own.trim_end()
+        );
+    }
+    Ok(replace(&path, |file| file.write_all(own.as_bytes()))?)
 }
 
 /// The classes that match.
@@ -189,4 +211,31 @@ fn told(row: &Row) -> String {
         row.wall_seconds,
         row.note
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_another_form_are_not_gone_on_with() {
+        let out = std::env::temp_dir().join(format!("riprap_conditions_{}", std::process::id()));
+        std::fs::create_dir_all(&out).unwrap();
+        let args = |resume| Args {
+            resume,
+            out: out.clone(),
+            ..Args::default()
+        };
+        same_conditions(&args(true), "short form on a\n").unwrap();
+        same_conditions(&args(true), "short form on a\n").unwrap();
+        let refused = same_conditions(&args(true), "full form on a\n");
+        let anew = same_conditions(&args(false), "full form on a\n");
+        std::fs::remove_dir_all(&out).unwrap();
+        let told = refused.unwrap_err().to_string();
+        assert!(
+            told.contains("short form") && told.contains("--full"),
+            "{told}"
+        );
+        anew.unwrap();
+    }
 }

@@ -1,18 +1,23 @@
 //! The arithmetic ceiling of an adapter: how many products and sums it does a second where it does nothing else.
 
+use crate::gpu;
 use riprap::{Error, kernel::Kernel, link::Program, wgpu};
 
 /// Turns of the loop: short, since drivers may end long ones.
 const TURNS: u32 = 64;
 /// Products and sums of a turn: 32 of each, of four components.
 pub const FLOPS: u64 = 2 * 32 * 4;
-/// Workgroups of 64: as many invocations as a large GPU holds several times over.
-const GROUPS: u32 = 4096;
+/// Workgroups of 64 on a GPU: large ones hold 270 000 invocations, and this is as many fifteen times over. A dispatch
+/// may have no more than 65535.
+const GROUPS: u32 = 65_535;
+/// The same on a CPU, whose cores each take one after the other.
+const CPU_GROUPS: u32 = 4096;
 
 /// Products and sums of vectors in registers.
 pub struct Arithmetic {
     kernel: Kernel,
     bind: wgpu::BindGroup,
+    groups: u32,
 }
 
 impl Arithmetic {
@@ -21,6 +26,10 @@ impl Arithmetic {
     /// # Errors
     /// If the device refuses it.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, Error> {
+        let groups = match gpu::is_software(&device.adapter_info()) {
+            true => CPU_GROUPS,
+            false => GROUPS,
+        };
         let linked = Program::new("multiply_add").link()?;
         let kernel = Kernel::new(
             device,
@@ -39,21 +48,25 @@ impl Arithmetic {
         queue.write_buffer(&factors, 0, &half);
         let sums = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("sums"),
-            size: u64::from(GROUPS) * 64 * 16,
+            size: u64::from(groups) * 64 * 16,
             usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
         });
         let bind = kernel.bind(device, &[("factors", &factors), ("sums", &sums)])?;
-        Ok(Self { kernel, bind })
+        Ok(Self {
+            kernel,
+            bind,
+            groups,
+        })
     }
 
     /// Products and sums of a dispatch.
     pub fn flops(&self) -> f64 {
-        f64::from(GROUPS) * 64.0 * f64::from(TURNS) * FLOPS as f64
+        f64::from(self.groups) * 64.0 * f64::from(TURNS) * FLOPS as f64
     }
 
     /// Records a dispatch.
     pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.kernel.record(pass, &self.bind, GROUPS);
+        self.kernel.record(pass, &self.bind, self.groups);
     }
 }

@@ -105,7 +105,8 @@ pub async fn advise(
             "particles.spacing".into(),
             format!(
                 "{} gaps between blocks are narrower than two spacings, the narrowest of {:.2e} m between `{first}` and \
-                 `{second}`: no water goes in; close them, or use a smaller spacing",
+                 `{second}`: one layer of particles goes in at most, below half a spacing none; close them, or use a \
+                 smaller spacing",
                 narrow.len(),
                 narrowest.width
             ),

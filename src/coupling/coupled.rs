@@ -101,7 +101,12 @@ impl Coupled {
         self.rock.moves()
     }
 
-    /// What each block feels of the fluid, of the last reading.
+    /// What the fluid around each block does to it, of the last reading: what moves it beside its weight and its contacts.
+    pub fn around(&self) -> &[Felt] {
+        self.rock.around()
+    }
+
+    /// What each block feels of the fluid, of the last reading, the inertia of the fluid inside its cells included.
     pub fn felt(&self) -> &[Felt] {
         self.rock.felt()
     }

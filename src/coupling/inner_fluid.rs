@@ -41,7 +41,7 @@ pub struct InnerFluid {
     /// Velocity and spin at the last exchange, m/s and rad/s.
     last: Option<[DVec3; 2]>,
     /// What fluid and gravity gave the block at the last exchange: acceleration, m/s², and torque over the
-    /// density of the rock, m⁵/s².
+    /// density of the rock, m⁵/s²; of a block whose motion is given its acceleration and that of its spin, rad/s².
     given: [DVec3; 2],
 }
 
@@ -57,11 +57,8 @@ impl InnerFluid {
         dt: f64,
     ) -> Load {
         let load = sum(felt.flow, felt.buoyancy);
-        let now = [pose.velocity, spin(pose)];
-        let known = self.last.replace(now);
-        let [linear, angular] = known.map_or([DVec3::ZERO; 2], |[velocity, spin]| {
-            [(now[0] - velocity) / dt, (now[1] - spin) / dt]
-        });
+        let known = self.last;
+        let [linear, angular] = self.rates(pose, dt);
 
         let rock = matter.mass / matter.volume;
         // Over its volume: the fluid that it displaces, what goes with it, and what it seems to have more.
@@ -89,6 +86,38 @@ impl InnerFluid {
             // A torque is the skew part of a moment.
             moment: load.moment + 0.5 * skew(rock * turning - load.torque()),
             ..load
+        }
+    }
+
+    /// Whether it has given a load.
+    pub fn knows(&self) -> bool {
+        self.last.is_some()
+    }
+
+    /// How fast velocity and spin have changed over the last `dt` (s), m/s² and rad/s².
+    fn rates(&mut self, pose: &Pose, dt: f64) -> [DVec3; 2] {
+        let now = [pose.velocity, spin(pose)];
+        let known = self.last.replace(now);
+        known.map_or([DVec3::ZERO; 2], |[velocity, spin]| {
+            [(now[0] - velocity) / dt, (now[1] - spin) / dt]
+        })
+    }
+
+    /// The same for a block whose motion is given: no load changes it.
+    pub fn follow(&mut self, pose: &Pose, dt: f64) {
+        self.given = self.rates(pose, dt);
+    }
+
+    /// What the fluid around such a block does to it, of what its cells felt: without the inertia of the fluid inside,
+    /// whose tensor (m⁵) is that of the shape.
+    pub fn around(&self, felt: &Felt, inertia: DMat3, volume: f64, density: f64) -> Load {
+        let displaced = density * (felt.flow.entrained + felt.flow.missing);
+        let [linear, angular] = self.given;
+        let turning = displaced / volume * (inertia * angular);
+        Load {
+            force: felt.flow.force + displaced * linear,
+            moment: felt.flow.moment + 0.5 * skew(turning),
+            ..felt.flow
         }
     }
 

@@ -5,6 +5,7 @@
 //! contacts want. [`Coupled`] has their cells in a lattice besides, whose fluid runs the bricks that they reach first, and
 //! the rest while their loads are read.
 
+mod across;
 mod advice;
 mod closed;
 mod coupled;

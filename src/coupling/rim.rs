@@ -1,6 +1,6 @@
 //! Where the closed joints of a block end.
 
-use super::head::Sample;
+use super::{across::Across, head::Sample};
 use crate::contact::Placed;
 use glam::DVec3;
 
@@ -20,16 +20,40 @@ const SEAM: f64 = 0.1;
 const APART: f64 = 3.0;
 const MOST: f64 = 8.0;
 
+/// How far beyond an edge rock is looked for that goes on there, smoothing lengths, and how far it then goes on.
+const ON: [[f64; 2]; 4] = [[0.125, 0.25], [0.375, 0.55], [0.75, 1.0], [1.25, 2.0]];
+/// How deep it is looked for below the face, spacings.
+const BELOW: f64 = 0.25;
+
+/// A piece of the edge of a joint, beyond which there is water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Edge {
+    /// Which of the polygons ends there.
+    pub polygon: usize,
+    /// Its middle, m.
+    pub place: DVec3,
+    /// What it loses, times the pressure there: its length times the width that is not pressed, along the normal, and,
+    /// where one of the two goes on, times the width that is not pressed aside, m².
+    pub lost: DVec3,
+}
+
 /// Adds the places beside the edges of closed parts of a face, convex polygons with the outward normal `normal`, where there
-/// is neither rock of `solids` nor another part of the joint. Where nothing varies along y they are all at `row` (m).
+/// is neither rock of `solids` nor another part of the joint, and returns the edges there. Where nothing varies along y they are
+/// all at `row` (m).
 pub(super) fn rim<'a>(
     found: &mut Vec<Sample>,
     (polygons, normal): (&[Vec<DVec3>], DVec3),
     solids: impl Iterator<Item = &'a Placed> + Clone,
-    (spacing, row): (f64, Option<f64>),
-) {
-    let edges = polygons.iter().flat_map(|polygon| edges(polygon, normal));
-    for [from, edge, out] in edges {
+    (spacing, row, across): (f64, Option<f64>, &Across),
+) -> Vec<Edge> {
+    let mut ends = Vec::new();
+    let all = polygons.iter().enumerate();
+    let all = all.flat_map(|(n, polygon)| {
+        edges(polygon, normal)
+            .into_iter()
+            .map(move |edge| (n, edge))
+    });
+    for (polygon, [from, edge, out]) in all {
         let length = edge.length();
         // Slivers that are left where corners of blocks meet are no rim, and rows have no ends.
         if length < 0.25 * spacing || row.is_some() && out.y.abs() > 0.5 {
@@ -56,13 +80,37 @@ pub(super) fn rim<'a>(
                 let goes_on = || covered(*x, 1.0) && covered(*x, -1.0);
                 nearest(*x) > ROOM * spacing && !goes_on()
             };
-            found.extend(beside.into_iter().find(open).map(|place| Sample {
-                place,
-                length: length / count,
+            let Some(outside) = beside.into_iter().find(open) else {
+                continue;
+            };
+            let length = length / count;
+            found.push(Sample {
+                place: outside,
+                length,
                 pressure: 0.0,
-            }));
+            });
+            let h = 0.5 * across.reach;
+            let goes_on = |heights: &[f64]| {
+                let rock = |[at, _]: &&[f64; 2]| {
+                    let beyond = place + at * h * out;
+                    let mut places = heights.iter().map(|height| beyond + height * normal);
+                    places.any(|x| nearest(x) <= 0.0)
+                };
+                let last = ON.iter().take_while(rock).last();
+                last.map_or(0.0, |[_, far]| far * h)
+            };
+            let [own, other] = [goes_on(&[-BELOW * spacing]), goes_on(&across.heights)];
+            let lost = across.lost(own.max(other));
+            let aside = across.lost(0.0) - lost;
+            let way = (own - other).total_cmp(&0.0) as i32;
+            ends.push(Edge {
+                polygon,
+                place,
+                lost: length * (lost * normal + f64::from(way) * aside * out),
+            });
         }
     }
+    ends
 }
 
 /// The edges of a convex polygon: from where, the way along it, and the unit vector out of it.

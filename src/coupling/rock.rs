@@ -46,6 +46,7 @@ pub struct Rock {
     hold: f64,
     inside: Option<f64>,
     pub(super) felt: Vec<Felt>,
+    around: Vec<Felt>,
     pub(super) inner: Vec<InnerFluid>,
     /// What blocks go back to if a step of theirs fails; its memory is used again.
     good: (Snapshot, Vec<InnerFluid>),
@@ -79,6 +80,7 @@ impl Rock {
             hold: company.hold,
             inside: company.inside,
             felt: vec![Felt::default(); blocks.len()],
+            around: vec![Felt::default(); blocks.len()],
             inner: vec![InnerFluid::default(); blocks.len()],
             good: (Snapshot::default(), Vec::new()),
             met: 0,
@@ -131,11 +133,11 @@ impl Rock {
         for (old, new) in self.felt.iter_mut().zip(felt) {
             *old = *new;
         }
-        if !self.moves() {
-            return Ok(());
-        }
-        if self.is_held() {
-            self.blocks.wait(until);
+        if !self.moves() || self.is_held() {
+            self.around.clone_from(&self.felt);
+            if self.moves() {
+                self.blocks.wait(until);
+            }
             return Ok(());
         }
         let dt = until - self.blocks.time();
@@ -157,6 +159,7 @@ impl Rock {
             let ways = poses.iter().zip(self.blocks.poses());
             let work = |(load, (from, to)): (&Load, (&Pose, Pose))| load.work(from, &to);
             self.given -= loads.iter().zip(ways).map(work).sum::<f64>();
+            self.look_around();
         }
         moved
     }
@@ -181,20 +184,57 @@ impl Rock {
     fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
         let felt = &self.felt[block];
         let made = &self.setup.setup.blocks[block];
-        let (Some(density), Motion::Free) = (self.inside, &made.motion) else {
+        let Some(density) = self.inside else {
             return sum(felt.flow, felt.buoyancy);
         };
-        let turn = pose.deformation;
+        if made.motion != Motion::Free {
+            self.inner[block].follow(pose, dt);
+            return sum(felt.flow, felt.buoyancy);
+        }
         let matter = Matter {
             mass: self.blocks.mass(block),
             volume: made.shape.volume(),
-            inertia: turn * made.shape.inertia() * turn.transpose(),
+            inertia: turned(pose, made.shape.inertia()),
             gravity: self.blocks.gravity(),
         };
         self.inner[block].load(felt, pose, &matter, density, dt)
     }
 
-    /// What each block feels of the fluid, of the last exchange.
+    /// Tells what the fluid outside does from what moved the blocks.
+    pub(super) fn look_around(&mut self) {
+        let held = self.is_held();
+        let (loads, poses): (Vec<_>, _) = (self.blocks.loads().collect(), self.blocks.poses());
+        self.around.clone_from(&self.felt);
+        let Some(density) = self.inside.filter(|_| !held) else {
+            return;
+        };
+        for (block, felt) in self.around.iter_mut().enumerate() {
+            let (made, inner) = (&self.setup.setup.blocks[block], &self.inner[block]);
+            match &made.motion {
+                Motion::Free if inner.knows() => {
+                    let [force, torque] = loads[block];
+                    let turn = torque - felt.buoyancy.torque() - felt.flow.torque();
+                    felt.flow.force = force - felt.buoyancy.force;
+                    felt.flow.moment += 0.5 * skew(turn);
+                }
+                Motion::Driven { .. } => {
+                    let shape = &made.shape;
+                    let inertia = turned(&poses[block], shape.inertia());
+                    felt.flow = inner.around(felt, inertia, shape.volume(), density);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// What the fluid around each block does to it, of the last exchange: what moves it beside its weight and its contacts,
+    /// without the inertia of the fluid inside its cells, which [`Rock::felt`] has.
+    pub fn around(&self) -> &[Felt] {
+        &self.around
+    }
+
+    /// What each block feels of the fluid, of the last exchange: what its cells take up, the inertia of the fluid inside
+    /// them included.
     pub fn felt(&self) -> &[Felt] {
         &self.felt
     }
@@ -223,4 +263,9 @@ impl Rock {
             .restore(snapshot)
             .map_err(|error| crate::Error::scene("restart", error.to_string()))
     }
+}
+
+/// A tensor of inertia as a body was made, as it lies.
+fn turned(pose: &Pose, inertia: DMat3) -> DMat3 {
+    pose.deformation * inertia * pose.deformation.transpose()
 }

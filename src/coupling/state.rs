@@ -184,6 +184,7 @@ impl Coupled {
         };
         rock.inner = state.blocks.iter().map(|block| block.inner).collect();
         rock.felt = state.blocks.iter().map(|block| block.felt).collect();
+        rock.look_around();
         let tiled: Vec<_> = blocks.iter().map(|block| block.tiled).collect();
         wet.immersed.tile(&tiled);
         wet.placed = None;

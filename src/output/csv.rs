@@ -2,6 +2,7 @@
 
 use super::replace::{failure, replace};
 use crate::{Error, Result};
+use std::cmp::Ordering;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write as _};
@@ -13,6 +14,8 @@ pub struct Csv {
     path: PathBuf,
     file: File,
     columns: usize,
+    /// The row of the step at which a run goes on, as it was.
+    written: Option<(u64, String)>,
 }
 
 impl Csv {
@@ -28,8 +31,8 @@ impl Csv {
     }
 
     /// Continues the table at `path` for a run that starts again at `step`: rows from that step
-    /// on are dropped, since the run writes them anew, and so is a last row that was cut off.
-    /// Begins a new table if there is none.
+    /// on are dropped, since the run writes them anew, and so is a last row that was cut off; that of `step` itself
+    /// comes back as it was if the run writes it. Begins a new table if there is none.
     ///
     /// # Errors
     /// [`Error::File`] if the table has other columns, holds a row without a step, or cannot be
@@ -47,6 +50,7 @@ impl Csv {
             Err(error) => return Err(failure("read", &path, &error)),
         };
         let mut kept = header.clone();
+        let mut written = None;
         for (number, line) in text.split_inclusive('\n').enumerate() {
             if number == 0 {
                 if line.trim_end() != header.trim_end() {
@@ -71,11 +75,15 @@ impl Csv {
                 );
                 return Err(Error::file(path, message));
             };
-            if found < step {
-                kept += line;
+            match found.cmp(&step) {
+                Ordering::Less => kept += line,
+                Ordering::Equal => written = Some((step, line.to_owned())),
+                Ordering::Greater => {}
             }
         }
-        Self::begin(path, columns.len(), &kept)
+        let mut table = Self::begin(path, columns.len(), &kept)?;
+        table.written = written;
+        Ok(table)
     }
 
     /// Adds a row: `step`, `time` (s), and a value for each column, all digits that f64 needs.
@@ -93,12 +101,10 @@ impl Csv {
                 ),
             ));
         }
-        let mut row = format!("{step},{time:?}");
-        for value in values {
-            // Writing to a String cannot fail.
-            let _ = write!(row, ",{value:?}");
-        }
-        row.push('\n');
+        let row = match self.written.take() {
+            Some((known, row)) if known == step => row,
+            _ => row(step, time, values),
+        };
         // One call a row: a killed run ends between rows.
         self.file
             .write_all(row.as_bytes())
@@ -115,8 +121,19 @@ impl Csv {
             path,
             file,
             columns,
+            written: None,
         })
     }
+}
+
+fn row(step: u64, time: f64, values: &[f64]) -> String {
+    let mut row = format!("{step},{time:?}");
+    for value in values {
+        // Writing to a String cannot fail.
+        let _ = write!(row, ",{value:?}");
+    }
+    row.push('\n');
+    row
 }
 
 fn header<S: AsRef<str>>(path: &Path, columns: &[S]) -> Result<String> {

@@ -4,7 +4,7 @@ use super::{Scheme, Setup, Side, fill, placed::Placed, speeds::Speeds};
 use crate::{
     Result,
     block::Form,
-    bodies::{Blocks, Motion},
+    bodies::{Block, Blocks, Motion},
     broadphase::HostBroadphase,
     coupling::{Gap, gaps},
     scene::{Advice, ProbePlace, Scene, Warning},
@@ -76,11 +76,18 @@ pub async fn advise(
         );
     }
     let reach = f64::from(setup.layers()) * spacing;
-    let thin = |form: &Form| match form {
+    let thin = |block: &Block, form: &Form| match form {
         Form::Sphere { radius } => 2.0 * radius < reach,
-        Form::Convex(part) => 2.0 * part.smallest_distance() < reach,
+        Form::Convex(part) => part.faces().iter().any(|face| {
+            // In a plane nothing is before the ends of a prism.
+            let end = setup.plane && (block.rotation * face.normal).y.abs() > 0.5;
+            2.0 * face.distance < reach && !end
+        }),
     };
-    let thin = free().filter(|block| block.shape.parts().iter().all(|part| thin(&part.form)));
+    let thin = free().filter(|block| {
+        let mut parts = block.shape.parts().iter();
+        parts.all(|part| thin(block, &part.form))
+    });
     let names: Vec<&str> = thin.map(|block| block.name.as_str()).collect();
     if let Some(first) = names.first() {
         warn(
@@ -105,7 +112,8 @@ pub async fn advise(
             "particles.spacing".into(),
             format!(
                 "{} gaps between blocks are narrower than two spacings, the narrowest of {:.2e} m between `{first}` and \
-                 `{second}`: no water goes in; close them, or use a smaller spacing",
+                 `{second}`: one layer of particles goes in at most, below half a spacing none; close them, or use a \
+                 smaller spacing",
                 narrow.len(),
                 narrowest.width
             ),

@@ -1,5 +1,6 @@
 //! Blocks and fluid together: what must be conserved, repeated, left alone and refused.
 
+mod around;
 mod balance;
 mod buoyancy;
 mod closed;

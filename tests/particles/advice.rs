@@ -3,7 +3,7 @@
 use crate::{DX, scene, tank};
 use riprap::bodies::Blocks;
 use riprap::particles::{advise, particle_setup};
-use riprap::scene::Scene;
+use riprap::scene::{BlockShape, Scene};
 use riprap::simulation::block_setup;
 
 fn warnings(scene: &Scene) -> Vec<String> {
@@ -32,6 +32,21 @@ fn shallow_water_thin_blocks_and_narrow_gaps_are_told() {
     let found = warnings(&tank(&thin).unwrap());
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].contains("1 blocks, `b` the first, are thinner than the 2.00e-1 m"));
+    // The ends of a prism in a plane, half as far apart as its sides, are no sides.
+    for (height, faults) in [(0.3, 0), (0.15, 1)] {
+        let prism = block(&format!(
+            "size = [0.5, 0.1, {height}]\nposition = [1, 0.05, 0.8]"
+        ));
+        let mut plane = tank(&prism).unwrap();
+        plane.domain.size[1] = 0.1;
+        plane.water[0].shape = BlockShape::Box {
+            size: [2.0, 0.1, 0.5],
+        };
+        plane.water[0].position[1] = 0.05;
+        plane.particles.as_mut().unwrap().plane = true;
+        let found = warnings(&plane);
+        assert_eq!(found.len(), faults, "{found:?}");
+    }
     // 7 cm above the floor: less than two spacings.
     let low = block("size = [0.5, 0.5, 0.3]\nposition = [1, 0.5, 0.22]");
     let found = warnings(&tank(&low).unwrap());

@@ -86,7 +86,10 @@ impl<E: Shown> Recorder<E> for Pictures {
         let path = self
             .folder
             .join(format!("{}_{step:06}.png", self.slice.name));
-        let drawn = slice.draw(&image, &path);
+        let drawn = match notes.keeps(step, &path) {
+            true => Ok(()),
+            false => slice.draw(&image, &path),
+        };
         notes.picture(path, drawn);
         Ok(())
     }

@@ -165,10 +165,12 @@ pub const CASES: &[Case] = &[
     short("water/still", water::still::run),
     short("water/film", water::film::run),
     short("water/submerged", water::buoyancy::submerged),
+    short("water/stacked", water::buoyancy::stacked),
     short("water/floating", water::buoyancy::floating),
     short("water/standing-wave", water::wave::run),
     short("water/dam-break", water::dam::run),
     short("water/wave-maker", water::maker::run),
+    long("water/solitary", water::solitary::run),
     long("water/schemes", water::schemes::run),
 ];
 

@@ -49,10 +49,11 @@ impl Recorder<Flow> for Fields {
     }
 
     fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
-        let image = engine.image(&self.fields)?;
         let step = engine.simulation.step();
         let path = self.folder.join(format!("fields_{step:06}.vti"));
-        write_vti(&path, &image)?;
+        if !notes.keeps(step, &path) {
+            write_vti(&path, &engine.image(&self.fields)?)?;
+        }
         self.collection.add(engine.simulation.time(), &path)?;
         notes.file(self.folder.join("fields.pvd"));
         notes.file(path);

@@ -159,7 +159,7 @@ impl Engine for Flow {
             time: simulation.time(),
             setup: &coupled.setup().setup,
             blocks: coupled.blocks(),
-            felt: &coupled.felt()[..in_fluid],
+            felt: &coupled.around()[..in_fluid],
             coupled: Some(coupled),
             shown: self.shown(),
             start: &self.start,

@@ -121,11 +121,14 @@ impl<E: Shown> Recorder<E> for Views {
     fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
         let path = self.path(&format!("_{:06}", engine.step()));
         let frame = Frame::of(engine, &self.fluid)?;
-        let kept = self.wanted(engine.step()).then(|| frame.clone());
-        let stage = self.stage(engine, &frame);
-        let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));
+        let wanted = self.wanted(engine.step()).then(|| frame.clone());
+        let kept = notes.keeps(engine.step(), &path);
+        let drawn = self.stage(engine, &frame).and_then(|stage| match kept {
+            true => Ok(()),
+            false => stage.draw(frame)?.save(&path),
+        });
         notes.picture(path, drawn);
-        self.strip.extend(kept);
+        self.strip.extend(wanted);
         Ok(())
     }
 

@@ -69,6 +69,53 @@ pub fn submerged(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
+/// Gaps between two boxes, spacings.
+const GAPS: [f64; 4] = [0.0, 0.75, 1.4, 2.0];
+
+/// Archimedes' law for a box over another one with flush sides, at gaps that water fills and pushes in with a part of its
+/// pressure only: the error is told of what the whole pressure on the base is, which with no joint would be missing at
+/// the first gap, and pressed twice at the third with a joint that knew nothing of the water in it.
+pub fn stacked(stand: &Stand) -> Outcome {
+    let (under, mut records) = (6.0 * SPACING, Vec::new());
+    for gap in GAPS {
+        let base = under + gap * SPACING;
+        let boxes = [("under", 0.0, under), ("over", base, EDGE)].map(|(name, low, height)| {
+            format!(
+                r#"
+                [[blocks]]
+                name = "{name}"
+                kind = "box"
+                size = [{EDGE}, 1, {height}]
+                position = [{}, 0.5, {}]
+                motion = "fixed"
+                [[probes]]
+                name = "{name}"
+                kind = "block"
+                block = "{name}"
+                "#,
+                0.5 * LENGTH,
+                low + 0.5 * height
+            )
+        });
+        let size = [LENGTH, 1.5 * DEPTH];
+        let scene = pool::scene(size, SPACING, [LENGTH, DEPTH], &boxes.concat())?;
+        let mut pool = Pool::fill(stand, &scene)?;
+        pool.advance(2.0)?;
+        let mut up = 0.0;
+        for look in 1..=LOOKS {
+            pool.advance(2.0 + 0.05 * f64::from(look))?;
+            up += pool.felt(1).flow.force.z / f64::from(LOOKS);
+        }
+        let push = 1000.0 * GRAVITY * EDGE;
+        let trial = pool.trial("stacked boxes");
+        let name = format!("push beyond ρVg / pressure on the base, gap of {gap} spacings");
+        let error = (up - push * EDGE) / (push * (DEPTH - base));
+        let limit = if gap == 0.0 { 0.02 } else { 0.1 };
+        records.push(trial.absolute(name, error, 0.0, limit));
+    }
+    Ok(records)
+}
+
 /// Drafts of boxes that float, a spacing too high at the start, over what Archimedes' law has; the smaller one, of
 /// four spacings, only tells how the error grows.
 pub fn floating(stand: &Stand) -> Outcome {

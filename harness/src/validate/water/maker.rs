@@ -83,7 +83,7 @@ pub fn run(stand: &Stand) -> Outcome {
 }
 
 /// The level of the water at x: the area of the particles in a column four spacings wide, over its width.
-fn level(positions: &[glam::DVec3], x: f64, spacing: f64) -> f64 {
+pub fn level(positions: &[glam::DVec3], x: f64, spacing: f64) -> f64 {
     // Each particle is a square of water: its share of the column is exact, so that the level is not one of layers.
     let half = 2.0 * spacing;
     let share = |place: f64| {

@@ -7,5 +7,6 @@ pub mod dam;
 pub mod film;
 pub mod maker;
 pub mod schemes;
+pub mod solitary;
 pub mod still;
 pub mod wave;

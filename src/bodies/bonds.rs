@@ -42,6 +42,7 @@ impl Scene<'_> {
             normal: now.normal,
             overlap: now.overlap,
             area: seam.area,
+            section: seam.area,
             width: seam.width(),
             limit: 0.1 * first.smallest_distance.min(second.smallest_distance),
             force: law::Force {

@@ -22,6 +22,8 @@ pub struct ContactPoint {
     pub overlap: f64,
     /// Area that its springs count with, m².
     pub area: f64,
+    /// Area of the section itself, m², with which cohesion counts: less than `area` where that is of a corner.
+    pub section: f64,
     /// Whether its tensile strength still holds.
     pub bonded: bool,
 }
@@ -37,6 +39,7 @@ impl ContactPoint {
             force: touch.force.total(),
             overlap: touch.overlap,
             area: touch.area,
+            section: touch.section,
             bonded: touch.force.history.bonded,
         }
     }

@@ -51,6 +51,19 @@ impl Blocks {
         self.periods.as_ref().map(|periods| periods.period)
     }
 
+    /// Ways by which the second of two blocks is to be moved that is `apart` (m) from the first, to be within `near` (m) of it
+    /// along each axis, m; along axes of which one fills the period only that to the nearest, as the others lie in it.
+    pub(crate) fn ways(&self, blocks: [usize; 2], apart: DVec3, near: f64) -> Vec<DVec3> {
+        let Some(periods) = &self.periods else {
+            return vec![DVec3::ZERO];
+        };
+        let filled = |axis: usize| blocks.iter().any(|&block| periods.filled[block][axis]);
+        let nearest = periods.period.nearest(apart);
+        let mut ways = periods.period.ways(apart, near);
+        ways.retain(|way| (0..3).all(|axis| !filled(axis) || way[axis] == nearest[axis]));
+        ways
+    }
+
     /// Of each of [`Blocks::items`] its part and the way by which it is moved, m.
     pub(crate) fn images(&self) -> Vec<(usize, DVec3)> {
         let Some(periods) = &self.periods else {

@@ -186,6 +186,7 @@ impl Scene<'_> {
                 seam: Seam::default(),
                 overlap: 0.0,
                 area: 0.0,
+                section: 0.0,
                 force: law::Force {
                     history: unbonded(touch),
                     ..law::Force::default()
@@ -280,6 +281,7 @@ impl Scene<'_> {
             normal: contact.normal,
             overlap: contact.overlap,
             area: section.elastic_area,
+            section: section.area,
             width: contact.width,
             limit: contact.limit,
             force: law::force(joint, &section, &motion, &history),

@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 4\n";
+const MAGIC: &[u8; 16] = b"riprap blocks 5\n";
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
@@ -111,14 +111,18 @@ impl Blocks {
                 && (pair.touch == super::touch::NONE
                     || (pair.touch as usize) < snapshot.touches.len())
         };
+        let own = |touch: &Touch| {
+            touch
+                .parts
+                .iter()
+                .zip(touch.blocks)
+                .all(|(&part, block)| self.parts.block.get(part as usize) == Some(&block))
+        };
         let fits = snapshot.states.len() == self.len()
             && snapshot.strains.len() == self.deforming.strains.len()
             && (snapshot.marks.is_empty() || snapshot.marks.len() == self.len())
             && snapshot.pairs.iter().all(known)
-            && snapshot
-                .touches
-                .iter()
-                .all(|touch| touch.blocks.iter().all(|&block| block < blocks))
+            && snapshot.touches.iter().all(own)
             && snapshot
                 .films
                 .iter()
@@ -214,6 +218,7 @@ fields!(Touch {
     normal,
     overlap,
     area,
+    section,
     width,
     limit,
     force,

@@ -54,6 +54,8 @@ pub(super) struct Touch {
     pub overlap: f64,
     /// That its springs count with, m²; 0 while the pair touches within rounding.
     pub area: f64,
+    /// Of the section itself, which strength counts with, m².
+    pub section: f64,
     /// m.
     pub width: f64,
     /// Overlap from which the blocks are no longer hard, m.

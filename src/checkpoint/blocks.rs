@@ -45,9 +45,7 @@ impl BlockCheckpoint {
         };
         let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|k| header[at + k]));
         let snapshot = Snapshot::from_bytes(rest).map_err(|error| match error {
-            Error::Scene { message, .. } => {
-                Error::file(path, format!("{message}; use an older checkpoint"))
-            }
+            Error::Scene { message, .. } => Error::file(path, message),
             other => other,
         })?;
         Ok(Self {
@@ -55,5 +53,40 @@ impl BlockCheckpoint {
             time_step: f64::from_bits(word(8)),
             snapshot,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What an older version wrote stays refused however old the file; what is cut short has older ones that are not.
+    #[test]
+    fn only_a_file_that_is_cut_short_sends_to_an_older_one() {
+        let name = format!("riprap_blocks_{}.checkpoint", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let checkpoint = BlockCheckpoint {
+            step: 1,
+            time_step: 0.1,
+            snapshot: Snapshot::default(),
+        };
+        checkpoint.write(&path).expect("a folder to write to");
+        let whole = std::fs::read(&path).expect("the file");
+        let refusal = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).expect("a folder to write to");
+            let error = BlockCheckpoint::read(&path).expect_err("it is spoilt");
+            error.to_string()
+        };
+        let mut before = whole.clone();
+        // The version.
+        before[14] = b'1';
+        let version = refusal(&before);
+        let cut = refusal(&whole[..whole.len() - 1]);
+        std::fs::remove_file(&path).expect("the file");
+        assert!(
+            version.contains("version 1") && !version.contains("older"),
+            "{version}"
+        );
+        assert_eq!(cut.matches("use an older").count(), 1, "{cut}");
     }
 }

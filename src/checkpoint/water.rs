@@ -145,9 +145,7 @@ impl WaterCheckpoint {
             given: f64::from_bits(word(20)),
             loads: loads.into_iter().map(load).collect(),
             blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
-                Error::Scene { message, .. } => {
-                    Error::file(path, format!("{message}; use an older checkpoint"))
-                }
+                Error::Scene { message, .. } => Error::file(path, message),
                 other => other,
             })?,
         })

@@ -5,6 +5,9 @@ use glam::{DMat3, DVec2, DVec3};
 
 /// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
 const CLOSED: f64 = 1e-9;
+/// Least area of a patch, as a share of the square of that radius: parts that touch with an edge alone have one of the
+/// width of rounding, over which nothing is glued.
+const LEAST: f64 = 1e-6;
 
 /// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
 /// the axes of its block's frame, before it deforms.
@@ -42,14 +45,19 @@ pub struct Opened {
 }
 
 impl Seam {
-    /// The seam of two parts that touch or overlap, if they do so with faces that are parallel to 5°.
+    /// The seam of two parts that touch or overlap, if they do so with faces that are parallel to 5°, and not along an
+    /// edge alone.
     pub fn between(first: &Placed, second: &Placed) -> Option<Self> {
         if first.is_sphere() || second.is_sphere() {
             return None;
         }
-        let range = CLOSED * first.radius.min(second.radius);
+        let radius = first.radius.min(second.radius);
+        let range = CLOSED * radius;
         let meeting = meeting(first, second, range).filter(|meeting| meeting.flatness == 1.0)?;
         let seconds = meeting.polygon.second_moments()?;
+        if seconds.area <= LEAST * radius * radius {
+            return None;
+        }
         let normal = meeting.normal();
         let overlap = -(meeting.gap + meeting.slope.dot(seconds.centre));
         let point = meeting.lift(seconds.centre) - meeting.out * (0.5 * overlap);
@@ -122,7 +130,7 @@ impl Opened {
             + least(-self.tilts[0], seam.extents[1])
     }
 
-    /// Moment of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point, over
+    /// Moment of bending alone: a bond has no spring in torsion, about its normal. That of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point, over
     /// its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments.
     pub fn moment(&self, seam: &Seam) -> DVec3 {
         let [first, second] = seam.seconds;

@@ -12,7 +12,7 @@
 //!
 //! A bond is a contact whose springs pull too: it keeps the area that it began with, and bends over it as an elastic
 //! bed. It breaks, for good, where its tension reaches σ_t at a corner, or where it has slipped by σ_t/k_s: as far as
-//! it opens before it breaks. What is left is the contact without tension.
+//! it opens before it breaks. It has no spring against a twist about its normal, which dashpots slow alone. What is left is the contact without tension.
 
 use super::Joint;
 use glam::{DQuat, DVec3};

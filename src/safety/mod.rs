@@ -35,6 +35,9 @@ pub use uplift::uplift;
 
 /// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.
 const ROUNDING: f64 = 1e-7;
+/// Angle by which a way may lead into a plane and is open, rad: normals of contacts tilt by 1e-6 to 1e-4, the overlap of
+/// their faces over the width.
+const TILT: f64 = 1e-3;
 
 /// What resists over what drives; infinite where nothing drives but rounding of the `whole`.
 fn factor(resisting: f64, driving: f64, whole: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! Safety against sliding on one plane or on two.
 
-use super::{ROUNDING, factor};
+use super::{ROUNDING, TILT, factor};
 use glam::DVec3;
 
 /// A plane on which a block stands, or that holds it.
@@ -75,11 +75,11 @@ pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     least.unwrap_or(Sliding::none(f64::INFINITY, Mode::Held))
 }
 
-/// Whether the way `along` leads into none of the planes but `own`.
+/// Whether the way `along`, a unit vector, leads into none of the planes but `own`.
 fn is_open(along: DVec3, planes: &[Plane], own: &[usize]) -> bool {
     let others = planes.iter().enumerate().filter(|(n, _)| !own.contains(n));
     others.fold(true, |open, (_, plane)| {
-        open && along.dot(plane.normal) >= -ROUNDING
+        open && along.dot(plane.normal) >= -TILT
     })
 }
 
@@ -204,6 +204,23 @@ mod tests {
         assert!((up.factor - 5.0 * tan).abs() < 1e-12);
         let off = sliding(DVec3::new(-5.0, 0.0, 1.0), &[floor, wall]);
         assert_eq!((off.mode, off.factor), (Mode::Lifting, 0.0));
+    }
+
+    /// The normals of contacts tilt a little: a lane between walls that converge by as much is open.
+    #[test]
+    fn a_lane_between_two_walls_is_open_up_to_the_tilt_of_contacts() {
+        let floor = plane(0.0, 0.0, 35.0);
+        let between = |tilt: f64| {
+            let wall = |side: f64| Plane {
+                normal: DVec3::new(-tilt, side, 0.0).normalize(),
+                ..floor
+            };
+            let planes = [floor, wall(1.0), wall(-1.0)];
+            sliding(DVec3::new(2.0, 0.0, -10.0), &planes).factor
+        };
+        let tan = 35f64.to_radians().tan();
+        assert!((between(1e-5) - 5.0 * tan).abs() < 1e-3);
+        assert_eq!(between(0.01), f64::INFINITY);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The safety of a block among its neighbours.
 
-use super::{Base, Plane, Sliding, sliding, toppling, touching::touching, uplift};
+use super::{Base, Plane, Sliding, TILT, sliding, toppling, touching::touching, uplift};
 use crate::bodies::{Blocks, Setup};
 use glam::DVec3;
 
@@ -28,9 +28,22 @@ struct Support {
     corners: Vec<DVec3>,
 }
 
+impl Support {
+    /// Whether a block may begin to turn about an axis through `edge`: none of the corners then moves into the plane, by
+    /// more than the tilt of contacts over their distance from the axis. Where one is on the axis itself, rounding gives its way,
+    /// so that the distance is that of the farthest.
+    fn lets_turn(&self, axis: DVec3, edge: DVec3) -> bool {
+        let ways = self.corners.iter().map(|x| axis.cross(*x - edge));
+        let farthest = ways.clone().map(DVec3::length).fold(0.0, f64::max);
+        let into = ways.map(|way| -way.dot(self.plane.normal));
+        into.fold(0.0, f64::max) <= TILT * farthest
+    }
+}
+
 impl Standing {
     /// Of the block `block` of `blocks`, which were made of `setup`, under the `force` (N) and `torque` about its
-    /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too.
+    /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too,
+    /// but no guide of it: one that holds it is left out.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize, [force, torque]: [DVec3; 2]) -> Self {
         let pose = blocks.poses()[block];
         let weight = blocks.mass(block) * blocks.gravity();
@@ -47,13 +60,11 @@ impl Standing {
             normal: support.plane.normal,
             corners: support.corners.clone(),
         });
-        // As its corners begin to move, none may move into a neighbour of another plane.
+        let others = supports.iter();
+        let others = others.filter(|support| support.plane.normal != base.normal);
         let open = |axis: DVec3, edge: DVec3| {
-            supports.iter().all(|support| {
-                let own = support.plane.normal == base.normal;
-                let mut ways = support.corners.iter().map(|x| axis.cross(*x - edge));
-                own || ways.all(|way| way.dot(support.plane.normal) >= 0.0)
-            })
+            let mut others = others.clone();
+            others.all(|support| support.lets_turn(axis, edge))
         };
         Self {
             sliding: sliding(resultant, &planes),
@@ -87,4 +98,37 @@ fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
         support.corners.extend(touch.corners);
     }
     supports
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wall beside a block that topples along it, whose normal leans by `tilt` (rad) against the way.
+    fn beside(tilt: f64) -> Support {
+        let corner = |(x, z)| DVec3::new(x, 0.0, z);
+        Support {
+            plane: Plane {
+                normal: DVec3::new(tilt, 1.0, 0.0).normalize(),
+                ..Plane::default()
+            },
+            corners: [(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0)]
+                .map(corner)
+                .into(),
+            ..Support::default()
+        }
+    }
+
+    #[test]
+    fn a_wall_along_the_way_holds_no_edge_whatever_the_tilt_of_its_contact() {
+        for axis in [DVec3::Y, -DVec3::Y] {
+            for tilt in [1e-6, -1e-6, 1e-4, -1e-4] {
+                assert!(beside(tilt).lets_turn(axis, DVec3::ZERO), "{axis} {tilt}");
+            }
+        }
+        assert!(!beside(0.01).lets_turn(-DVec3::Y, DVec3::ZERO));
+        // Into the wall itself.
+        assert!(!beside(0.0).lets_turn(DVec3::X, DVec3::ZERO));
+        assert!(beside(0.0).lets_turn(-DVec3::X, DVec3::ZERO));
+    }
 }

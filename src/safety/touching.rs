@@ -1,9 +1,9 @@
-//! What a block touches: its contacts, or where it has none yet the faces that lie on it.
+//! What a block touches: its contacts, and where none are known the faces that lie on others.
 
 use super::patch::patch;
 use crate::{
-    block::{Form, Part},
-    bodies::{Blocks, ContactPoint, Pose, Setup},
+    block::{Form, Part, Shape},
+    bodies::{Blocks, ContactPoint, Motion, Pose, Setup},
     contact::Placed,
     immersed::{area_of, corners},
 };
@@ -28,16 +28,17 @@ pub(super) struct Touching {
     pub corners: Vec<DVec3>,
 }
 
-/// The contacts of a block. One that has just been put somewhere, or is held, has none: then the patches of its plane
-/// faces that lie on others.
+/// The contacts of a block. One that has just been put somewhere has none, and one that forces do not move has none with
+/// others of that kind: with those that it has no contact with, the patches of its plane faces that lie on them.
 pub(super) fn touching(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Touching> {
     let poses = blocks.poses();
     let own = blocks.contacts().filter(|c| c.blocks.contains(&block));
-    let contacts: Vec<_> = own.map(|c| of_contact(setup, &poses, block, &c)).collect();
-    if contacts.is_empty() {
-        return faces_on_others(setup, &poses, block);
+    let mut all: Vec<_> = own.map(|c| of_contact(setup, &poses, block, &c)).collect();
+    if all.is_empty() || setup.blocks[block].motion != Motion::Free {
+        let known: Vec<usize> = all.iter().map(|touch| touch.other).collect();
+        all.extend(faces_on_others(setup, blocks, block, &known));
     }
-    contacts
+    all
 }
 
 fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoint) -> Touching {
@@ -62,42 +63,70 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
         } else {
             -contact.normal
         },
-        area: contact.area,
+        area: contact.section,
         corners,
     }
 }
 
-fn faces_on_others(setup: &Setup, poses: &[Pose], block: usize) -> Vec<Touching> {
+/// The patches of the plane faces of a block that lie on others, or on the images of others where space repeats, without
+/// those that are `known`.
+fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]) -> Vec<Touching> {
     let shape = &setup.blocks[block].shape;
+    let poses = blocks.poses();
     let (pose, radius) = (&poses[block], shape.radius());
     let mut found = Vec::new();
-    for (other, (made, its)) in setup.blocks.iter().zip(poses).enumerate() {
+    for (other, (made, its)) in setup.blocks.iter().zip(&poses).enumerate() {
         let near = (1.0 + CLOSED) * radius + made.shape.radius();
-        if other == block || pose.centre.distance(its.centre) > near {
+        if other == block || known.contains(&other) {
             continue;
         }
-        for its in made.shape.parts().iter().map(|part| Placed::of(part, its)) {
-            for part in shape.parts() {
-                let Form::Convex(own) = &part.form else {
-                    continue;
-                };
-                for face in 0..own.faces().len() {
-                    let polygon = corners(own, face, part.offset, pose);
-                    let out = area_of(&polygon).1.normalize_or_zero();
-                    let shifted = polygon.iter().map(|x| x + CLOSED * radius * out);
-                    let corners = its.clipped(shifted.collect());
-                    let area = area_of(&corners).1.length();
-                    if area > AREA * radius * radius {
-                        found.push(Touching {
-                            other,
-                            normal: -out,
-                            area,
-                            corners,
-                        });
-                    }
+        let apart = its.centre - pose.centre;
+        let ways = blocks.ways([block, other], apart, near);
+        let within = ways.iter().filter(|way| (apart + **way).length() <= near);
+        for way in within {
+            let image = Pose {
+                centre: its.centre + *way,
+                ..*its
+            };
+            faces_on(
+                (other, made.shape.parts()),
+                &image,
+                (shape, pose),
+                &mut found,
+            );
+        }
+    }
+    found
+}
+
+/// The patches of the plane faces of a shape that lie on the parts of another block at `image`.
+fn faces_on(
+    (other, parts): (usize, &[Part]),
+    image: &Pose,
+    (shape, pose): (&Shape, &Pose),
+    found: &mut Vec<Touching>,
+) {
+    let radius = shape.radius();
+    for its in parts.iter().map(|part| Placed::of(part, image)) {
+        for part in shape.parts() {
+            let Form::Convex(own) = &part.form else {
+                continue;
+            };
+            for face in 0..own.faces().len() {
+                let polygon = corners(own, face, part.offset, pose);
+                let out = area_of(&polygon).1.normalize_or_zero();
+                let shifted = polygon.iter().map(|x| x + CLOSED * radius * out);
+                let corners = its.clipped(shifted.collect());
+                let area = area_of(&corners).1.length();
+                if area > AREA * radius * radius {
+                    found.push(Touching {
+                        other,
+                        normal: -out,
+                        area,
+                        corners,
+                    });
                 }
             }
         }
     }
-    found
 }

@@ -28,7 +28,7 @@ pub struct Material {
     /// and breaks for good where its tension reaches σ_t at an edge, or where it has slipped by σ_t/k_s; cohesion and
     /// friction stay. Under tension its shear strength is the cohesion alone. A weight that comes on at once, as that of
     /// a block that hangs from the start, swings to as much as twice itself: damping takes from that. Edges, corners and
-    /// spheres have no bonds. Default 0.
+    /// spheres have no bonds, and no bond resists a twist about its normal by a spring. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at

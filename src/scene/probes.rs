@@ -91,7 +91,7 @@ pub enum ProbePlace {
         /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
         /// `safety_toppling`, by limit equilibrium of weight, fluid, point loads, acceleration and its contacts, and to tell
         /// them in the summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. In closed joints they
-        /// take the pressure of their rim in the lattice's fluid. Default false.
+        /// take the pressure of their rim in the lattice's fluid. Not of a block with a `guide`. Default false.
         #[schemars(default)]
         safety: bool,
     },

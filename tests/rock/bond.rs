@@ -204,3 +204,16 @@ fn a_sleeper_hangs_on() {
     let pull: f64 = blocks.contacts().map(|contact| contact.force.z).sum();
     assert!((pull / WEIGHT - 1.0).abs() < 1e-3, "{pull} N");
 }
+
+/// Faces that meet along an edge alone, within the rounding of scenes, glue nothing.
+#[test]
+fn an_edge_holds_no_bond() {
+    for width in [1e-8, 1e-2] {
+        let mut setup = hanging(tensile(1e5), 0.0);
+        setup.blocks[1].centre.x = 0.5 + 0.1 - width;
+        let mut blocks = blocks(setup);
+        run(&mut blocks, 1e-3);
+        let bonds = blocks.contacts().filter(|contact| contact.bonded).count();
+        assert_eq!(bonds, usize::from(width > 1e-3), "{width} m");
+    }
+}

@@ -2,7 +2,10 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
-use riprap::bodies::{Block, Blocks, Setup, Snapshot};
+use riprap::{
+    block::{Form, Part, Polyhedron, Shape},
+    bodies::{Block, Blocks, Setup, Snapshot},
+};
 
 /// A wall of five courses of sixteen, laid crookedly: more contacts than one thread takes at a time.
 fn wall() -> Setup {
@@ -82,4 +85,32 @@ fn five_fixed_blocks_and_a_moving_one_cost_what_one_costs() {
     assert!(one.counts().pairs > 100);
     assert_eq!(one.counts(), five.counts());
     assert_eq!(five.candidates(), 1);
+}
+
+/// As many blocks and parts, but another one of the blocks is the compound: its contacts are not of these parts.
+#[test]
+fn a_snapshot_of_other_compounds_is_refused() {
+    let part = |x: f64| Part {
+        form: Form::Convex(Polyhedron::cuboid(DVec3::ONE).expect("a cube")),
+        offset: DVec3::X * x,
+    };
+    let of = |double: usize| {
+        let block = |n: usize| {
+            let at = DVec3::Z * (0.9999 * n as f64);
+            if n == double {
+                let parts = vec![part(-0.5), part(0.5)];
+                let (shape, _) = Shape::compound(parts).expect("two cubes");
+                Block::new("double", shape, at)
+            } else {
+                Block::new("single", cuboid(1.0, 1.0, 1.0), at)
+            }
+        };
+        blocks(setup(vec![block(0).fixed(), block(1)], joint(1e7, 30.0)))
+    };
+    let mut upper = of(1);
+    run(&mut upper, 1e-3);
+    assert!(upper.contacts().count() > 0);
+    let message = of(0).restore(&upper.snapshot()).expect_err("other parts");
+    assert!(message.to_string().contains("another scene"), "{message}");
+    of(1).restore(&upper.snapshot()).expect("the same parts");
 }

@@ -8,7 +8,8 @@ use crate::{
 };
 use glam::DVec3;
 use riprap::{
-    bodies::{Block, PointLoad, Setup},
+    bodies::{Block, Period, PointLoad, Setup},
+    law::Joint,
     safety::{Mode, Standing},
 };
 
@@ -123,4 +124,71 @@ fn point_loads_and_accelerations_drive() {
     }
     assert_eq!([pushed[2], accelerated[2]], [f64::INFINITY; 2]);
     assert_eq!(standing(&|_| {}), [f64::INFINITY; 3]);
+}
+
+/// A block that is held has no contacts with a floor that is held: it stands on it all the same, whatever lies on it.
+#[test]
+fn a_held_block_stands_on_what_is_held_too() {
+    let floor = Block::new("floor", cuboid(4.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
+    let held = Block::new("held", cuboid(0.4, 0.4, 0.4), DVec3::Z * 0.2).fixed();
+    let above = Block::new("above", cuboid(0.2, 0.2, 0.2), DVec3::Z * 0.5);
+    let setup = setup(vec![floor, held, above], joint(1e9, 45.0));
+    let mut blocks = blocks(setup.clone());
+    run(&mut blocks, 0.1);
+    assert!(blocks.contacts().any(|contact| contact.blocks == [1, 2]));
+    let weight = 0.064 * 2500.0 * 9.81;
+    let push = DVec3::X * 0.5 * weight;
+    let found = Standing::of(&setup, &blocks, 1, [push, DVec3::ZERO]);
+    assert!((found.sliding.factor / 2.0 - 1.0).abs() < 1e-6, "{found:?}");
+}
+
+/// The pillar reaches 0.2 m beyond the border, where space repeats, and the block stands on that with its left end.
+#[test]
+fn a_block_stands_on_the_image_of_another() {
+    let pillar = Block::new("pillar", cuboid(0.4, 1.0, 1.0), DVec3::Z * -0.5).fixed();
+    let block = Block::new("block", cuboid(1.0, 0.4, 0.5), DVec3::new(1.5, 0.0, 0.25));
+    let joint = Joint {
+        cohesion: 1e4,
+        ..joint(1e9, 45.0)
+    };
+    let mut setup = setup(vec![pillar, block], joint);
+    setup.period = Some(Period {
+        origin: DVec3::ZERO,
+        size: DVec3::new(2.0, f64::INFINITY, f64::INFINITY),
+    });
+    let weight = 0.2 * 2500.0 * 9.81;
+    let push = DVec3::Y * weight;
+    let found = Standing::of(&setup, &blocks(setup.clone()), 1, [push, DVec3::ZERO]);
+    // The block reaches from 1 to 2 m, the image of the pillar from 1.8 m on.
+    let exact = (1e4 * 0.2 * 0.4 + weight) / weight;
+    // A ten-thousandth of the radius is how far faces may be apart.
+    assert!(
+        (found.sliding.factor / exact - 1.0).abs() < 1e-3,
+        "{found:?}"
+    );
+}
+
+/// A block on the edges of two pillars: its springs count with a corner's area, cohesion with that which is there.
+#[test]
+fn cohesion_counts_with_the_section_and_not_with_the_area_of_corners() {
+    let pillar = |x: f64| {
+        let at = DVec3::new(x, 0.0, -0.05);
+        Block::new(format!("pillar at {x}"), cuboid(0.1, 0.1, 0.1), at).fixed()
+    };
+    let block = Block::new("block", cuboid(0.2, 0.2, 0.2), DVec3::Z * 0.1);
+    let joint = Joint {
+        cohesion: 1e4,
+        ..joint(1e9, 45.0)
+    };
+    let mut setup = setup(vec![pillar(-0.1), pillar(0.1), block], joint);
+    setup.corner_area = 1.0;
+    setup.damping = 50.0;
+    let mut blocks = blocks(setup.clone());
+    run(&mut blocks, 0.1);
+    assert_eq!(blocks.contacts().count(), 2);
+    let weight = 0.008 * 2500.0 * 9.81;
+    let push = DVec3::Y * weight;
+    let found = Standing::of(&setup, &blocks, 2, [push, DVec3::ZERO]).sliding;
+    let exact = (1e4 * 0.01 + weight) / weight;
+    assert!((found.factor / exact - 1.0).abs() < 1e-3, "{found:?}");
 }

@@ -539,3 +539,17 @@ fn a_probe_of_a_block_may_ask_for_its_faces_and_its_safety() {
         &["probes[0].faces", "`step` is a solid"],
     );
 }
+
+/// A guide holds a block beside its contacts, of which alone factors of safety know.
+#[test]
+fn the_safety_of_a_guided_block_is_refused() {
+    let probe =
+        "\n[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"block_1\"\nsafety = true\n";
+    setup(&format!("{CUBE}{probe}")).unwrap();
+    let guided = CUBE.replace("size = [1, 2, 3]", "size = [1, 2, 3]\nguide = [0, 0, 1]");
+    setup(&guided).unwrap();
+    refused(
+        setup(&format!("{guided}{probe}")),
+        &["probes[0].safety", "`block_1`", "guide"],
+    );
+}

@@ -94,6 +94,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     }
     check_names(scene, &setup)?;
     check_faces(scene, &setup.blocks[in_fluid..])?;
+    check_safety(scene, &setup)?;
     check_domain(scene, &setup)?;
     Ok(BlockSetup {
         setup,
@@ -200,6 +201,32 @@ fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
                 format!(
                     "`{block}` is a solid, whose cells the fluid does not enter; use a probe of the kind `face`, or \
                      make it a block with motion = \"fixed\""
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Probes ask for the safety of blocks that nothing but contacts holds.
+fn check_safety(scene: &Scene, setup: &Setup) -> Result<()> {
+    let guided = |name: &str| {
+        let mut guides = setup.guides.iter();
+        guides.any(|guide| setup.blocks[guide.block].name == name)
+    };
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block {
+            block,
+            safety: true,
+            ..
+        } = &probe.place
+            && guided(block)
+        {
+            return Err(Error::scene(
+                format!("probes[{index}].safety"),
+                format!(
+                    "`{block}` slides along a guide, which holds it beside its contacts, and factors of safety know \
+                     contacts alone; remove `safety`, or the guide of the block"
                 ),
             ));
         }

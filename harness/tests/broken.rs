@@ -132,6 +132,7 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
     let mut more = riprap(&folder, 60, "full");
     let more = more.arg("--restart").arg(&state).output().unwrap();
     assert!(more.status.success(), "{}", said(&more));
+    assert!(!said(&more).contains("another scene"), "{}", said(&more));
     let of = |out: &str, file: &str| fs::read(folder.join(out).join(file)).unwrap();
     for file in ["checkpoint.riprap", last] {
         assert!(of("full", file) == of("good", file), "{file}");

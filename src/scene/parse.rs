@@ -49,8 +49,14 @@ impl Scene {
 
 /// The error of a text that does not follow the format.
 fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
-    let at = error.span().map(|span| position(text, span.start));
-    let message = explain(error.message());
+    let span = error.span();
+    let at = span.clone().map(|span| position(text, span.start));
+    let message = match (error.message(), span.and_then(|span| text.get(span))) {
+        ("duplicate key", Some(key)) => {
+            format!("`{key}` stands twice in its table; keep one of the two")
+        }
+        (message, _) => explain(message),
+    };
     // Without its input the error prints the path of keys at which it arose.
     error.set_input(None);
     let printed = error.to_string();
@@ -83,6 +89,19 @@ fn locate(error: Error, text: &str, place: &str) -> Error {
             },
             message,
         },
+        Error::Overlaps { mut pairs } => {
+            for pair in &mut pairs {
+                for block in [&mut pair.first, &mut pair.second] {
+                    let name = block
+                        .split_once(" (")
+                        .map(|(_, name)| name.trim_end_matches(')'));
+                    if let Some((line, _)) = name.and_then(|name| find_block(text, name)) {
+                        *block = format!("{block} of {place}:{line}");
+                    }
+                }
+            }
+            Error::Overlaps { pairs }
+        }
         other => other,
     }
 }
@@ -90,6 +109,9 @@ fn locate(error: Error, text: &str, place: &str) -> Error {
 /// Line and column of the value at the path `key` such as `probes[1].at`, or of the nearest
 /// table around it that is written in the text.
 fn find(text: &str, key: &str) -> Option<(usize, usize)> {
+    if let Some(name) = key.strip_prefix("block ") {
+        return find_block(text, name);
+    }
     let document = toml::de::DeTable::parse(text).ok()?;
     let mut steps = key.split(['.', '[']);
     let mut found = document.get_ref().get(steps.next()?)?;
@@ -102,6 +124,30 @@ fn find(text: &str, key: &str) -> Option<(usize, usize)> {
         let Some(next) = next else { break };
         found = next;
     }
+    Some(position(text, found.span().start))
+}
+
+/// Line and column of the table that makes the block `name`, or many of which it is one, `name_3` of `name`.
+fn find_block(text: &str, name: &str) -> Option<(usize, usize)> {
+    let document = toml::de::DeTable::parse(text).ok()?;
+    let tables = ["blocks", "solids", "rock_masses"].into_iter();
+    let tables = tables.filter_map(|key| document.get_ref().get(key)?.get_ref().as_array());
+    let mut tables = tables.flatten();
+    let makes = |own: &str| {
+        let rest = name.strip_prefix(own);
+        let number = |rest: &str| {
+            rest.strip_prefix('_')
+                .is_some_and(|n| n.parse::<u64>().is_ok())
+        };
+        rest.is_some_and(|rest| rest.is_empty() || number(rest))
+    };
+    let found = tables.find(|table| {
+        let own = table
+            .get_ref()
+            .get("name")
+            .and_then(|own| own.get_ref().as_str());
+        own.is_some_and(makes)
+    })?;
     Some(position(text, found.span().start))
 }
 

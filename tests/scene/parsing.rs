@@ -1,6 +1,6 @@
 //! Text that does not follow the format is refused with line, column and a guess.
 
-use riprap::scene::Scene;
+use riprap::{Error, error::Overlap, scene::Scene};
 
 use crate::{changed, channel, read, refused};
 
@@ -179,4 +179,49 @@ proptest::proptest! {
         };
         let _ = read(&broken);
     }
+}
+
+#[test]
+fn a_key_that_stands_twice_is_named() {
+    refused(
+        channel("[output]\nfields_every = 1\nfields_every = 2\n"),
+        &[
+            "channel.toml:11:1",
+            "`fields_every` stands twice",
+            "keep one",
+        ],
+    );
+}
+
+/// Errors that know only the name of a block find the table that makes it, and so do blocks that overlap.
+#[test]
+fn blocks_have_the_line_of_their_table() {
+    let text = "[[blocks]]\nname = \"a\"\n[[blocks]]\nname = \"tower\"\nrepeat = 3\n";
+    let located = |error| Scene::locate(error, text, "pile.toml").to_string();
+    let outside = |name: &str| located(Error::scene(format!("block {name}"), "lies outside"));
+    assert!(
+        outside("a").starts_with("pile.toml:1:1: block a"),
+        "{}",
+        outside("a")
+    );
+    assert!(
+        outside("tower_2").starts_with("pile.toml:3:1:"),
+        "{}",
+        outside("tower_2")
+    );
+    assert!(
+        outside("towers").starts_with("pile.toml: block"),
+        "{}",
+        outside("towers")
+    );
+    let pairs = vec![Overlap {
+        first: "blocks[0] (a)".into(),
+        second: "blocks[2] (tower_2)".into(),
+        depth: 0.1,
+    }];
+    let told = located(Error::Overlaps { pairs });
+    assert!(
+        told.contains("blocks[0] (a) of pile.toml:1") && told.contains("(tower_2) of pile.toml:3"),
+        "{told}"
+    );
 }

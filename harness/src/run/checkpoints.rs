@@ -1,7 +1,8 @@
-//! The state from which a run can go on: `checkpoint.riprap`.
+//! The state from which a run can go on: `checkpoint.riprap`, and its scene beside it.
 
 use super::{
     engine::Engine,
+    origin,
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
@@ -22,10 +23,12 @@ pub struct Checkpoints {
     /// The run, where it is ours to choose its parts.
     own: Option<Parted>,
     path: PathBuf,
+    /// The scene's file.
+    text: String,
 }
 
 impl Checkpoints {
-    pub fn new(engine: &impl Engine, folder: &Path, last: u64) -> Self {
+    pub fn new(engine: &impl Engine, folder: &Path, last: u64, text: &str) -> Self {
         let (asked, time_step) = (engine.scene().run.checkpoint_every, engine.time_step());
         let run = Parted { time_step, last };
         Self {
@@ -35,6 +38,7 @@ impl Checkpoints {
             },
             own: asked.is_none().then_some(run),
             path: folder.join("checkpoint.riprap"),
+            text: text.to_owned(),
         }
     }
 }
@@ -66,7 +70,8 @@ impl<E: Engine> Recorder<E> for Checkpoints {
         if step == 0 {
             return Ok(());
         }
-        match engine.checkpoint(&self.path) {
+        let written = engine.checkpoint(&self.path).map_err(Into::into);
+        match written.and_then(|()| origin::keep(&self.text, &self.path)) {
             // Nobody asked for it, and the run goes on without.
             Err(error) if self.own.is_some() => {
                 notes

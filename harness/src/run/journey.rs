@@ -30,8 +30,14 @@ pub struct Journey<E> {
 
 impl<E: Engine> Journey<E> {
     /// Makes ready what will be written to `folder` until the step `last`; `restart` is the file of
-    /// the checkpoint that the simulation has been restored from.
-    pub fn new(engine: &mut E, folder: &Path, last: u64, restart: Option<&Path>) -> Result<Self> {
+    /// the checkpoint that the simulation has been restored from, `text` what the scene's file holds.
+    pub fn new(
+        engine: &mut E,
+        folder: &Path,
+        last: u64,
+        restart: Option<&Path>,
+        text: &str,
+    ) -> Result<Self> {
         let mut recorders: Recorders<E> = Vec::new();
         let scene = engine.scene();
         for probe in &scene.probes {
@@ -48,7 +54,7 @@ impl<E: Engine> Journey<E> {
         }
         recorders.extend(engine.recorders(folder, last)?);
         // Last, so that what it continues from has been written.
-        recorders.push(Box::new(Checkpoints::new(engine, folder, last)));
+        recorders.push(Box::new(Checkpoints::new(engine, folder, last, text)));
         let same = |path: &Path| {
             let [made, here] = [path.parent().unwrap_or(path), folder].map(Path::canonicalize);
             made.ok()

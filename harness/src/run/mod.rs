@@ -14,6 +14,7 @@ mod flow;
 mod history;
 mod journey;
 mod left_out;
+mod origin;
 mod progress;
 mod recorder;
 mod rock;
@@ -128,9 +129,15 @@ fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Su
         let message = format!("cannot make this folder: {error}; choose another one with `--out`");
         Error::file(&folder, message)
     })?;
-    let mut journey = Journey::new(&mut engine, &folder, last, args.restart.as_deref())?;
+    let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
+    let restart = args.restart.as_deref();
+    let mut journey = Journey::new(&mut engine, &folder, last, restart, &text)?;
     journey.summary.scene = args.scene.display().to_string();
     engine.announce(&journey.summary, &folder, last);
+    if let Some(warning) = restart.and_then(|path| origin::warning(path, &text)) {
+        eprintln!("warning: {warning}");
+        journey.summary.warnings.push(warning);
+    }
     journey.go(&mut engine, stop)
 }
 

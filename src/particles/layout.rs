@@ -17,6 +17,18 @@ pub struct Particle {
     pub excess: f32,
 }
 
+/// Puts those that have left in the order of their ids, in the places of their like: the device sorts them last, as they
+/// arrived, and which of two arrives first is left to it.
+pub fn order_those_left(particles: &mut [Particle]) {
+    let has_left = |particle: &Particle| particle.at[0] < 0;
+    let mut left: Vec<_> = particles.iter().copied().filter(has_left).collect();
+    left.sort_unstable_by_key(|particle| particle.id);
+    let places = particles.iter_mut().filter(|particle| has_left(particle));
+    places
+        .zip(left)
+        .for_each(|(place, particle)| *place = particle);
+}
+
 /// The place of a shell's particle in its body.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -148,4 +160,27 @@ pub struct Hull {
     pub faces: u32,
     /// How many of them, the first ones, water may meet.
     pub bare: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Particle, order_those_left};
+
+    #[test]
+    fn those_that_have_left_are_in_one_order_however_they_arrived() {
+        let particle = |x, id| Particle {
+            at: [x, 0, 0],
+            id,
+            ..Particle::default()
+        };
+        let expected = [(5, 3), (-1, 2), (7, 1), (-9, 4), (-3, 6)].map(|(x, id)| particle(x, id));
+        for arrived in [[1, 3, 4], [4, 1, 3], [3, 4, 1]] {
+            let mut found = expected;
+            for (place, from) in [1, 3, 4].into_iter().zip(arrived) {
+                found[place] = expected[from];
+            }
+            order_those_left(&mut found);
+            assert_eq!(found, expected);
+        }
+    }
 }

@@ -5,6 +5,7 @@ use super::{
     followed::Followed,
     hulls,
     kernels::{Kernels, NUMBERS},
+    layout::order_those_left,
     near,
 };
 use crate::{
@@ -417,7 +418,7 @@ impl Particles {
         Ok(Water::of(&self.setup, &self.frame, &particles))
     }
 
-    /// The particles in the units and the order of the device, those that have left included.
+    /// The particles in the units and the order of the device, those that have left among them by their ids.
     ///
     /// # Errors
     /// [`Error::DeviceLost`].
@@ -428,7 +429,9 @@ impl Particles {
     ) -> Result<Vec<Particle>> {
         let count = self.numbers.water as usize;
         let buffer = &self.kernels.water.unsorted;
-        self.readback.read(device, queue, buffer, count).await
+        let mut particles = self.readback.read(device, queue, buffer, count).await?;
+        order_those_left(&mut particles);
+        Ok(particles)
     }
 
     /// What [`Particles::restore`] wants besides the particles.

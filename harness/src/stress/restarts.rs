@@ -110,7 +110,7 @@ position = [0.2, 0.05, 0.2]
 [[materials]]
 name = "rock"
 density = 2650
-normal_stiffness = 1e7
+normal_stiffness = 1e9
 friction = 35
 damping = 0.2
 [[blocks]]

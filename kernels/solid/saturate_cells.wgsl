@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, eq. 10: how much of each cell is solid, and how that solid moves, over all parts that share the
-// cell. A workgroup is a brick of the list, an invocation an element.
+// cell. A workgroup is a brick of the list; its invocations share the elements.
 // needs workgroup, tables, brick
 
 override LANES_OF_ELEMENT: u32;
@@ -16,7 +16,7 @@ override LANES_OF_ELEMENT: u32;
 // What blocks that touch may leave of a cell between them.
 const ROUGH = 2e-3;
 
-@compute @workgroup_size(WORKGROUP)
+@compute @workgroup_size(INVOCATIONS)
 fn saturate_cells(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -30,6 +30,17 @@ fn saturate_cells(
     if (slot == NOTHING) {
         return;
     }
+    for (var place = local; place < WORKGROUP; place += INVOCATIONS) {
+        saturate_element(slot, place);
+    }
+}
+
+// What is at hand: most bricks have one tile, and what it says is fetched once for all of their elements.
+var<private> held: u32 = NOTHING;
+var<private> tile: Tile;
+var<private> motion: Motion;
+
+fn saturate_element(slot: u32, local: u32) {
     // Of each lane: velocity weighed by the shares, and their sum; whether a part is deep, or near.
     var sums: array<vec4<f32>, 4>;
     var deep: vec4<bool>;
@@ -41,9 +52,15 @@ fn saturate_cells(
     var several: vec4<bool>;
     for (var k = slot_first[slot]; k < slot_first[slot + 1u]; k++) {
         let number = slot_tiles[k];
-        let tile = tiles[number];
         let mark = shares[number * WORKGROUP + local];
-        let motion = motions[tile.block];
+        if (mark == 0.0) {
+            continue;
+        }
+        if (held != number) {
+            held = number;
+            tile = tiles[number];
+            motion = motions[tile.block];
+        }
         let cell = tile.cell + vec3<i32>(place_in_brick(local));
         let u = velocity_at(motion, centre_from(cell, motion.base, motion.fraction));
         let added = clamp(mark, 0.0, 1.0) * vec4(u, 1.0);

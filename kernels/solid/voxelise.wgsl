@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction, volume of (cell and convex part) / volume of the cell, of one part
-// in each cell of the listed tiles. A workgroup is a tile. Cells at edges, and on spheres, are few and dear: they are
+// in each cell of the listed tiles. A workgroup is a tile; its invocations share the cells. Cells at edges, and on spheres, are few and dear: they are
 // put on a list for voxelise_edges, in any order, since neighbours in a workgroup would wait for them.
 // needs workgroup, tables, brick, ball_quick, hull_quick
 
@@ -17,7 +17,7 @@ struct Edges {
 
 @group(0) @binding(5) var<storage, read_write> edges: Edges;
 
-@compute @workgroup_size(WORKGROUP)
+@compute @workgroup_size(INVOCATIONS)
 fn voxelise(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -31,18 +31,21 @@ fn voxelise(
     if (number == NOTHING) {
         return;
     }
-    let share = quick_share(tiles[number], place_in_brick(local));
-    shares[number * WORKGROUP + local] = share;
-    if (share == UNDECIDED) {
-        edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + local;
+    let tile = tiles[number];
+    let part = parts[tile.part];
+    for (var place = local; place < WORKGROUP; place += INVOCATIONS) {
+        let share = quick_share(tile, part, place_in_brick(place));
+        shares[number * WORKGROUP + place] = share;
+        if (share == UNDECIDED) {
+            edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + place;
+        }
     }
 }
 
-fn quick_share(tile: Tile, place: vec3<u32>) -> f32 {
+fn quick_share(tile: Tile, part: Part, place: vec3<u32>) -> f32 {
     if (!in_domain(place, tile.inside)) {
         return 0.0;
     }
-    let part = parts[tile.part];
     let r = centre_from(tile.cell + vec3<i32>(place), part.base, part.fraction);
     if (part.faces == 0u) {
         return ball_quick(r, part.radius);

@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and the memory that they share.
 
-use super::{PLANES, Plan, Tile, TileSum, WRENCH, program};
+use super::{PLANES, Plan, Tile, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     kernel::{Kernel, MAX_GROUPS, fold},
@@ -109,7 +109,7 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
-    sum: TileSum,
+    walk: Walk,
     /// Most cells that an invocation of `voxelise_edges` may do.
     at_once: u64,
 }
@@ -119,15 +119,15 @@ impl Kernels {
     pub fn new(device: &wgpu::Device, lattice: &Lattice, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
         // Barriers are slow where a CPU walks through the invocations of a workgroup.
-        let sum = match device.adapter_info().device_type {
-            wgpu::DeviceType::Cpu => TileSum::Serial,
-            _ => TileSum::Parallel,
+        let walk = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => Walk::Serial,
+            _ => Walk::Parallel,
         };
         let programs = [
-            program::voxelise(grid),
+            program::voxelise(grid, walk),
             program::voxelise_edges(grid),
-            program::saturate_cells(grid),
-            program::reduce_tiles(grid, sum),
+            program::saturate_cells(grid, walk),
+            program::reduce_tiles(grid, walk),
             program::reduce_blocks(),
         ];
         let constants = program::constants(grid);
@@ -141,7 +141,7 @@ impl Kernels {
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
-            sum,
+            walk,
             at_once: (TURNS / turns(faces)).clamp(1, CELLS_AN_EDGE),
         };
         kernels.bind(device, lattice)?;
@@ -238,7 +238,7 @@ impl Kernels {
 
     /// Gives the sums their work: the first tiles and blocks.
     pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
-        self.groups[3] = self.sum.groups(tiles);
+        self.groups[3] = self.walk.groups(tiles);
         self.groups[4] = blocks as u32;
     }
 

@@ -9,16 +9,20 @@ pub const MOST_FACES: u32 = 8192;
 /// Storage buffers of the kernel that has the most of them, `reduce_faces`.
 pub const MOST_BINDINGS: u32 = 8;
 
-/// Who adds up a tile. Both give the same numbers up to rounding.
+/// Who goes through the cells of a tile. Both give the same numbers, sums up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TileSum {
-    /// One invocation, without barriers: for CPU adapters.
+pub enum Walk {
+    /// As few invocations as fill a vector, and one that adds up, without barriers: for CPU adapters, which fetch what
+    /// holds for the whole tile for each invocation anew.
     Serial,
-    /// A workgroup of 64: for GPUs.
+    /// An invocation a cell, and 64 that add up: for GPUs.
     Parallel,
 }
 
-impl TileSum {
+/// Invocations that a CPU adapter goes through as one vector.
+const VECTOR: u32 = 8;
+
+impl Walk {
     /// Workgroups of `reduce_tiles` for a number of tiles.
     pub fn groups(self, tiles: u32) -> u32 {
         match self {
@@ -30,8 +34,8 @@ impl TileSum {
 
 /// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
 /// which the first word must be 0 before, and which has room for a word more than `shares`.
-pub fn voxelise(grid: &Grid) -> Program {
-    base("voxelise", grid)
+pub fn voxelise(grid: &Grid, walk: Walk) -> Program {
+    walked("voxelise", grid, walk)
 }
 
 /// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
@@ -42,16 +46,16 @@ pub fn voxelise_edges(grid: &Grid) -> Program {
 
 /// `saturate_cells`: a workgroup a slot of `work`. Binds `work`, `tiles`, `motions`, `slot_first`,
 /// `slot_tiles`, `shares`, `saturation`.
-pub fn saturate_cells(grid: &Grid) -> Program {
-    base("saturate_cells", grid)
+pub fn saturate_cells(grid: &Grid, walk: Walk) -> Program {
+    walked("saturate_cells", grid, walk)
 }
 
-/// `reduce_tiles`: [`TileSum::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
 /// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
-pub fn reduce_tiles(grid: &Grid, sum: TileSum) -> Program {
-    let file = match sum {
-        TileSum::Serial => "tile_sum_serial",
-        TileSum::Parallel => "tile_sum_parallel",
+pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
+    let file = match walk {
+        Walk::Serial => "tile_sum_serial",
+        Walk::Parallel => "tile_sum_parallel",
     };
     base("reduce_tiles", grid).slot("tile_sum", file)
 }
@@ -87,6 +91,21 @@ pub fn constants(grid: &Grid) -> Vec<(&'static str, f64)> {
 }
 
 fn base(entry: &str, grid: &Grid) -> Program {
-    let workgroup: u32 = grid.brick.iter().product();
-    Program::new(entry).text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
+    let cells = cells(grid);
+    Program::new(entry).text("workgroup", format!("const WORKGROUP = {cells}u;\n"))
+}
+
+/// The same of a kernel whose invocations share the cells of a tile.
+fn walked(entry: &str, grid: &Grid, walk: Walk) -> Program {
+    let cells = cells(grid);
+    let invocations = match walk {
+        Walk::Serial => cells.min(VECTOR),
+        Walk::Parallel => cells,
+    };
+    let text = format!("const WORKGROUP = {cells}u;\nconst INVOCATIONS = {invocations}u;\n");
+    Program::new(entry).text("workgroup", text)
+}
+
+fn cells(grid: &Grid) -> u32 {
+    grid.brick.iter().product()
 }

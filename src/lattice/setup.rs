@@ -211,14 +211,8 @@ impl Setup {
     /// neighbours one after the other, so that long rows are the fastest: 1.25 times the speed of
     /// 16 × 2 × 2 on lavapipe.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
-        // Eight invocations are a vector of such an adapter. Around blocks shorter bricks pay: fewer of
-        // their cells lie far from any surface.
-        let most = if self.solid_operator.is_some() {
-            16
-        } else {
-            64
-        };
-        let long = self.cells[0].next_power_of_two().clamp(8, most);
+        // Eight invocations are a vector of such an adapter.
+        let long = self.cells[0].next_power_of_two().clamp(8, 64);
         self.brick = [long, 64 / long, 1];
         self.wide = features.contains(wgpu::Features::SHADER_INT64);
     }

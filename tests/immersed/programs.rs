@@ -2,7 +2,7 @@
 
 use riprap::{
     immersed::{
-        TileSum, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
         voxelise_edges,
     },
     kernel::bindings,
@@ -26,7 +26,7 @@ fn bindings_by_name() {
         brick: [4; 3],
     };
     assert_eq!(
-        names(&voxelise(&grid), "voxelise"),
+        names(&voxelise(&grid, Walk::Serial), "voxelise"),
         ["work", "tiles", "parts", "shares", "edges", "faces"]
     );
     assert_eq!(
@@ -34,7 +34,7 @@ fn bindings_by_name() {
         ["tiles", "parts", "shares", "edges", "faces"]
     );
     assert_eq!(
-        names(&saturate_cells(&grid), "saturate_cells"),
+        names(&saturate_cells(&grid, Walk::Parallel), "saturate_cells"),
         [
             "work",
             "tiles",
@@ -45,9 +45,9 @@ fn bindings_by_name() {
             "saturation"
         ]
     );
-    for sum in [TileSum::Serial, TileSum::Parallel] {
+    for walk in [Walk::Serial, Walk::Parallel] {
         assert_eq!(
-            names(&reduce_tiles(&grid, sum), "reduce_tiles"),
+            names(&reduce_tiles(&grid, walk), "reduce_tiles"),
             [
                 "tiles",
                 "motions",

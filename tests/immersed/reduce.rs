@@ -7,7 +7,7 @@ use crate::{
 };
 use glam::DVec3;
 use riprap::immersed::{
-    DEEP, JOINT_SUM, PLANES, TileSum, WRENCH, constants, reduce_blocks, reduce_tiles,
+    DEEP, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
 };
 
 const BLOCKS: u32 = 9;
@@ -109,7 +109,7 @@ impl Case {
     }
 
     /// Wrenches by the kernels.
-    fn run(&self, width: Option<u32>, sum: TileSum) -> Vec<f32> {
+    fn run(&self, width: Option<u32>, walk: Walk) -> Vec<f32> {
         let bench = Workbench::new(width);
         let tiles = self.tiling.tiles.len();
         let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
@@ -127,8 +127,8 @@ impl Case {
             ("partials", &partials),
             ("wrenches", &wrenches),
         ];
-        let groups = sum.groups(tiles as u32 + 3) as usize;
-        let program = reduce_tiles(&self.tiling.grid, sum);
+        let groups = walk.groups(tiles as u32 + 3) as usize;
+        let program = reduce_tiles(&self.tiling.grid, walk);
         let numbers = constants(&self.tiling.grid);
         bench.run(&program, "reduce_tiles", &numbers, &buffers, 64 * groups);
         let blocks = 64 * (BLOCKS as usize + 1);
@@ -157,8 +157,8 @@ fn loads_are_sums_over_cells() {
         let expected = case.twin();
         let first = case.tiling.by_block(BLOCKS);
         most_tiles = most_tiles.max(first.windows(2).map(|w| w[1] - w[0]).max().unwrap());
-        for sum in [TileSum::Serial, TileSum::Parallel] {
-            let found = case.run(width, sum);
+        for walk in [Walk::Serial, Walk::Parallel] {
+            let found = case.run(width, walk);
             for (block, (found, expected)) in found.chunks(WRENCH).zip(&expected).enumerate() {
                 for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
                     // Sums of some thousand terms in f32; arms are exact to 1e-6 of a cell.
@@ -166,12 +166,12 @@ fn loads_are_sums_over_cells() {
                     let error = (f64::from(*found) - value).abs();
                     assert!(
                         error <= most,
-                        "{sum:?}, block {block}, {k}: {found} {value}"
+                        "{walk:?}, block {block}, {k}: {found} {value}"
                     );
                 }
                 assert_eq!(expected[13].1 == 0.0, [3, 8].contains(&block));
             }
-            let again = case.run(None, sum);
+            let again = case.run(None, walk);
             assert!(again == found, "the same bits in any dispatch");
         }
     }

@@ -6,7 +6,7 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 use riprap::immersed::{
-    DEEP, DEEP_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, constants, saturate_cells,
+    DEEP, DEEP_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, Walk, constants, saturate_cells,
 };
 use std::collections::BTreeSet;
 
@@ -154,7 +154,9 @@ fn shares_add_and_velocities_are_their_mean() {
             ("shares", &bench.buffer(&shares)),
             ("saturation", &saturation),
         ];
-        let program = saturate_cells(&tiling.grid);
+        // Either walk.
+        let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];
+        let program = saturate_cells(&tiling.grid, walk);
         let numbers = constants(&tiling.grid);
         bench.run(
             &program,

@@ -9,11 +9,25 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     block::HalfSpace,
-    immersed::{DEEP, NEAR, TOUCHES, Tile, constants, voxelise, voxelise_edges},
+    immersed::{DEEP, NEAR, TOUCHES, Tile, Walk, constants, voxelise, voxelise_edges},
 };
 
-/// The shares of the listed tiles; what is not listed stays poison.
+/// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> Vec<f32> {
+    let [serial, parallel] =
+        [Walk::Serial, Walk::Parallel].map(|walk| walked(bench, tiling, work, jobs, walk));
+    let bits = |shares: &[f32]| shares.iter().map(|s| s.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&serial) == bits(&parallel), "the walks differ");
+    serial
+}
+
+fn walked(
+    bench: &Workbench,
+    tiling: &Tiling,
+    work: &[u32],
+    jobs: Option<u32>,
+    walk: Walk,
+) -> Vec<f32> {
     let shares = bench.poisoned(tiling.tiles.len() * tiling.workgroup());
     // A list without an entry yet, in memory full of rubbish.
     let mut list = vec![POISON; tiling.tiles.len() * tiling.workgroup() + 1];
@@ -30,7 +44,7 @@ fn run(bench: &Workbench, tiling: &Tiling, work: &[u32], jobs: Option<u32>) -> V
     let mut numbers = constants(&tiling.grid);
     numbers.extend(jobs.map(|n| ("TILES", f64::from(n))));
     let groups = jobs.unwrap_or(work.len() as u32) as usize;
-    let program = voxelise(&tiling.grid);
+    let program = voxelise(&tiling.grid, walk);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * groups);
     let program = voxelise_edges(&tiling.grid);
     // Fewer invocations than there are cells at edges: each does several.

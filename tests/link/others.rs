@@ -4,7 +4,7 @@ use crate::translate::translate;
 use glam::DVec3;
 use riprap::{
     immersed::{
-        TileSum, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
         voxelise_edges,
     },
     lattice::{Grid, Setup as Fluid, single_cells},
@@ -36,11 +36,13 @@ const MEASURE: [&str; 4] = [
 
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid)),
+        ("voxelise", voxelise(grid, Walk::Serial)),
+        ("voxelise", voxelise(grid, Walk::Parallel)),
         ("voxelise_edges", voxelise_edges(grid)),
-        ("saturate_cells", saturate_cells(grid)),
-        ("reduce_tiles", reduce_tiles(grid, TileSum::Serial)),
-        ("reduce_tiles", reduce_tiles(grid, TileSum::Parallel)),
+        ("saturate_cells", saturate_cells(grid, Walk::Serial)),
+        ("saturate_cells", saturate_cells(grid, Walk::Parallel)),
+        ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
+        ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
         ("reduce_faces", reduce_faces(grid)),
         ("sum_faces", sum_faces()),
         ("reduce_blocks", reduce_blocks()),

@@ -27,7 +27,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";
     "solid":
-        "axes", "ball_quick", "ball_share", "beside_face", "brick", "cell_load", "columns", "faces", "hull_quick",
+        "axes", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
         "hull_share", "one_plane", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";

@@ -75,8 +75,8 @@ impl FaceLoad {
         }
     }
 
-    /// What is added for it to be there to the pressure at `foot`, over the wetted area, N.
-    pub(crate) fn from_foot(&self) -> f64 {
+    /// By how much the push at [`FaceLoad::acts_at`] is more than that of the pressure at `foot`, N.
+    pub(crate) fn shifted(&self) -> f64 {
         self.wetted * self.slope.dot(self.acts_at() - self.foot)
     }
 
@@ -132,7 +132,7 @@ impl FaceLoad {
         let couple = load.moment - (load.foot - block).cross(force);
         let own = DMat3::IDENTITY * (cell * cell / 12.0);
         load.slope = (load.spread + own).inverse() * -face.normal.cross(couple) / wetted;
-        load.force -= load.from_foot() * face.normal;
+        load.force -= load.shifted() * face.normal;
         load.moment = couple + (load.acts_at() - block).cross(load.force);
         load
     }

@@ -7,7 +7,11 @@ mod water;
 pub use blocks::BlockCheckpoint;
 pub use water::WaterCheckpoint;
 
-use crate::{Error, Result, coupling::CoupledState, lattice::Populations};
+use crate::{
+    Error, Result,
+    coupling::CoupledState,
+    lattice::{Inside, Populations},
+};
 use std::path::Path;
 
 /// The state of a simulation between two steps.
@@ -19,14 +23,16 @@ pub struct Checkpoint {
     pub cell: f64,
     /// The fluid.
     pub populations: Populations,
+    /// Velocities where blocks are, which nothing of the next step depends on.
+    pub inside: Inside,
     /// The blocks in it.
     pub blocks: Option<CoupledState>,
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &sealed::Magic = b"riprap state  3\n";
-/// Step, three cell counts, three lengths, time step, cell, bytes of the blocks.
-const HEADER: usize = 8 + 3 * 4 + 3 * 8 + 2 * 8 + 8;
+const MAGIC: &sealed::Magic = b"riprap state  4\n";
+/// Step, three cell counts, four lengths, time step, cell, bytes of the blocks.
+const HEADER: usize = 8 + 3 * 4 + 4 * 8 + 2 * 8 + 8;
 
 impl Checkpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
@@ -46,7 +52,8 @@ impl Checkpoint {
             for n in cells {
                 file.write_all(&n.to_le_bytes())?;
             }
-            for list in [values, velocity, carried] {
+            let lists = [values, velocity, carried, &self.inside.velocity];
+            for list in lists {
                 file.write_all(&(list.len() as u64).to_le_bytes())?;
             }
             file.write_all(&self.time_step.to_le_bytes())?;
@@ -54,10 +61,13 @@ impl Checkpoint {
             let blocks = self.blocks.as_ref().map(CoupledState::to_bytes);
             let blocks = blocks.unwrap_or_default();
             file.write_all(&(blocks.len() as u64).to_le_bytes())?;
-            for list in [values, velocity, carried] {
+            for list in lists {
                 let mut bytes = Vec::with_capacity(4 * list.len());
                 bytes.extend(list.iter().flat_map(|value| value.to_le_bytes()));
                 file.write_all(&bytes)?;
+            }
+            for cell in &self.inside.cells {
+                file.write_all(&cell.to_le_bytes())?;
             }
             file.write_all(&blocks)
         })
@@ -79,12 +89,14 @@ impl Checkpoint {
             part.map(u32::from_le_bytes).ok_or_else(|| broken(CUT))
         };
         let cells = [short(8)?, short(12)?, short(16)?];
-        let lengths = [long(20)?, long(28)?, long(36)?];
+        let lengths = [long(20)?, long(28)?, long(36)?, long(44)?];
+        let inside = lengths[3] / 3;
         let expected = lengths
             .iter()
+            .chain([&inside])
             .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
         let rest = bytes.len().saturating_sub(HEADER) as u64;
-        if expected.saturating_add(long(60)?) != rest {
+        if expected.saturating_add(long(68)?) != rest {
             return Err(broken(CUT));
         }
         let (values, blocks) = bytes[HEADER..].split_at(expected as usize);
@@ -97,20 +109,31 @@ impl Checkpoint {
                 })?,
             ),
         };
-        let mut values = values
-            .chunks_exact(4)
-            .map(|part| f32::from_le_bytes(std::array::from_fn(|k| part[k])));
-        let mut list = |n: u64| values.by_ref().take(n as usize).collect();
+        let words = values.chunks_exact(4);
+        let mut words = words.map(|part| u32::from_le_bytes(std::array::from_fn(|k| part[k])));
+        let mut list = |n: u64| {
+            words
+                .by_ref()
+                .take(n as usize)
+                .map(f32::from_bits)
+                .collect()
+        };
+        let [values, velocity, carried, shown] = lengths.map(&mut list);
+        let inside = Inside {
+            cells: words.collect(),
+            velocity: shown,
+        };
         Ok(Self {
-            time_step: f64::from_bits(long(44)?),
-            cell: f64::from_bits(long(52)?),
+            inside,
+            time_step: f64::from_bits(long(52)?),
+            cell: f64::from_bits(long(60)?),
             blocks,
             populations: Populations {
                 step: long(0)?,
                 cells,
-                values: list(lengths[0]),
-                velocity: list(lengths[1]),
-                carried: list(lengths[2]),
+                values,
+                velocity,
+                carried,
             },
         })
     }

@@ -5,7 +5,7 @@ mod rig;
 use rig::Rig;
 use riprap::{
     checkpoint::Checkpoint,
-    lattice::{Face, Force, Lattice, Populations, Setup, State, Storage},
+    lattice::{Face, Force, Inside, Lattice, Populations, Setup, State, Storage},
     wgpu,
 };
 
@@ -126,6 +126,10 @@ fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
                 time_step: 1e-3,
                 cell: 1e-2,
                 populations: run(&rig, setup.clone(), stop).1,
+                inside: Inside {
+                    cells: vec![3, 17],
+                    velocity: vec![0.1, -0.2, 0.3, -0.4, 0.5, -0.6],
+                },
                 blocks: None,
             };
             saved.write(&file).unwrap();
@@ -170,6 +174,7 @@ fn broken_checkpoints_are_refused() {
         time_step: 1.0,
         cell: 1.0,
         populations: run(&rig, setup(), 2).1,
+        inside: Inside::default(),
         blocks: None,
     };
     saved.write(&file).unwrap();

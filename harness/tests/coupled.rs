@@ -207,6 +207,28 @@ fn a_coupled_restart_goes_on_to_the_same_bits() {
     parts.steps = Some(28);
     let first = go(&parts);
     assert_eq!(first.checkpoint_step, Some(28));
+    // In a folder where nothing of the first part is.
+    let mut elsewhere = args(&folder, text, "elsewhere");
+    elsewhere.restart = first.checkpoint.clone();
+    assert!(go(&elsewhere).complete);
+    for name in [
+        "fields_000028.vti",
+        "fields_000040.vti",
+        "blocks_000028.vtu",
+    ] {
+        let [one, two] =
+            ["whole", "elsewhere"].map(|out| fs::read(folder.join(out).join(name)).unwrap());
+        assert!(one == two, "{name} differs elsewhere");
+    }
+    for name in ["stone.csv", "wake.csv"] {
+        let [one, two] = ["whole", "elsewhere"]
+            .map(|out| fs::read_to_string(folder.join(out).join(name)).unwrap());
+        let (_, rows) = two.split_once('\n').unwrap();
+        assert!(
+            rows.lines().count() > 1 && one.ends_with(rows),
+            "{name} differs elsewhere"
+        );
+    }
     parts.restart = first.checkpoint;
     parts.steps = None;
     let second = go(&parts);

@@ -1,7 +1,7 @@
 // Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
 // layer of cells beside it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
 // no force belongs to one face: full cells reflect what was in them when they were covered. A workgroup is a job.
-// needs solid_cell, beside_face
+// needs solid_cell, beside_face, beside_siblings
 
 // Of the fluid, lattice units.
 override VISCOSITY: f32;
@@ -28,11 +28,19 @@ fn add_beside(job: FaceJob, tile: Tile, local: u32) {
     if (!beside.here) {
         return;
     }
-    sums[FACE_LOAD - 1u] += 1.0;
+    let hidden = beside_siblings(tile, cell, beside);
+    if (hidden == SEAM) {
+        return;
+    }
     let first = (tile.slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + tile.lane;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
     // Another block may be in the cell, or a wall.
-    if (saturation[first] != NEAR || saturation[first + 4u * stride] == 0.0) {
+    let fluid = saturation[first] == NEAR && saturation[first + 4u * stride] != 0.0;
+    if (!fluid && hidden == CUT) {
+        return;
+    }
+    sums[FACE_LOAD - 1u] += 1.0;
+    if (!fluid) {
         return;
     }
     let motion = motions[tile.block];

@@ -258,7 +258,7 @@ impl<'a> Side<'a> {
         let room = (whole.area - load.wetted).max(0.0);
         let seams = under(own).within(room);
         let closed = under(others).within(room - seams.area);
-        if load.inside + closed.area < (1.0 - ROUGH) * whole.area {
+        if load.inside + seams.area + closed.area < (1.0 - ROUGH) * whole.area {
             return None;
         }
         Some(Self {
@@ -284,7 +284,7 @@ impl<'a> Side<'a> {
     fn sample(&self, centre: DVec3, weight: DVec3) -> Sample {
         let load = self.load;
         let normal = load.face.normal;
-        let force = -load.force.dot(normal);
+        let force = -load.force.dot(normal) - load.shifted();
         // Of the forces at the feet of the cells about the mean of these: n × ∫ t × (τ − p n) = −∫ p t, t in the face.
         let couple = load.moment - (load.acts_at() - centre).cross(load.force);
         let foot = load.foot - centre;

@@ -29,10 +29,10 @@ pub struct PlaneFace {
 pub struct FaceLoad {
     /// The face.
     pub face: PlaneFace,
-    /// What of the face lies in the domain, m²: its area where nothing sticks out. Of a part longer than a period it
-    /// is that of one period, as the load on a block is.
+    /// What of the face lies in the domain, m², and in no seam with another part of its block: its area where nothing
+    /// sticks out or is covered. Of a part longer than a period it is that of one period, as the load on a block is.
     pub inside: f64,
-    /// Centroid of that, m.
+    /// Centroid of that, m; of the face where it is all seam.
     pub centre: DVec3,
     /// Area with fluid beside it, m²: `inside` times the share of the cells beside it that hold fluid alone.
     pub wetted: f64,
@@ -45,6 +45,8 @@ pub struct FaceLoad {
     pub foot: DVec3,
     /// Mean of the squares of their places about that, m².
     pub spread: DMat3,
+    /// Slope along the face of the pressure in them, Pa/m; by it the force is that at [`FaceLoad::acts_at`], not at `foot`.
+    pub slope: DVec3,
     /// Mean height over the face of the centres of the cells from which this follows, m.
     pub height: f64,
     /// Number of these cells.
@@ -65,7 +67,7 @@ impl FaceLoad {
     }
 
     /// Where on the face a force acts that has no moment beside that of the mean traction, m: the centroid of a face
-    /// that is wet all over, else the mean foot of the cells beside it.
+    /// that is wet all over but for seams, else the mean foot of the cells beside it.
     pub fn acts_at(&self) -> DVec3 {
         match self.wetted == self.inside {
             true => self.centre,
@@ -73,16 +75,20 @@ impl FaceLoad {
         }
     }
 
-    /// From what the device added up, [`FACE_LOAD`] numbers, of a block with the centroid `block` (m), and the corners of
-    /// what of the face lies in the domain.
+    /// By how much the push at [`FaceLoad::acts_at`] is more than that of the pressure at `foot`, N.
+    pub(crate) fn shifted(&self) -> f64 {
+        self.wetted * self.slope.dot(self.acts_at() - self.foot)
+    }
+
+    /// From what the device added up, [`FACE_LOAD`] numbers, of a block with the centroid `block` (m), what of the face
+    /// lies in the domain, and what of that in `seams`.
     pub(super) fn new(
         frame: &Frame,
         (face, block): (PlaneFace, DVec3),
-        corners: &[DVec3],
+        (corners, seams): (&[DVec3], &[Vec<DVec3>]),
         sums: &[f32],
     ) -> Self {
-        let (centre, inside) = area_of(corners);
-        let inside = inside.length();
+        let (centre, inside) = outside(corners, seams, face.centre);
         let at = |n: usize| f64::from(sums[n]);
         let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
         let [cells, beside] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
@@ -118,10 +124,16 @@ impl FaceLoad {
             moment,
             foot: block + foot,
             spread: along * (squares - outer(foot, foot)) * along,
+            slope: DVec3::ZERO,
             height: at(6) / cells * cell,
             cells: cells as u32,
         };
-        load.moment += (load.acts_at() - load.foot).cross(force);
+        // Beside a seam the first cells are those that it leaves free. What spreads less than a cell has no slope.
+        let couple = load.moment - (load.foot - block).cross(force);
+        let own = DMat3::IDENTITY * (cell * cell / 12.0);
+        load.slope = (load.spread + own).inverse() * -face.normal.cross(couple) / wetted;
+        load.force -= load.shifted() * face.normal;
+        load.moment = couple + (load.acts_at() - block).cross(load.force);
         load
     }
 
@@ -133,6 +145,28 @@ impl FaceLoad {
         self.force += force;
         self.moment += (self.acts_at() - block).cross(force);
         self
+    }
+}
+
+/// Share of a face below which what seams leave of it is rounding.
+const SLIVER: f64 = 1e-9;
+
+/// Centroid and area of what `seams` leave of a polygon; the centroid `middle` where that is nothing.
+fn outside(corners: &[DVec3], seams: &[Vec<DVec3>], middle: DVec3) -> (DVec3, f64) {
+    let (centre, whole) = area_of(corners);
+    let whole = whole.length();
+    let (mut area, mut moment) = (whole, whole * centre);
+    for seam in seams {
+        let (centre, covered) = area_of(seam);
+        area -= covered.length();
+        moment -= covered.length() * centre;
+    }
+    if seams.is_empty() {
+        return (centre, whole);
+    }
+    match area > SLIVER * whole {
+        true => (moment / area, area),
+        false => (middle, 0.0),
     }
 }
 

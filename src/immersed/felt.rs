@@ -4,8 +4,11 @@ use super::{
     FACE_LOAD, FaceLoad, Frame, Immersed, PlaneFace, WRENCH, Window, corners,
     face_load::plane_faces, face_sums::FaceSums,
 };
-use crate::{Error, Result, block::Form, bodies::Load};
+use crate::{Error, Result, block::Form, bodies::Load, contact::Placed};
 use glam::DVec3;
+
+/// Gap between the parts of a block, cells, below which there is a seam: `SEAM_GAP` of the kernel.
+const SEAM_GAP: f64 = 1e-3;
 
 impl Immersed {
     /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_saturated`].
@@ -81,15 +84,27 @@ impl Immersed {
             let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
             let parts = shape.parts().iter().enumerate();
             let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
+            let window = self.window(faces.imaged(block));
+            let placed: Vec<_> = shape.parts().iter().map(|p| Placed::of(p, pose)).collect();
             let load = |(face, sums): (PlaneFace, _)| {
                 let part = &shape.parts()[face.part];
-                let window = self.window(faces.imaged(block));
                 let corners = match &part.form {
                     Form::Convex(of) => corners(of, face.face, part.offset, pose),
                     Form::Sphere { .. } => Vec::new(),
                 };
                 let corners = window.clipped(corners);
-                FaceLoad::new(&self.frame, (face, pose.centre), &corners, sums)
+                let over = self.frame.units.cell * SEAM_GAP * face.normal;
+                let seam = |(number, other): (usize, &Placed)| {
+                    let raised = corners.iter().map(|x| x + over).collect();
+                    let seam = match number == face.part {
+                        true => Vec::new(),
+                        false => other.clipped(raised),
+                    };
+                    (!seam.is_empty()).then_some(seam)
+                };
+                let seams: Vec<_> = placed.iter().enumerate().filter_map(seam).collect();
+                let polygons = (&corners[..], &seams[..]);
+                FaceLoad::new(&self.frame, (face, pose.centre), polygons, sums)
             };
             loads[block] = its.zip(&mut sums).map(load).collect();
         }

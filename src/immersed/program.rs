@@ -67,7 +67,7 @@ pub fn reduce_blocks() -> Program {
 
 /// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells beside it, from where cells no longer
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
-/// has a share in it. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
+/// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
 /// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `shares`, `saturation`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.

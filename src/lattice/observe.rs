@@ -4,6 +4,7 @@ use super::{
     Lattice, State,
     fluid::{Dispatch, Extra, result_buffer},
     gather::Gather,
+    inside::Kept,
     program,
 };
 use crate::{Result, kernel::Kernel, readback::Readback};
@@ -57,11 +58,13 @@ pub struct Observer {
     macroscopic: [Dispatch; 2],
     /// Where blocks may be.
     inside_solids: Option<(wgpu::Device, Kernel)>,
+    /// Since a restart.
+    pub(super) kept: Option<Kept>,
     gather: Gather,
     readback: Readback,
 }
 
-const VELOCITY_OUT: [&str; 3] = ["velocity_x_out", "velocity_y_out", "velocity_z_out"];
+pub(super) const VELOCITY_OUT: [&str; 3] = ["velocity_x_out", "velocity_y_out", "velocity_z_out"];
 const VELOCITY_IN: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
 
 impl Observer {
@@ -99,6 +102,7 @@ impl Observer {
             sums: None,
             macroscopic,
             inside_solids,
+            kept: None,
             gather: Gather::new(device, lattice)?,
             readback: Readback::default(),
         })
@@ -112,6 +116,13 @@ impl Observer {
     /// If the device cannot bind what blocks leave of their cells.
     pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
         self.record_cells(lattice, pass);
+        if self
+            .kept
+            .as_ref()
+            .is_some_and(|kept| kept.record(lattice.step(), pass))
+        {
+            return Ok(());
+        }
         let (Some((device, kernel)), Some((list, slots))) =
             (&self.inside_solids, lattice.saturated_bricks())
         else {
@@ -127,6 +138,27 @@ impl Observer {
         let cells = slots * grid.brick.iter().product::<u32>() * grid.lanes;
         kernel.record(pass, &bind, cells.div_ceil(64));
         Ok(())
+    }
+
+    /// Reads the velocity that the populations alone have.
+    pub(super) async fn velocity_of_populations(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<[Vec<f32>; 3]> {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.record_cells(
+            lattice,
+            &mut encoder.begin_compute_pass(&Default::default()),
+        );
+        queue.submit([encoder.finish()]);
+        let count = lattice.grid.cell_count();
+        let mut velocity = [const { Vec::new() }; 3];
+        for (own, buffer) in velocity.iter_mut().zip(&self.velocity) {
+            *own = self.readback.read(device, queue, buffer, count).await?;
+        }
+        Ok(velocity)
     }
 
     /// The same without what solids do to the momentum of a cell in the middle of a step.

@@ -14,7 +14,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "cell_force_none", "cell_gradient", "cells_flagged", "cells_plain", "collide_stream",
         "derive", "eddy_none", "eddy_wale", "equilibrium_product", "equilibrium_second_order",
         "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
-        "guard_on", "guo", "incoming", "initialise", "inside_solids", "keep_none", "keep_velocity", "lanes_1",
+        "guard_on", "guo", "incoming", "initialise", "inside_kept", "inside_solids", "keep_none", "keep_velocity", "lanes_1",
         "lanes_2", "lanes_4", "lattice", "links", "macroscopic", "moments", "moving_wall",
         "odd_bulk", "odd_solids", "odd_walls", "operator_holdych", "operator_noble", "operator_superposition",
         "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
@@ -27,7 +27,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "bin_count", "bin_scatter", "boxes", "found_count", "found_write", "invocation", "pairs",
         "saturate", "scan_spread", "scan_sum";
     "solid":
-        "axes", "ball_quick", "ball_share", "beside_face", "brick", "cell_load", "columns", "faces", "hull_quick",
+        "axes", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
         "hull_share", "one_plane", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";

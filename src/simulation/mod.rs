@@ -244,10 +244,13 @@ impl Simulation {
             Some(coupled) => Some(coupled.state().await?),
             None => None,
         };
+        let (device, queue) = (&self.device, &self.queue);
+        let lattice = &mut self.lattice;
         Ok(Checkpoint {
+            inside: self.observer.inside(device, queue, lattice).await?,
             time_step: self.units.time_step,
             cell: self.units.cell,
-            populations: self.lattice.populations(&self.device, &self.queue).await?,
+            populations: self.lattice.populations(device, queue).await?,
             blocks,
         })
     }
@@ -273,6 +276,7 @@ impl Simulation {
         }
         // All is looked at before anything is changed.
         self.lattice.check_populations(&checkpoint.populations)?;
+        checkpoint.inside.check(self.lattice.grid())?;
         match (&mut self.coupled, &checkpoint.blocks) {
             (Some(coupled), Some(state)) => coupled.restore(state)?,
             (None, None) => {}
@@ -290,6 +294,8 @@ impl Simulation {
         }
         self.lattice
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
+        self.observer
+            .keep_inside(&self.device, &self.lattice, &checkpoint.inside)?;
         self.sides().0.set_faces()
     }
 }

@@ -9,7 +9,7 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Polyhedron,
+    block::{HalfSpace, Polyhedron},
     immersed::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces},
 };
 
@@ -116,8 +116,32 @@ impl Case {
         if !(low..low + 1.0).contains(&height) || !inside {
             return None;
         }
+        let siblings = self.tiling.placed.iter().enumerate().filter(|(n, other)| {
+            *n != tile.part as usize && other.block == self.tiling.parts[tile.part as usize].block
+        });
+        let siblings = siblings.map(|(_, other)| other);
+        // A thousandth of a cell over the face.
+        let over = foot + 1e-3 * normal;
+        if siblings.clone().any(|other| {
+            other
+                .faces
+                .iter()
+                .all(|f| f.height(over - other.centre) < 0.0)
+        }) {
+            return None;
+        }
+        let cut = siblings.into_iter().any(|other| {
+            let reach = |f: &HalfSpace| 0.5 * f.normal.abs().element_sum() - 1e-5;
+            let faces = other.faces.iter();
+            faces
+                .into_iter()
+                .all(|f| f.height(point - other.centre) < reach(f))
+        });
         let at = |plane| f64::from(self.saturation[self.tiling.scalar(tile, plane, local)]);
         if at(0) != f64::from(NEAR) || at(4) == 0.0 {
+            if cut {
+                return None;
+            }
             let mut dry = [(0.0, 0.0); FACE_LOAD];
             dry[FACE_LOAD - 1].0 = 1.0;
             return Some(dry);
@@ -186,7 +210,7 @@ impl Case {
     }
 }
 
-/// Compounds, and blocks that do not ask.
+/// Compounds, whose parts lie in each other here, and blocks that do not ask.
 fn blocks(noise: &mut Noise) -> Vec<Placed> {
     let shapes = [
         (0, cuboid(7.0, 5.0, 6.0)),

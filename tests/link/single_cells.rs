@@ -50,6 +50,17 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
+        "inside_kept",
+        &["inside_kept"],
+        &[
+            "kept_cells",
+            "kept_velocity",
+            "velocity_x_out",
+            "velocity_y_out",
+            "velocity_z_out",
+        ],
+    ),
+    (
         "sums",
         &["sum_cells"],
         &[

@@ -55,14 +55,8 @@ impl<E: Engine> Journey<E> {
         recorders.extend(engine.recorders(folder, last)?);
         // Last, so that what it continues from has been written.
         recorders.push(Box::new(Checkpoints::new(engine, folder, last, text)));
-        let same = |path: &Path| {
-            let [made, here] = [path.parent().unwrap_or(path), folder].map(Path::canonicalize);
-            made.ok()
-                .is_some_and(|made| here.is_ok_and(|here| made == here))
-        };
         let notes = Notes {
             checkpoint: restart.map(|path| (engine.step(), path.to_owned())),
-            kept: restart.is_some_and(same).then(|| engine.step()),
             ..Notes::default()
         };
         Ok(Self {

@@ -2,7 +2,7 @@
 
 use super::{rock::Safety, schedule::Schedule};
 use anyhow::Result;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Writes something about the present state when it is due.
 pub trait Recorder<E> {
@@ -27,8 +27,6 @@ pub struct Notes {
     pub warnings: Vec<String>,
     /// The last checkpoint with its step.
     pub checkpoint: Option<(u64, PathBuf)>,
-    /// The step at which a run goes on in its own folder.
-    pub kept: Option<u64>,
     /// Largest speed of the fluid that was seen, m/s.
     pub max_speed: f64,
     /// Largest speed of a block's centroid that was seen, m/s.
@@ -38,12 +36,6 @@ pub struct Notes {
 }
 
 impl Notes {
-    /// Whether what shows the fluid at `step` is at `path` from the run that a restart continues. It knew what solids
-    /// did to the fluid in its last step, which is no part of the state, and so the velocity in their cells.
-    pub fn keeps(&self, step: u64, path: &Path) -> bool {
-        self.kept == Some(step) && path.is_file()
-    }
-
     /// A file has been written.
     pub fn file(&mut self, path: PathBuf) {
         if !self.files.contains(&path) {

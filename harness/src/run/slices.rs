@@ -86,10 +86,7 @@ impl<E: Shown> Recorder<E> for Pictures {
         let path = self
             .folder
             .join(format!("{}_{step:06}.png", self.slice.name));
-        let drawn = match notes.keeps(step, &path) {
-            true => Ok(()),
-            false => slice.draw(&image, &path),
-        };
+        let drawn = slice.draw(&image, &path);
         notes.picture(path, drawn);
         Ok(())
     }

@@ -44,7 +44,7 @@ impl Plan {
             },
             (true, false) => Self {
                 crowd: 64,
-                large: if full { 160 } else { 128 },
+                large: if full { 256 } else { 128 },
                 voxels: &[8, 16, 32, 64],
                 rounds,
                 long,

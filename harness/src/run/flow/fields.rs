@@ -51,9 +51,7 @@ impl Recorder<Flow> for Fields {
     fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
         let step = engine.simulation.step();
         let path = self.folder.join(format!("fields_{step:06}.vti"));
-        if !notes.keeps(step, &path) {
-            write_vti(&path, &engine.image(&self.fields)?)?;
-        }
+        write_vti(&path, &engine.image(&self.fields)?)?;
         self.collection.add(engine.simulation.time(), &path)?;
         notes.file(self.folder.join("fields.pvd"));
         notes.file(path);

@@ -122,11 +122,8 @@ impl<E: Shown> Recorder<E> for Views {
         let path = self.path(&format!("_{:06}", engine.step()));
         let frame = Frame::of(engine, &self.fluid)?;
         let wanted = self.wanted(engine.step()).then(|| frame.clone());
-        let kept = notes.keeps(engine.step(), &path);
-        let drawn = self.stage(engine, &frame).and_then(|stage| match kept {
-            true => Ok(()),
-            false => stage.draw(frame)?.save(&path),
-        });
+        let stage = self.stage(engine, &frame);
+        let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));
         notes.picture(path, drawn);
         self.strip.extend(wanted);
         Ok(())

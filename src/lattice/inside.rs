@@ -1,0 +1,121 @@
+//! Velocities in cells with solid, from one run to the next.
+
+use super::{Grid, Lattice, Observer, constants, fluid::storage, observe::VELOCITY_OUT};
+use crate::{Error, Result, kernel::Kernel};
+
+/// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inside {
+    /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
+    pub cells: Vec<u32>,
+    /// Their velocities, component by component, lattice units.
+    pub velocity: Vec<f32>,
+}
+
+impl Inside {
+    /// Whether [`Observer::keep_inside`] takes them.
+    ///
+    /// # Errors
+    /// If they are of another grid.
+    pub fn check(&self, grid: &Grid) -> Result<()> {
+        let count = grid.cell_count();
+        let outside = self.cells.iter().any(|n| *n as usize >= count);
+        match outside || self.velocity.len() != 3 * self.cells.len() {
+            true => {
+                let message = "the saved velocities in cells with solid are of another grid";
+                Err(Error::scene("restart", message))
+            }
+            false => Ok(()),
+        }
+    }
+}
+
+/// Those of a step, until the lattice goes on.
+#[derive(Debug)]
+pub(super) struct Kept {
+    step: u64,
+    /// None without cells.
+    dispatch: Option<(Kernel, wgpu::BindGroup, u32)>,
+}
+
+impl Kept {
+    /// Puts them in the place of those of the populations, if they are of this step.
+    pub fn record(&self, step: u64, pass: &mut wgpu::ComputePass<'_>) -> bool {
+        if let Some((kernel, bind, groups)) = self.dispatch.as_ref().filter(|_| self.step == step) {
+            kernel.record(pass, bind, *groups);
+        }
+        self.step == step
+    }
+}
+
+impl Observer {
+    /// Reads the velocities in cells with solid, for a later [`Observer::keep_inside`].
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn inside(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<Inside> {
+        if lattice.saturation().is_none() {
+            return Ok(Inside::default());
+        }
+        let shown = self.state(device, queue, lattice).await?.velocity;
+        let own = self.velocity_of_populations(device, queue, lattice).await?;
+        let differs = |n: &u32| {
+            let n = *n as usize;
+            let pairs = shown.iter().zip(&own);
+            pairs
+                .into_iter()
+                .any(|(a, b)| a[n].to_bits() != b[n].to_bits())
+        };
+        let cells: Vec<u32> = (0..lattice.grid().cell_count() as u32)
+            .filter(differs)
+            .collect();
+        let of = |values: &Vec<f32>| {
+            cells
+                .iter()
+                .map(|n| values[*n as usize])
+                .collect::<Vec<_>>()
+        };
+        Ok(Inside {
+            velocity: shown.iter().flat_map(of).collect(),
+            cells,
+        })
+    }
+
+    /// Shows these velocities in their cells until the lattice, which has just been given the populations of their step, goes on.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if they are of another grid.
+    pub fn keep_inside(
+        &mut self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        inside: &Inside,
+    ) -> Result<()> {
+        inside.check(lattice.grid())?;
+        let dispatch = match inside.cells.len() as u32 {
+            0 => None,
+            count => {
+                let program = lattice.cell_program("inside_kept").link()?;
+                let constants = constants(&lattice.setup, &lattice.grid, false);
+                let kernel = Kernel::new(device, &program, "inside_kept", &constants)?;
+                let cells = storage(device, "kept cells", bytemuck::cast_slice(&inside.cells));
+                let velocity = bytemuck::cast_slice(&inside.velocity);
+                let velocity = storage(device, "kept velocity", velocity);
+                let mut buffers = vec![("kept_cells", &cells), ("kept_velocity", &velocity)];
+                buffers.extend(VELOCITY_OUT.into_iter().zip(self.velocity()));
+                let bind = kernel.bind(device, &buffers)?;
+                Some((kernel, bind, count.div_ceil(64)))
+            }
+        };
+        self.kept = Some(Kept {
+            step: lattice.step(),
+            dispatch,
+        });
+        Ok(())
+    }
+}

@@ -151,7 +151,9 @@ fn a_block_in_another() {
     assert_eq!(code, Some(2), "{said}");
     for word in [
         "overlap at the start",
-        "blocks[0] (left) and blocks[1] (right) by",
+        "blocks[0] (left) of ",
+        "water_overlap.toml:24 and blocks[1] (right) of ",
+        "water_overlap.toml:30 by",
         "move them apart",
     ] {
         assert!(said.contains(word), "`{word}` is not in: {said}");

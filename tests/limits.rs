@@ -124,9 +124,12 @@ fn a_grid_that_the_device_does_not_hold_is_refused_with_numbers() {
 /// As many cells as the refusal names do fit.
 #[test]
 fn the_remedy_of_a_refused_grid_holds() {
-    for storage in [Storage::F32, Storage::F16] {
+    let kinds =
+        [Storage::F32, Storage::F16].map(|storage| [None, Some(0.325)].map(|wale| (storage, wale)));
+    for (storage, wale) in kinds.into_iter().flatten() {
         let of = |nx: u32| {
             let mut setup = Setup::periodic([nx, 100, 100], 1e-3);
+            setup.wale = wale;
             setup.storage = storage;
             setup.lanes = if storage == Storage::F32 { 1 } else { 2 };
             let grid = Grid::new(&setup).unwrap();

@@ -61,17 +61,29 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         None if each == 0 => Q,
         None => Q.div_ceil(each),
     };
-    if each == 0 || wanted > free || Q.div_ceil(wanted) > each {
+    // Of what is not populations, the vectors of a field have one binding, and each result has one.
+    let vectors = setup.wale.is_some() || field == 1;
+    let widest = if vectors { 12 } else { 4 };
+    let spread = each > 0 && wanted <= free && Q.div_ceil(wanted) <= each;
+    if !spread || widest * scalars > binding_limit {
         // The largest number of directions a binding that the free bindings leave.
         let fit = binding_limit / u64::from(Q.div_ceil(free.clamp(1, Q)));
+        let fit = (fit / bytes_a_population(setup.storage)).min(binding_limit / widest);
+        let (what, wants) = match (spread, vectors) {
+            (false, _) => (
+                format!("{free} of them free for the populations"),
+                direction * u64::from(Q.div_ceil(wanted.min(free).max(1))),
+            ),
+            (true, true) => ("a vector in each cell".into(), widest * scalars),
+            (true, false) => ("a number in each cell".into(), widest * scalars),
+        };
         return Err(Error::Limit {
-            name: format!("bytes of one storage binding ({free} of them free for the populations)"),
-            wants: direction * u64::from(Q.div_ceil(wanted.min(free).max(1))),
+            name: format!("bytes of one storage binding ({what})"),
+            wants,
             has: binding_limit,
             remedy: format!(
-                "the adapter holds about {} cells in one grid; use a larger cell, 16-bit storage, \
-                 or another adapter",
-                fit / bytes_a_population(setup.storage)
+                "the adapter holds about {fit} cells in one grid; use a larger cell, 16-bit storage, \
+                 or another adapter"
             ),
         });
     }
@@ -88,8 +100,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
             .filter(|(used, _)| *used)
             .map(|(_, bytes)| bytes)
             .sum(),
-        largest_binding: (direction * u64::from(Q.div_ceil(wanted)))
-            .max(12 * scalars * u64::from(field)),
+        largest_binding: (direction * u64::from(Q.div_ceil(wanted))).max(widest * scalars),
         most_bindings: wanted + beside,
     })
 }

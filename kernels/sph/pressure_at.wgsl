@@ -1,9 +1,11 @@
 // Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057, eq. 27: the pressure of the water around places that somebody asks
-// about, continued to them as water at rest, and 0 where there is none; times the length of the step.
+// about, continued to them as water at rest, and 0 where there is none; times the length of the step. On walls, water
+// that covers only a part of the place presses in proportion.
 // needs invocation, particle_grid, $runs, continued, wendland, clock, water_cells
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
-// Quanta; the fourth is not used.
+// Quanta; the bits of the fourth: 0.0 for the pressure of any water, else one over the share of the kernel that water covers
+// where it covers all of the place.
 @group(0) @binding(2) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(3) var<storage, read_write> pressures: array<f32>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
@@ -39,5 +41,7 @@ fn pressure_at(
     }
     begin_pressure();
     around_water(n, here);
-    pressures[n] += clock.step * end_pressure(vec3(0.0));
+    let most = bitcast<f32>(places[n].w);
+    let wet = select(1.0, min(most * weights, 1.0), most > 0.0);
+    pressures[n] += clock.step * wet * end_pressure(vec3(0.0));
 }

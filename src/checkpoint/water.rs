@@ -5,6 +5,7 @@ use crate::{
     Error, Result,
     bodies::{Load, Snapshot},
     particles::{Particle, State, Works},
+    simulation::Reading,
 };
 use glam::{DMat3, DVec3};
 use std::path::Path;
@@ -32,16 +33,18 @@ pub struct WaterCheckpoint {
     pub joints: f64,
     /// What blocks gave up to all of their water, J.
     pub given: f64,
+    /// What pressure sensors have felt.
+    pub sensors: Vec<Reading>,
     /// The blocks.
     pub blocks: Snapshot,
 }
 
 /// First bytes of a file; the digit is the version of the format.
-const MAGIC: &sealed::Magic = b"riprap water  4\n";
+const MAGIC: &sealed::Magic = b"riprap water  5\n";
 /// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
 /// last exchange, velocities, loads, lower corner and size of the domain, spacing, works of bodies, pushes, dummy
-/// particles, joints and blocks.
-const WORDS: usize = 21;
+/// particles, joints and blocks, sensors.
+const WORDS: usize = 22;
 /// Bytes of a particle.
 const PARTICLE: usize = size_of::<Particle>();
 /// Numbers of a body: a vector and a matrix.
@@ -77,6 +80,7 @@ impl WaterCheckpoint {
             state.works.pressed.to_bits(),
             self.joints.to_bits(),
             self.given.to_bits(),
+            self.sensors.len() as u64,
         ];
         let loads = self.loads.iter().map(|load| (load.force, load.moment));
         let bodies = state.before.iter().copied().chain(loads);
@@ -92,6 +96,10 @@ impl WaterCheckpoint {
                 for number in vector.to_array().into_iter().chain(matrix.to_cols_array()) {
                     file.write_all(&number.to_le_bytes())?;
                 }
+            }
+            for sensor in &self.sensors {
+                file.write_all(&sensor.pressure.to_le_bytes())?;
+                file.write_all(&sensor.impulse.to_le_bytes())?;
             }
             file.write_all(&self.blocks.to_bytes())
         })
@@ -117,6 +125,15 @@ impl WaterCheckpoint {
         let particles = particles.collect();
         let before = reader.bodies(count(7))?;
         let loads = reader.bodies(count(8))?;
+        let sensors = reader.take(count(21), 16)?;
+        let sensors = sensors.chunks_exact(16).map(|row| {
+            let number = |n: usize| f64::from_le_bytes(std::array::from_fn(|k| row[8 * n + k]));
+            Reading {
+                pressure: number(0),
+                impulse: number(1),
+            }
+        });
+        let sensors = sensors.collect();
         let load = |(force, moment)| Load {
             force,
             moment,
@@ -143,6 +160,7 @@ impl WaterCheckpoint {
             },
             joints: f64::from_bits(word(19)),
             given: f64::from_bits(word(20)),
+            sensors,
             loads: loads.into_iter().map(load).collect(),
             blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
                 Error::Scene { message, .. } => Error::file(path, message),

@@ -304,7 +304,9 @@ impl Particles {
         self.kernels.record_step(encoder);
     }
 
-    /// Sets the places (m) in the water where the exchanges to come say what its pressure was, beside loads.
+    /// Sets the places (m) in the water where the exchanges to come say what its pressure was, beside loads: those in
+    /// water, then those on walls, each with the share of the kernel that water in front of it covers: less of it presses
+    /// less.
     ///
     /// # Errors
     /// [`Error::Limit`] if the device has no room for so many.
@@ -313,12 +315,15 @@ impl Particles {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         places: &[DVec3],
+        walls: &[(DVec3, f64)],
     ) -> Result<()> {
-        let place = |x: &DVec3| {
-            let [x, y, z] = self.frame.place(*x);
-            [x, y, z, 0]
+        let place = |(x, most): (DVec3, f32)| {
+            let [x, y, z] = self.frame.place(x);
+            [x, y, z, most.to_bits().cast_signed()]
         };
-        let places: Vec<_> = places.iter().map(place).collect();
+        let walls = walls.iter().map(|(x, share)| (*x, share.recip() as f32));
+        let places = places.iter().map(|x| (*x, 0.0)).chain(walls);
+        let places: Vec<_> = places.map(place).collect();
         self.kernels.ask(device, queue, &places)
     }
 

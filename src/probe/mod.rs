@@ -86,10 +86,10 @@ impl Gauge {
                 let (face, chosen) = Face::new(&cells, *min, *max, *normal);
                 (Face::COLUMNS.to_vec(), Place::Face(face), chosen)
             }
-            ProbePlace::Gauge { .. } | ProbePlace::RunUp { .. } => {
+            ProbePlace::Gauge { .. } | ProbePlace::Sensor { .. } | ProbePlace::RunUp { .. } => {
                 return Err(Error::scene(
                     format!("probes.{}", probe.name),
-                    "it measures a free surface, and a lattice has none; give another kind",
+                    "it measures free water, and a lattice has none; give another kind",
                 ));
             }
             ProbePlace::Block { block, .. } => {

@@ -18,7 +18,7 @@ pub struct Probe {
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
     /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
-    /// its stress if it deforms, and no other fields.
+    /// its stress if it deforms, a `sensor` pressure and impulse, and no other fields.
     #[schemars(default)]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
@@ -100,6 +100,18 @@ pub enum ProbePlace {
         /// The point, x and y, m.
         at: [f64; 2],
     },
+    /// A sensor on a wall or a fixed block beside particles: the mean `pressure` on a square patch over the last time step
+    /// (Pa), and its `impulse` since the start (Pa s), from which the mean over any time follows. Where there is no water
+    /// both are of nothing, 0.
+    Sensor {
+        /// Centre of the patch, m.
+        at: [f64; 3],
+        /// Normal of the patch, into the water.
+        normal: Direction,
+        /// Edge of the patch, m. Default: the spacing of the particles.
+        #[schemars(default)]
+        size: Option<f64>,
+    },
     /// The farthest of the particles in a box along a direction, drops aside: its place, m.
     RunUp {
         /// Lower corner of the box, m.
@@ -141,6 +153,7 @@ enum Kind {
     Face,
     Block,
     Gauge,
+    Sensor,
     RunUp,
 }
 
@@ -161,6 +174,7 @@ struct Flat {
     max: Option<[f64; 3]>,
     normal: Option<Direction>,
     direction: Option<Direction>,
+    size: Option<f64>,
     block: Option<String>,
     faces: Option<bool>,
     safety: Option<bool>,
@@ -200,6 +214,7 @@ impl Flat {
             ("max", self.max.is_some()),
             ("normal", self.normal.is_some()),
             ("direction", self.direction.is_some()),
+            ("size", self.size.is_some()),
             ("block", self.block.is_some()),
             ("faces", self.faces.is_some()),
             ("safety", self.safety.is_some()),
@@ -273,6 +288,15 @@ impl Flat {
                 fixed("gauge", "the level")?;
                 ProbePlace::Gauge {
                     at: need(self.at, "at", "gauge")?.column()?,
+                }
+            }
+            Kind::Sensor => {
+                only("sensor", &["at", "normal", "size"])?;
+                fixed("sensor", "pressure and impulse")?;
+                ProbePlace::Sensor {
+                    at: need(self.at, "at", "sensor")?.point()?,
+                    normal: need(self.normal, "normal", "sensor")?,
+                    size: self.size,
                 }
             }
             Kind::RunUp => {

@@ -1,7 +1,7 @@
 //! Free water and the blocks in it.
 
 use super::countable::countable;
-use super::{BlockSetup, WaterLedger, block_setup, pool::Pool, scene_step::scene_step};
+use super::{BlockSetup, Reading, WaterLedger, block_setup, pool::Pool, scene_step::scene_step};
 use crate::{
     Error, Result,
     bodies::Blocks,
@@ -104,6 +104,11 @@ impl FreeSurface {
         self.pool.water().await
     }
 
+    /// What the sensor `name` has felt; none if there is no such probe.
+    pub fn sensor(&self, name: &str) -> Option<Reading> {
+        self.pool.sensors.reading(name)
+    }
+
     /// Steps done.
     pub fn step(&self) -> u64 {
         self.step
@@ -188,6 +193,7 @@ impl FreeSurface {
             loads: self.pool.last.clone(),
             joints: self.pool.joints,
             given: self.rock.given,
+            sensors: self.pool.sensors.readings.clone(),
             blocks: self.rock.blocks().snapshot(),
         })
     }

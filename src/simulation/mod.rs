@@ -14,6 +14,7 @@ mod lattice_setup;
 mod needs;
 mod pool;
 mod scene_step;
+mod sensors;
 mod wall_units;
 mod water_ledger;
 
@@ -28,6 +29,7 @@ pub use free_surface::FreeSurface;
 pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
 pub(crate) use scene_step::scene_step;
+pub use sensors::Reading;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
 

@@ -1,7 +1,8 @@
 //! Free water with blocks in it.
 
+use super::sensors::Sensors;
 use crate::{
-    Result,
+    Error, Result,
     bodies::{Load, Motion, Pose},
     checkpoint::WaterCheckpoint,
     coupling::{Felt, Fluid, Pace, Rock, Sealed, longest_exchange},
@@ -30,6 +31,7 @@ pub(super) struct Pool {
     pub joints: f64,
     /// Steps of the water that sorted its particles.
     pub sorts: u64,
+    pub sensors: Sensors,
 }
 
 impl Fluid for Pool {
@@ -41,11 +43,15 @@ impl Fluid for Pool {
         let until = self.next(pace, end);
         let (device, queue, time) = (&self.device, &self.queue, until - self.time);
         let closed = self.sealed.closed(poses, &self.wet);
-        self.particles.ask(device, queue, &closed.places())?;
+        let rims = closed.places();
+        self.particles
+            .ask(device, queue, &rims, self.sensors.places())?;
         let mut done = self.particles.advance(device, queue, poses, time).await?;
         let own = done.loads.clone();
         let loads = &mut done.loads;
-        self.sealed.push(closed, &done.pressures, poses, loads);
+        let (rims, walls) = done.pressures.split_at(rims.len());
+        self.sealed.push(closed, rims, poses, loads);
+        self.sensors.feel(walls, time);
         self.joints += joints_work(&own, loads, poses, time);
         let wet = |load: &Load| load.force != DVec3::ZERO;
         self.wet = done.loads.iter().map(wet).collect();
@@ -83,6 +89,7 @@ impl Pool {
             .map(|block| block.motion == Motion::Free || scene.probes_block(&block.name))
             .collect();
         let setup = particles.setup();
+        let sensors = Sensors::of(scene, setup);
         Self {
             wet: vec![true; setup.bodies.len()],
             device: device.clone(),
@@ -96,6 +103,7 @@ impl Pool {
             exchanges: 0,
             joints: 0.0,
             sorts: 0,
+            sensors,
         }
     }
 
@@ -103,6 +111,7 @@ impl Pool {
     pub fn begin(&mut self, time: f64) {
         self.time = time;
         self.wet.fill(true);
+        self.sensors.begin();
         self.particles.renew();
     }
 
@@ -142,8 +151,18 @@ impl Pool {
     /// Goes on from a checkpoint.
     ///
     /// # Errors
-    /// If it is of other particles.
+    /// If it is of other particles or sensors.
     pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
+        let (its, mine) = (checkpoint.sensors.len(), self.sensors.readings.len());
+        if its != mine {
+            return Err(Error::scene(
+                "restart",
+                format!(
+                    "the checkpoint has {its} pressure sensors and the scene {mine}; restart with the scene that wrote it"
+                ),
+            ));
+        }
+        self.sensors.readings.clone_from(&checkpoint.sensors);
         self.particles
             .restore(&self.queue, &checkpoint.particles, &checkpoint.state)?;
         self.last.clone_from(&checkpoint.loads);

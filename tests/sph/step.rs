@@ -186,7 +186,9 @@ fn check_with(setup: Setup) {
     // In the water, in rock, over the water and far away.
     let above = setup.origin + setup.size * DVec3::new(0.5, 0.5, 0.95);
     let asked = [positions[0], positions[7], middle, above, DVec3::splat(1e4)];
-    particles.ask(device, queue, &asked).unwrap();
+    // Covered by more, or by less, than there is water.
+    let walls = [(positions[0], 2.0), (positions[7], 0.1), (middle, 0.7)];
+    particles.ask(device, queue, &asked, &walls).unwrap();
     let done = rig
         .wait(particles.advance(device, queue, &poses, dt))
         .unwrap();
@@ -207,7 +209,9 @@ fn check_with(setup: Setup) {
         most[0] = most[0].max((exact.water[n].v - water[n].v).length());
         most[1] = most[1].max(change(exact.water[n].rho, water[n].rho));
     }
-    for (x, found) in asked.iter().zip(&done.pressures) {
+    let asked = asked.iter().map(|x| (x, 0.0));
+    let asked = asked.chain(walls.iter().map(|(x, share)| (x, *share)));
+    for ((x, share), found) in asked.zip(&done.pressures) {
         // To the whole quanta of places, whose weight is that of a column.
         let at = Dummy {
             x: *x,
@@ -215,7 +219,11 @@ fn check_with(setup: Setup) {
             a: DVec3::ZERO,
             slips: true,
         };
-        let expected = twin.wall_pressure(&water, &at);
+        let wet = match share > 0.0 {
+            true => (twin.covered(&water, *x) / share).min(1.0),
+            false => 1.0,
+        };
+        let expected = wet * twin.wall_pressure(&water, &at);
         assert!(
             change(*found, expected) < 1e-4 * 1e4,
             "{found} {expected} at {x}"

@@ -108,7 +108,7 @@ impl Tank {
 
     pub fn ask(&mut self, places: &[DVec3]) {
         let Rig { device, queue } = &self.rig;
-        self.particles.ask(device, queue, places).unwrap();
+        self.particles.ask(device, queue, places, &[]).unwrap();
     }
 
     pub fn advance(&mut self, time: f64) -> Exchange {

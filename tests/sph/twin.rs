@@ -128,6 +128,13 @@ impl Twin<'_> {
         }
     }
 
+    /// Share of the kernel around a place that water covers.
+    pub fn covered(&self, water: &[Wet], x: DVec3) -> f64 {
+        let cell = self.0.spacing.powi(if self.0.plane { 2 } else { 3 });
+        let weights = water.iter().map(|f| self.w(self.between(x, f.x).length()));
+        cell * weights.sum::<f64>()
+    }
+
     /// The velocity of the water before a wall, continued into it about the wall's own.
     fn wall_velocity(&self, water: &[Wet], wall: &Dummy) -> DVec3 {
         let (mut above, mut below) = (DVec3::ZERO, 0.0);

@@ -218,12 +218,15 @@ impl Scene {
                         "faces measure the cells before them, and here are particles; leave it out",
                     );
                 }
-                ProbePlace::Gauge { .. } | ProbePlace::RunUp { .. } | ProbePlace::Block { .. } => {}
+                ProbePlace::Gauge { .. }
+                | ProbePlace::Sensor { .. }
+                | ProbePlace::RunUp { .. }
+                | ProbePlace::Block { .. } => {}
                 _ => {
                     return refuse(
                         key,
                         "measures cells, and here are particles; give kind = \"point\", \"line\", \"box\", \"gauge\", \
-                         \"run_up\" or \"block\"",
+                         \"sensor\", \"run_up\" or \"block\"",
                     );
                 }
             }
@@ -270,11 +273,11 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             if matches!(
                 probe.place,
-                ProbePlace::Gauge { .. } | ProbePlace::RunUp { .. }
+                ProbePlace::Gauge { .. } | ProbePlace::Sensor { .. } | ProbePlace::RunUp { .. }
             ) {
                 return refuse(
                     format!("probes[{index}]"),
-                    "measures a free surface, which only particles have; add [particles], or give another kind",
+                    "measures free water, which only particles are; add [particles], or give another kind",
                 );
             }
         }

@@ -1,6 +1,6 @@
 //! Probes lie in the domain.
 
-use super::rules::{distinct, inside, interval, names, ordered, refuse};
+use super::rules::{distinct, inside, interval, names, ordered, positive, refuse};
 use crate::error::Result;
 use crate::scene::{Field, Probe, ProbePlace, Scene};
 
@@ -69,6 +69,12 @@ impl Scene {
                 "there are no blocks in this scene; remove the probe, or add [[blocks]]",
             ),
             ProbePlace::Gauge { at: [x, y] } => within("at", [*x, *y, self.domain.middle()[2]]),
+            ProbePlace::Sensor { at, size, .. } => {
+                if let Some(size) = size {
+                    positive(format!("{key}.size"), *size, "m")?;
+                }
+                within("at", *at)
+            }
             ProbePlace::Box { min, max }
             | ProbePlace::Face { min, max, .. }
             | ProbePlace::RunUp { min, max, .. } => {

@@ -32,6 +32,7 @@ impl GaugeTable {
         let path = folder.join(format!("{}.csv", probe.name));
         let mut columns: Vec<String> = match &probe.place {
             ProbePlace::Gauge { .. } => vec!["level".into()],
+            ProbePlace::Sensor { .. } => ["pressure", "impulse"].map(Into::into).into(),
             ProbePlace::RunUp { .. } => ["x", "y", "z"].map(Into::into).into(),
             ProbePlace::Line { .. } => ["s", "x", "y", "z"].map(Into::into).into(),
             ProbePlace::Box { .. } => vec!["volume".into()],
@@ -62,6 +63,12 @@ impl Recorder<Pond> for GaugeTable {
     }
 
     fn record(&mut self, engine: &mut Pond, notes: &mut Notes) -> Result<()> {
+        if let Some(felt) = engine.simulation.sensor(&self.probe.name) {
+            let row = [felt.pressure, felt.impulse];
+            self.table.append(engine.step(), engine.time(), &row)?;
+            notes.file(self.path.clone());
+            return Ok(());
+        }
         let water = engine.water()?;
         let setup = engine.simulation.particles().setup();
         let gauges = Gauges::new(setup, &water.positions);
@@ -118,6 +125,7 @@ impl Recorder<Pond> for GaugeTable {
 fn drawn(place: &ProbePlace) -> Vec<Track<'static>> {
     match place {
         ProbePlace::Gauge { .. } => vec![track("level", "m", &["level"])],
+        ProbePlace::Sensor { .. } => vec![track("pressure", "Pa", &["pressure"])],
         ProbePlace::RunUp { .. } => vec![
             track("farthest x", "m", &["x"]),
             track("farthest y", "m", &["y"]),

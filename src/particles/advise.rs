@@ -250,6 +250,11 @@ fn dry(
     for (index, probe) in scene.probes.iter().enumerate() {
         let block = match &probe.place {
             ProbePlace::Point { at } => inside(DVec3::from(*at)),
+            // Half a spacing before its wall.
+            ProbePlace::Sensor { at, normal, .. } => {
+                let way = DVec3::AXES[normal.axis().index()] * f64::from(normal.sign());
+                inside(DVec3::from(*at) + 0.5 * setup.spacing * way)
+            }
             // All of the column up to the top of the water.
             ProbePlace::Gauge { at: [x, y] } => {
                 let count = ((high - low) / setup.spacing).ceil() as u32;
@@ -266,7 +271,7 @@ fn dry(
             warn(
                 format!("probes[{index}].at"),
                 format!(
-                    "`{}` is inside block `{block}`, where no water is: it will show no number; move it",
+                    "`{}` is inside block `{block}`, where no water is: it will show nothing; move it",
                     probe.name
                 ),
             );

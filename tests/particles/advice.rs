@@ -189,7 +189,9 @@ fn water_that_particles_miss_is_told() {
 fn probes_inside_blocks_are_told() {
     let probes = "[[probes]]\nname = \"g\"\nkind = \"gauge\"\nat = [1, 0.5]\n\
                   [[probes]]\nname = \"p\"\nkind = \"point\"\nfields = [\"pressure\"]\nat = [1, 0.5, 0.1]\n\
-                  [[probes]]\nname = \"q\"\nkind = \"point\"\nfields = [\"pressure\"]\nat = [0.4, 0.5, 0.1]\n";
+                  [[probes]]\nname = \"q\"\nkind = \"point\"\nfields = [\"pressure\"]\nat = [0.4, 0.5, 0.1]\n\
+                  [[probes]]\nname = \"r\"\nkind = \"sensor\"\nnormal = \"-x\"\nat = [0.75, 0.5, 0.1]\n\
+                  [[probes]]\nname = \"s\"\nkind = \"sensor\"\nnormal = \"+x\"\nat = [0.75, 0.5, 0.1]\n";
     let pile = |height: f64| {
         let keys = format!(
             "size = [0.5, 1.0, {height}]\nposition = [1, 0.5, {}]\nmotion = \"fixed\"",
@@ -198,12 +200,13 @@ fn probes_inside_blocks_are_told() {
         warnings(&tank(&format!("{}{probes}", block(&keys))).unwrap())
     };
     let found = pile(0.7);
-    assert_eq!(found.len(), 2, "{found:?}");
+    assert_eq!(found.len(), 3, "{found:?}");
+    assert!(found[2].contains("`s` is inside block `b`"), "{found:?}");
     assert!(found[0].contains("`g` is inside block `b`"), "{found:?}");
     assert!(found[1].contains("`p` is inside block `b`"), "{found:?}");
     // Water stands over a low one.
     let found = pile(0.3);
-    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found.len(), 2, "{found:?}");
 }
 
 #[test]

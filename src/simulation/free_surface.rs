@@ -227,7 +227,7 @@ impl FreeSurface {
             ));
         }
         // All is looked at before anything is changed.
-        self.pool.particles.check(&checkpoint.particles)?;
+        self.pool.check(checkpoint)?;
         self.rock.restore(&checkpoint.blocks)?;
         self.rock.given = checkpoint.given;
         self.pool.restore(checkpoint)?;

@@ -148,11 +148,11 @@ impl Pool {
         self.particles.particles(&self.device, &self.queue).await
     }
 
-    /// Goes on from a checkpoint.
+    /// Whether a checkpoint is of such water.
     ///
     /// # Errors
     /// If it is of other particles or sensors.
-    pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
+    pub fn check(&self, checkpoint: &WaterCheckpoint) -> Result<()> {
         let (its, mine) = (checkpoint.sensors.len(), self.sensors.readings.len());
         if its != mine {
             return Err(Error::scene(
@@ -162,6 +162,14 @@ impl Pool {
                 ),
             ));
         }
+        self.particles.check(&checkpoint.particles)
+    }
+
+    /// Goes on from a checkpoint.
+    ///
+    /// # Errors
+    /// If it is of other particles or sensors.
+    pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
         self.sensors.readings.clone_from(&checkpoint.sensors);
         self.particles
             .restore(&self.queue, &checkpoint.particles, &checkpoint.state)?;

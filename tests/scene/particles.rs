@@ -332,11 +332,15 @@ fn what_is_of_particles_is_refused_on_a_lattice() {
         ),
         (
             "[[probes]]\nname = \"p\"\nkind = \"gauge\"\nat = [0, 0]\n",
-            ["probes[0]", "free surface"],
+            ["probes[0]", "free water"],
+        ),
+        (
+            "[[probes]]\nname = \"p\"\nkind = \"sensor\"\nat = [0, 0, 0]\nnormal = \"+z\"\nsize = 1e-3\n",
+            ["probes[0]", "free water"],
         ),
         (
             "[[probes]]\nname = \"p\"\nkind = \"run_up\"\nmin = [0, 0, 0]\nmax = [1e-3, 1e-3, 1e-3]\ndirection = \"+x\"\n",
-            ["probes[0]", "free surface"],
+            ["probes[0]", "free water"],
         ),
     ] {
         refused(read(&format!("{CHANNEL}{more}")), &parts);

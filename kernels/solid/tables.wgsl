@@ -10,7 +10,8 @@ struct Tile {
     // Number of the brick among the saturated ones.
     slot: u32,
     lane: u32,
-    // Cells an axis, from the lowest, that lie in the domain: x, y and z in 8 bits each, x lowest.
+    // Cells an axis, from the lowest, that lie in the domain: x, y and z in 8 bits each, x lowest. Above them the eighths
+    // of its cells, in the order of the workgroup, that the part can reach: the first, and one past the last, in 4 bits.
     inside: u32,
 }
 

@@ -5,7 +5,8 @@ fn sum_tile(turn: u32, local: u32) {
     let here = turn < tile_count();
     if (here) {
         let tile = tiles[turn];
-        for (var l = local; l < WORKGROUP; l += 64u) {
+        let reach = reach_of(tile.inside);
+        for (var l = reach.x + local; l < reach.y; l += 64u) {
             add_cell(tile, turn, l);
         }
     }

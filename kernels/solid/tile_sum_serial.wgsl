@@ -7,7 +7,8 @@ fn sum_tile(turn: u32, local: u32) {
         return;
     }
     let tile = tiles[number];
-    for (var l = 0u; l < WORKGROUP; l++) {
+    let reach = reach_of(tile.inside);
+    for (var l = reach.x; l < reach.y; l++) {
         add_cell(tile, number, l);
     }
     for (var k = 0u; k < 20u; k++) { // unroll

@@ -1,7 +1,8 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction, volume of (cell and convex part) / volume of the cell, of one part
-// in each cell of the listed tiles. A workgroup is a tile; its invocations share the cells. Cells at edges, and on spheres, are few and dear: they are
-// put on a list for voxelise_edges, in any order, since neighbours in a workgroup would wait for them.
-// needs workgroup, tables, brick, ball_quick, hull_quick
+// in each cell of the listed tiles that it can reach. A workgroup is a tile; its invocations share the cells. Cells at
+// edges, and on spheres, are few and dear: they are put on a list for voxelise_edges, in any order, since neighbours in a
+// workgroup would wait for them.
+// needs tables, brick, ball_quick, hull_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
@@ -27,13 +28,15 @@ fn voxelise(
     if (turn >= min(TILES, arrayLength(&work))) {
         return;
     }
-    let number = work[turn];
-    if (number == NOTHING) {
+    let job = work[turn];
+    if (job == NOTHING) {
         return;
     }
+    let number = job & ~WHOLE;
     let tile = tiles[number];
     let part = parts[tile.part];
-    for (var place = local; place < WORKGROUP; place += INVOCATIONS) {
+    let reach = select(reach_of(tile.inside), vec2(0u, WORKGROUP), job >= WHOLE);
+    for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
         let share = quick_share(tile, part, place_in_brick(place));
         shares[number * WORKGROUP + place] = share;
         if (share == UNDECIDED) {

@@ -33,8 +33,8 @@ pub struct Submerged {
 pub struct Work {
     /// Tiles whose solid fractions were.
     pub tiles: u64,
-    /// Bricks whose saturation was.
-    pub bricks: u64,
+    /// Lanes of bricks whose saturation was.
+    pub lanes: u64,
     /// Times that the tiles of blocks were looked for.
     pub searches: u64,
 }
@@ -181,7 +181,7 @@ impl Immersed {
             .filter(|&block| differs(block, |a, b| a != b))
             .collect();
         if changed.is_empty() {
-            self.set_work(queue, &[], &[]);
+            self.set_work(queue, &[], &[], false);
             return Ok(());
         }
         for &block in &moved {
@@ -217,13 +217,13 @@ impl Immersed {
         self.upload_tables(queue);
         if anew {
             let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
-            let slots: Vec<u32> = (0..self.plan.bricks.len() as u32).collect();
-            self.set_work(queue, &tiles, &slots);
+            let lanes: Vec<u32> = (0..self.plan.lane_count() as u32).collect();
+            self.set_work(queue, &tiles, &lanes, true);
         } else {
             let tiles = moved.iter().flat_map(|&block| self.plan.tiles_of(block));
             let tiles: Vec<u32> = tiles.collect();
-            let slots = self.plan.slots_of(changed.iter().copied());
-            self.set_work(queue, &tiles, &slots);
+            let lanes = self.plan.lanes_of(changed.iter().copied());
+            self.set_work(queue, &tiles, &lanes, false);
         }
         Ok(())
     }
@@ -256,8 +256,7 @@ impl Immersed {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<()> {
-        let bricks = lattice.grid().bricks().iter().product::<u32>() as usize;
-        self.plan.assemble(lattice.geometry(), bricks);
+        self.plan.assemble(lattice.geometry(), lattice.grid());
         lattice.set_saturated(device, queue, &self.plan.bricks)?;
         let counts = [
             self.first_face.len() - 1,
@@ -287,18 +286,18 @@ impl Immersed {
         self.poses.clear();
     }
 
-    fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
-        self.kernels.set_work(queue, tiles, slots);
+    fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
+        self.kernels.set_work(queue, tiles, lanes, anew);
         self.work.tiles += tiles.len() as u64;
-        self.work.bricks += slots.len() as u64;
+        self.work.lanes += lanes.len() as u64;
     }
 
     fn upload_plan(&mut self, queue: &wgpu::Queue) {
         let plan = &self.plan;
         let lists = [
             ("tiles", bytemuck::cast_slice(&plan.tiles)),
-            ("slot_first", bytemuck::cast_slice(&plan.slot_first)),
-            ("slot_tiles", bytemuck::cast_slice(&plan.slot_tiles)),
+            ("lane_first", bytemuck::cast_slice(&plan.lane_first)),
+            ("lane_tiles", bytemuck::cast_slice(&plan.lane_tiles)),
             (
                 "block_first",
                 bytemuck::cast_slice(&plan.block_first[..=self.loaded]),

@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and the memory that they share.
 
-use super::{PLANES, Plan, Tile, WRENCH, Walk, program};
+use super::{PLANES, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     kernel::{Kernel, MAX_GROUPS, fold},
@@ -72,13 +72,13 @@ const NAMES: [&str; 13] = [
     "faces",
     "motions",
     "shares",
-    "slot_first",
-    "slot_tiles",
+    "lane_first",
+    "lane_tiles",
     "block_first",
     "partials",
     "wrenches",
     "tile_work",
-    "slot_work",
+    "lane_work",
     "edges",
 ];
 
@@ -86,7 +86,7 @@ const NAMES: [&str; 13] = [
 const KERNELS: [(&str, Option<&str>); 5] = [
     ("voxelise", Some("tile_work")),
     ("voxelise_edges", None),
-    ("saturate_cells", Some("slot_work")),
+    ("saturate_cells", Some("lane_work")),
     ("reduce_tiles", None),
     ("reduce_blocks", None),
 ];
@@ -173,13 +173,13 @@ impl Kernels {
             (16 * faces) as u64,
             (size_of::<super::Motion>() * blocks) as u64,
             words(tiles) * self.workgroup,
-            words(plan.slot_first.len()),
+            words(plan.lane_first.len()),
             words(tiles),
             words(loaded + 1),
             words(WRENCH * tiles),
             words(WRENCH * loaded),
             words(tiles + SURPLUS),
-            words(plan.bricks.len() + SURPLUS),
+            words(plan.lane_count() + SURPLUS),
             words(tiles) * self.workgroup + 4,
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
@@ -219,14 +219,16 @@ impl Kernels {
         Ok(())
     }
 
-    /// Gives the kernels of cells their work: numbers of tiles and of slots.
-    pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], slots: &[u32]) {
-        for (n, list) in [(0, tiles), (2, slots)] {
+    /// Gives the kernels of cells their work: numbers of tiles, and of lanes of bricks; `anew` where these are others than
+    /// before.
+    pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
+        let mark = if anew { WHOLE } else { 0 };
+        for (n, list) in [(0, tiles), (2, lanes)] {
             self.groups[n] = list.len() as u32;
             if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
                 // A folded dispatch has a few workgroups too many, which find nothing to do.
                 let [x, y] = fold(list.len() as u32);
-                let mut list = list.to_vec();
+                let mut list: Vec<u32> = list.iter().map(|number| number | mark).collect();
                 list.resize(x as usize * y as usize, NOTHING);
                 queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
             }

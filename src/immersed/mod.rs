@@ -31,7 +31,7 @@ pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use immersed::{Immersed, Submerged, Work};
 pub use program::{
-    MOST_BINDINGS, MOST_FACES, Walk, constants, reduce_blocks, reduce_faces, reduce_tiles,
+    MOST_BINDINGS, MOST_FACES, WHOLE, Walk, constants, reduce_blocks, reduce_faces, reduce_tiles,
     saturate_cells, sum_faces, voxelise, voxelise_edges,
 };
 pub use shell::NearCell;

@@ -1,7 +1,10 @@
 //! Which tiles there are, and which of them are to be computed again.
 
 use super::{Tile, tiles::Outline, tiles::Tiling};
-use crate::{bodies::Pose, lattice::Geometry};
+use crate::{
+    bodies::Pose,
+    lattice::{Geometry, Grid},
+};
 use std::ops::Range;
 
 /// Distance that a point of a block may go before its tiles are looked for anew, cells. Tiles reach as far
@@ -21,10 +24,12 @@ pub struct Plan {
     pub bricks: Vec<u32>,
     /// Tiles of each block.
     pub block_first: Vec<u32>,
-    /// Tiles of each slot: where they begin in `slot_tiles`.
-    pub slot_first: Vec<u32>,
-    /// Tiles by slot.
-    pub slot_tiles: Vec<u32>,
+    /// Tiles of each lane of a saturated brick, slot · lanes + lane: where they begin in `lane_tiles`.
+    pub lane_first: Vec<u32>,
+    /// Tiles by lane.
+    pub lane_tiles: Vec<u32>,
+    /// Lanes of a brick.
+    lanes: u32,
 }
 
 /// The tiles of a block.
@@ -95,9 +100,10 @@ impl Plan {
     }
 
     /// Puts the tiles of all blocks together; those in bricks without fluid are left out.
-    pub fn assemble(&mut self, geometry: &Geometry, bricks: usize) {
+    pub fn assemble(&mut self, geometry: &Geometry, grid: &Grid) {
         const NONE: u32 = u32::MAX;
-        let mut slot_of = vec![NONE; bricks];
+        let lanes = grid.lanes;
+        let mut slot_of = vec![NONE; grid.bricks().iter().product::<u32>() as usize];
         let all = self.found.iter().flat_map(|found| &found.tiles);
         self.bricks.clear();
         for (brick, _) in all {
@@ -113,28 +119,31 @@ impl Plan {
         }
         self.tiles.clear();
         self.block_first.clear();
-        self.slot_first.clear();
-        self.slot_first.resize(self.bricks.len() + 1, 0);
+        let rows = self.bricks.len() * lanes as usize;
+        self.lane_first.clear();
+        self.lane_first.resize(rows + 1, 0);
+        self.lanes = lanes;
         for found in &self.found {
             self.block_first.push(self.tiles.len() as u32);
             for (brick, tile) in &found.tiles {
                 let slot = slot_of[*brick as usize];
                 if slot != NONE {
-                    self.tiles.push(Tile { slot, ..*tile });
-                    self.slot_first[slot as usize + 1] += 1;
+                    let tile = Tile { slot, ..*tile };
+                    self.lane_first[(slot * lanes + tile.lane) as usize + 1] += 1;
+                    self.tiles.push(tile);
                 }
             }
         }
         self.block_first.push(self.tiles.len() as u32);
-        for slot in 0..self.bricks.len() {
-            self.slot_first[slot + 1] += self.slot_first[slot];
+        for row in 0..rows {
+            self.lane_first[row + 1] += self.lane_first[row];
         }
-        let mut next = self.slot_first.clone();
-        self.slot_tiles.clear();
-        self.slot_tiles.resize(self.tiles.len(), 0);
+        let mut next = self.lane_first.clone();
+        self.lane_tiles.clear();
+        self.lane_tiles.resize(self.tiles.len(), 0);
         for (number, tile) in (0..).zip(&self.tiles) {
-            let at = &mut next[tile.slot as usize];
-            self.slot_tiles[*at as usize] = number;
+            let at = &mut next[(tile.slot * lanes + tile.lane) as usize];
+            self.lane_tiles[*at as usize] = number;
             *at += 1;
         }
     }
@@ -144,17 +153,26 @@ impl Plan {
         self.block_first[block]..self.block_first[block + 1]
     }
 
-    /// Slots in which the blocks have tiles, ascending.
-    pub fn slots_of(&self, blocks: impl Iterator<Item = usize>) -> Vec<u32> {
-        let mut taken = vec![false; self.bricks.len()];
+    /// Lanes of bricks in which the blocks have tiles, ascending.
+    pub fn lanes_of(&self, blocks: impl Iterator<Item = usize>) -> Vec<u32> {
+        let mut taken = vec![false; self.lane_count()];
         for block in blocks {
-            for tile in self.tiles_of(block) {
-                taken[self.tiles[tile as usize].slot as usize] = true;
+            for tile in &self.tiles[range(self.tiles_of(block))] {
+                taken[(tile.slot * self.lanes + tile.lane) as usize] = true;
             }
         }
         (0..)
             .zip(taken)
-            .filter_map(|(slot, taken)| taken.then_some(slot))
+            .filter_map(|(lane, taken)| taken.then_some(lane))
             .collect()
     }
+
+    /// Lanes of all saturated bricks.
+    pub fn lane_count(&self) -> usize {
+        self.bricks.len() * self.lanes as usize
+    }
+}
+
+fn range(tiles: Range<u32>) -> Range<usize> {
+    tiles.start as usize..tiles.end as usize
 }

@@ -9,6 +9,10 @@ pub const MOST_FACES: u32 = 8192;
 /// Storage buffers of the kernel that has the most of them, `reduce_faces`.
 pub const MOST_BINDINGS: u32 = 8;
 
+/// Added to a number in `work`: all of its cells are to be done, as where nothing stands in memory yet, not only those
+/// that parts can reach.
+pub const WHOLE: u32 = 1 << 31;
+
 /// Who goes through the cells of a tile. Both give the same numbers, sums up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {
@@ -44,8 +48,8 @@ pub fn voxelise_edges(grid: &Grid) -> Program {
     base("voxelise_edges", grid)
 }
 
-/// `saturate_cells`: a workgroup a slot of `work`. Binds `work`, `tiles`, `motions`, `slot_first`,
-/// `slot_tiles`, `shares`, `saturation`.
+/// `saturate_cells`: a workgroup a lane of a saturated brick, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
+/// `motions`, `lane_first`, `lane_tiles`, `shares`, `saturation`.
 pub fn saturate_cells(grid: &Grid, walk: Walk) -> Program {
     walked("saturate_cells", grid, walk)
 }

@@ -44,14 +44,25 @@ pub struct Tile {
     pub slot: u32,
     /// Lane of the brick's elements.
     pub lane: u32,
-    /// Cells an axis, from the lowest, that lie in the domain: [`Tile::pack`].
+    /// Cells an axis, from the lowest, that lie in the domain: [`Tile::pack`]; and which of all the part can reach:
+    /// [`Tile::reaching`].
     pub inside: u32,
 }
 
 impl Tile {
-    /// Numbers of cells an axis, at most 255 each, in one word.
+    /// Parts of equal size, but for the last ones, into which the cells of a tile are divided, in the order of the workgroup.
+    pub const EIGHTHS: u32 = 8;
+
+    /// Numbers of cells an axis, at most 255 each, in one word; the part can reach all of them.
     pub const fn pack([x, y, z]: [u32; 3]) -> u32 {
-        x | y << 8 | z << 16
+        x | y << 8 | z << 16 | Self::EIGHTHS << 28
+    }
+
+    /// The same of a part that can reach the eighths from `first` up to `end` alone.
+    #[must_use]
+    pub const fn reaching(self, [first, end]: [u32; 2]) -> Self {
+        let inside = self.inside & 0xff_ffff | first << 24 | end << 28;
+        Self { inside, ..self }
     }
 }
 

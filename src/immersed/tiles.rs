@@ -22,6 +22,9 @@ pub struct Outline {
 impl Outline {
     /// Whether a box of half extents `half` around `middle` (from the centroid) lies off it for sure.
     fn is_off(&self, middle: DVec3, half: DVec3) -> bool {
+        if (middle + half).cmplt(self.low).any() || (middle - half).cmpgt(self.high).any() {
+            return true;
+        }
         if self.faces.is_empty() {
             let gap = (middle.abs() - half).max(DVec3::ZERO);
             return gap.length_squared() > self.radius * self.radius;
@@ -107,24 +110,65 @@ impl Tiling {
                 for x in &x {
                     let cell = [x.cell, y.cell, z.cell];
                     let inside = [x.inside, y.inside, z.inside];
-                    let low = DVec3::from_array(cell.map(f64::from));
-                    let half = 0.5 * DVec3::from_array(inside.map(f64::from));
-                    let middle = low + half - outline.centre;
-                    if outline.is_off(middle, half + DVec3::splat(margin)) {
+                    let Some(reach) = self.reach(outline, margin, (cell, inside)) else {
                         continue;
-                    }
+                    };
                     let tile = Tile {
                         cell,
                         lane: z.lane,
                         inside: Tile::pack(inside),
                         ..Tile::default()
                     };
-                    tiles.push((x.brick + bx * (y.brick + by * z.brick), tile));
+                    let brick = x.brick + bx * (y.brick + by * z.brick);
+                    tiles.push((brick, tile.reaching(reach)));
                 }
             }
         }
         tiles.sort_by_key(|(brick, tile)| (*brick, tile.lane, tile.cell));
         tiles
+    }
+
+    /// The eighths that a part grown by `margin` cells reaches of the tile at `cell` with `inside` cells in the domain: the
+    /// first, and one past the last.
+    fn reach(
+        &self,
+        outline: &Outline,
+        margin: f64,
+        (cell, inside): ([i32; 3], [u32; 3]),
+    ) -> Option<[u32; 2]> {
+        let brick = self.grid.brick;
+        let cells: u32 = brick.iter().product();
+        let corner = DVec3::from_array(cell.map(f64::from)) - outline.centre;
+        let place = |k: u32| {
+            [
+                k % brick[0],
+                k / brick[0] % brick[1],
+                k / (brick[0] * brick[1]),
+            ]
+        };
+        let reaches = |eighth: &u32| {
+            let size = cells.div_ceil(Tile::EIGHTHS);
+            let [first, last] = [eighth * size, (eighth + 1) * size].map(|end| end.min(cells));
+            if first == last {
+                return false;
+            }
+            let [first, last] = [place(first), place(last - 1)];
+            // Rows that it holds a part of count as whole ones, and so do layers.
+            let whole = [first[1..] != last[1..], first[2] != last[2], false];
+            let side = |axis: usize| match whole[axis] {
+                true => [0, inside[axis]],
+                false => [first[axis], (last[axis] + 1).min(inside[axis])],
+            };
+            let sides = [0, 1, 2].map(side);
+            let [low, high] =
+                [0, 1].map(|end| DVec3::from_array(sides.map(|side| side[end].into())));
+            let half = 0.5 * (high - low);
+            half.min_element() > 0.0
+                && !outline.is_off(corner + low + half, half + DVec3::splat(margin))
+        };
+        let first = (0..Tile::EIGHTHS).find(reaches)?;
+        let last = (first..Tile::EIGHTHS).rfind(reaches)?;
+        Some([first, last + 1])
     }
 
     /// Spans of bricks between `low` and `high` on an axis, and periods away where what lies there is `imaged`.

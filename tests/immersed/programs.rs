@@ -39,8 +39,8 @@ fn bindings_by_name() {
             "work",
             "tiles",
             "motions",
-            "slot_first",
-            "slot_tiles",
+            "lane_first",
+            "lane_tiles",
             "shares",
             "saturation"
         ]

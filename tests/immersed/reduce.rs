@@ -27,7 +27,8 @@ impl Case {
         let middle = DVec3::new(17.0, -30.0, 13.0);
         let mut placed = crowd(&mut noise, BLOCKS - 1, middle);
         placed.retain(|part| part.block != 3);
-        let tiling = Tiling::new(grid([21, 19, 22], lanes, brick), [7, -40, 3], placed);
+        let mut tiling = Tiling::new(grid([21, 19, 22], lanes, brick), [7, -40, 3], placed);
+        tiling.shorten(&mut noise);
         let moving = (0..BLOCKS).map(|_| Moving::new(middle, &mut noise));
         let moving: Vec<_> = moving.collect();
         let shares = random_shares(&tiling, &mut noise);
@@ -74,7 +75,7 @@ impl Case {
             let moving = &self.moving[tile.block as usize];
             for local in 0..tiling.workgroup() {
                 let share = self.shares[number * tiling.workgroup() + local];
-                if share <= 0.0 {
+                if share <= 0.0 || !tiling.reach(tile).contains(&local) {
                     continue;
                 }
                 let e = if share == DEEP { 1.0 } else { f64::from(share) };

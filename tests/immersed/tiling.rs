@@ -201,6 +201,31 @@ impl Tiling {
         here.then_some(cell)
     }
 
+    /// Lets the parts reach any stretch of their tiles.
+    pub fn shorten(&mut self, noise: &mut Noise) {
+        for tile in &mut self.tiles {
+            let mut any = |most: u32| (noise.next() * f64::from(most)) as u32;
+            let first = any(Tile::EIGHTHS);
+            *tile = tile.reaching([first, first + 1 + any(Tile::EIGHTHS - first)]);
+        }
+    }
+
+    /// Places that the part of a tile can reach.
+    pub fn reach(&self, tile: &Tile) -> std::ops::Range<usize> {
+        let eighth = self.workgroup().div_ceil(8);
+        let end = |bits: u32| eighth * (bits & 15) as usize;
+        end(tile.inside >> 24)..end(tile.inside >> 28)
+    }
+
+    /// The least stretch that holds what the parts can reach in a lane of a slot.
+    pub fn reach_of_lane(&self, slot: u32, lane: u32) -> std::ops::Range<usize> {
+        let here = |tile: &&Tile| (tile.slot, tile.lane) == (slot, lane);
+        let tiles = self.tiles.iter().filter(here);
+        let reaches = tiles.map(|tile| self.reach(tile));
+        let all = reaches.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+        all.unwrap_or(0..0)
+    }
+
     /// Index of a scalar of the saturation.
     pub fn scalar(&self, tile: &Tile, plane: usize, local: usize) -> usize {
         let lanes = self.grid.lanes as usize;
@@ -208,11 +233,12 @@ impl Tiling {
         element * lanes + tile.lane as usize
     }
 
-    /// Tiles of each slot in ascending order, and where they begin.
-    pub fn by_slot(&self) -> (Vec<u32>, Vec<u32>) {
+    /// Tiles of each lane of a slot in ascending order, and where they begin.
+    pub fn by_lane(&self) -> (Vec<u32>, Vec<u32>) {
         let (mut first, mut list) = (vec![0], Vec::new());
-        for slot in 0..self.slots {
-            let numbers = (0..).zip(&self.tiles).filter(|(_, t)| t.slot == slot);
+        for lane in 0..self.slots * self.grid.lanes {
+            let here = |t: &Tile| t.slot * self.grid.lanes + t.lane == lane;
+            let numbers = (0..).zip(&self.tiles).filter(|(_, t)| here(t));
             list.extend(numbers.map(|(n, _)| n as u32));
             first.push(list.len() as u32);
         }

@@ -9,7 +9,7 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     block::HalfSpace,
-    immersed::{DEEP, NEAR, TOUCHES, Tile, Walk, constants, voxelise, voxelise_edges},
+    immersed::{DEEP, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
 };
 
 /// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
@@ -239,6 +239,40 @@ fn each_cell_of_a_cube_that_is_hardly_turned() {
     }
     let tiling = Tiling::new(grid([13; 3], 1, [8, 8, 4]), [0; 3], placed);
     check_cells(&tiling, &all(&bench, &tiling), ALMOST_PARALLEL);
+}
+
+/// Nothing is done where a part cannot reach, unless the whole tile is asked for.
+#[test]
+fn cells_out_of_reach_are_left_alone() {
+    let bench = Workbench::new(None);
+    let mut noise = Noise(8);
+    for grid in grids(18) {
+        let at = DVec3::splat(9.0) + noise.point();
+        let placed = vec![Placed::hull(0, &icosahedron(9.0), at, noise.rotation())];
+        let mut tiling = Tiling::new(grid, [0; 3], placed);
+        let expected = all(&bench, &tiling);
+        tiling.shorten(&mut noise);
+        let whole = |tile: u32| tile % 2 == 1;
+        let tiles = 0..tiling.tiles.len() as u32;
+        let job = |tile| if whole(tile) { tile | WHOLE } else { tile };
+        let work: Vec<u32> = tiles.clone().map(job).collect();
+        let found = run(&bench, &tiling, &work, None);
+        let size = tiling.workgroup();
+        let mut left = 0;
+        for (tile, at) in tiles.flat_map(|tile| (0..size).map(move |at| (tile, at))) {
+            let reach = tiling.reach(&tiling.tiles[tile as usize]);
+            let place = tile as usize * size + at;
+            let done = whole(tile) || reach.contains(&at);
+            let bits = if done {
+                expected[place].to_bits()
+            } else {
+                POISON
+            };
+            left += u32::from(!done);
+            assert_eq!(found[place].to_bits(), bits, "tile {tile}, place {at}");
+        }
+        assert!(left > 100, "{left}");
+    }
 }
 
 /// Far from the origin of the coordinates, as blocks beside a periodic face are, nothing is lost.

@@ -2,6 +2,7 @@
 
 mod null;
 mod placed;
+mod reach;
 #[path = "../rig/mod.rs"]
 mod rig;
 mod step;

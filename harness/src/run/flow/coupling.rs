@@ -24,7 +24,7 @@ pub struct Coupling {
     /// Tiles whose solid fractions were computed, all steps together.
     pub tiles_computed: u64,
     /// Bricks whose saturation was computed, all steps together.
-    pub bricks_computed: u64,
+    pub lanes_computed: u64,
     /// Times that the tiles of blocks were looked for.
     pub searches: u64,
     /// Loads of a step that were read back.
@@ -61,7 +61,7 @@ impl Coupling {
             plain_bricks: others(&geometry.plain),
             mixed_bricks: others(&geometry.mixed),
             tiles_computed: cells.tiles,
-            bricks_computed: cells.bricks,
+            lanes_computed: cells.lanes,
             searches: cells.searches,
             readings,
             readings_skipped: steps.saturating_sub(readings),
@@ -104,12 +104,12 @@ impl fmt::Display for Coupling {
         let steps = (self.readings + self.readings_skipped).max(1) as f64;
         write!(
             f,
-            "  {} blocks in the fluid: {}; a step computed {:.1} tiles and {:.1} bricks anew, in {} \
+            "  {} blocks in the fluid: {}; a step computed {:.1} tiles and {:.1} lanes of bricks anew, in {} \
              searches; {} loads read back, {} steps without",
             self.in_fluid,
             self.kinds(),
             self.tiles_computed as f64 / steps,
-            self.bricks_computed as f64 / steps,
+            self.lanes_computed as f64 / steps,
             self.searches,
             self.readings,
             self.readings_skipped

@@ -5,12 +5,12 @@
 // Tiles before each block, and all.
 @group(0) @binding(4) var<storage, read> block_first: array<u32>;
 
-fn add_cell(tile: Tile, number: u32, local: u32) {
+fn add_cell(tile: Tile, motion: Motion, number: u32, local: u32) {
     let share = shares[number * WORKGROUP + local];
     if (share <= 0.0) {
         return;
     }
-    let cell = solid_cell(tile, share, local);
+    let cell = solid_cell(tile, motion, share, local);
     let held = cell.e * cell.beta;
     let freed = select(0.0, cell.e - held, cell.beta > 0.0);
     for (var i = 0u; i < 3u; i++) { // unroll

@@ -17,6 +17,20 @@ override LANES_OF_ELEMENT: u32;
 // What blocks that touch may leave of a cell between them.
 const ROUGH = 2e-3;
 
+// What the parts are to one cell.
+struct Sums {
+    // Velocity weighed by the shares, and their sum.
+    solid: vec4<f32>,
+    // The same of parts that touch only, each as one.
+    beside: vec4<f32>,
+    // Whether a part is deep, or near.
+    deep: bool,
+    near: bool,
+    // One more than the number of a block that has a share or touches, 0 where there is none; whether another one does.
+    first_block: u32,
+    several: bool,
+}
+
 @compute @workgroup_size(INVOCATIONS)
 fn saturate_cells(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -32,67 +46,65 @@ fn saturate_cells(
         return;
     }
     let lane = job & ~WHOLE;
-    let reach = select(reach_of_all(lane), vec2(0u, WORKGROUP), job >= WHOLE);
+    let begin = lane_first[lane];
+    let end = lane_first[lane + 1u];
+    let reach = select(reach_of_all(begin, end), vec2(0u, WORKGROUP), job >= WHOLE);
+    // Most lanes have one tile, and what it says is fetched once for all of their cells.
+    let first = lane_tiles[select(0u, begin, begin < end)];
+    let tile = tiles[first];
+    let motion = motions[tile.block];
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
-        saturate_cell(lane, place);
+        var sums: Sums;
+        if (begin < end) {
+            sums = with_part(sums, shares[first * WORKGROUP + place], tile, motion, place);
+        }
+        for (var k = begin + 1u; k < end; k++) {
+            let number = lane_tiles[k];
+            let mark = shares[number * WORKGROUP + place];
+            if (mark != 0.0) {
+                let other = tiles[number];
+                sums = with_part(sums, mark, other, motions[other.block], place);
+            }
+        }
+        write(lane, place, sums);
     }
 }
 
-fn reach_of_all(lane: u32) -> vec2<u32> {
+fn reach_of_all(begin: u32, end: u32) -> vec2<u32> {
     var reach = vec2(WORKGROUP, 0u);
-    for (var k = lane_first[lane]; k < lane_first[lane + 1u]; k++) {
+    for (var k = begin; k < end; k++) {
         let own = reach_of(tiles[lane_tiles[k]].inside);
         reach = vec2(min(reach.x, own.x), max(reach.y, own.y));
     }
     return reach;
 }
 
-// What is at hand: most lanes have one tile, and what it says is fetched once for all of their cells.
-var<private> held: u32 = NOTHING;
-var<private> tile: Tile;
-var<private> motion: Motion;
+fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) -> Sums {
+    let cell = tile.cell + vec3<i32>(place_in_brick(place));
+    let u = vec4(velocity_at(motion, centre_from(cell, motion.base, motion.fraction)), 1.0);
+    let met = mark > 0.0 || mark == TOUCHES;
+    let another = before.first_block != 0u && before.first_block != tile.block + 1u;
+    return Sums(
+        before.solid + clamp(mark, 0.0, 1.0) * u,
+        before.beside + select(0.0, 1.0, mark == TOUCHES) * u,
+        before.deep || mark == DEEP,
+        before.near || mark < 0.0,
+        select(before.first_block, tile.block + 1u, met),
+        before.several || (met && another),
+    );
+}
 
-fn saturate_cell(lane: u32, local: u32) {
-    // Velocity weighed by the shares, and their sum; whether a part is deep, or near.
-    var sum: vec4<f32>;
-    var deep = false;
-    var near = false;
-    // The same of parts that touch only, each as one.
-    var beside: vec4<f32>;
-    // One more than the number of a block that has a share or touches, 0 where there is none; whether another one does.
-    var first_block = 0u;
-    var several = false;
-    for (var k = lane_first[lane]; k < lane_first[lane + 1u]; k++) {
-        let number = lane_tiles[k];
-        let mark = shares[number * WORKGROUP + local];
-        if (mark == 0.0) {
-            continue;
-        }
-        if (held != number) {
-            held = number;
-            tile = tiles[number];
-            motion = motions[tile.block];
-        }
-        let cell = tile.cell + vec3<i32>(place_in_brick(local));
-        let u = velocity_at(motion, centre_from(cell, motion.base, motion.fraction));
-        sum += clamp(mark, 0.0, 1.0) * vec4(u, 1.0);
-        beside += select(0.0, 1.0, mark == TOUCHES) * vec4(u, 1.0);
-        deep = deep || mark == DEEP;
-        near = near || mark < 0.0;
-        let met = mark > 0.0 || mark == TOUCHES;
-        several = several || (met && first_block != 0u && first_block != tile.block + 1u);
-        first_block = select(first_block, tile.block + 1u, met);
-    }
-    let some = sum.w > 0.0;
-    let joint = several && !deep && sum.w > 1.0 - ROUGH;
+fn write(lane: u32, place: u32, sums: Sums) {
+    let share = sums.solid.w;
+    let some = share > 0.0;
+    let joint = sums.several && !sums.deep && share > 1.0 - ROUGH;
     let slot = lane / LANES_OF_ELEMENT;
-    let first = (slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
+    let first = (slot * PLANES * WORKGROUP + place) * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
-    let solid = sum.w + select(0.0, DEEP_SUM, deep) + select(0.0, JOINT_SUM, joint);
-    let empty = select(0.0, NEAR, near);
-    let all = sum + select(vec4(0.0), beside, joint);
+    let solid = share + select(0.0, DEEP_SUM, sums.deep) + select(0.0, JOINT_SUM, joint);
+    let all = sums.solid + select(vec4(0.0), sums.beside, joint);
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    saturation[first] = select(empty, solid, some);
+    saturation[first] = select(select(0.0, NEAR, sums.near), solid, some);
     saturation[first + stride] = u.x;
     saturation[first + 2u * stride] = u.y;
     saturation[first + 3u * stride] = u.z;

@@ -21,8 +21,8 @@ struct SolidCell {
 }
 
 // For shares above zero: what other cells hold need not be a number.
-fn solid_cell(tile: Tile, share: f32, local: u32) -> SolidCell {
-    let motion = motions[tile.block];
+// `motion` is that of the tile's block.
+fn solid_cell(tile: Tile, motion: Motion, share: f32, local: u32) -> SolidCell {
     let r = centre_from(tile.cell + vec3<i32>(place_in_brick(local)), motion.base, motion.fraction);
     let first = (tile.slot * PLANES * WORKGROUP + local) * LANES_OF_ELEMENT + tile.lane;
     let stride = WORKGROUP * LANES_OF_ELEMENT;

@@ -5,9 +5,10 @@ fn sum_tile(turn: u32, local: u32) {
     let here = turn < tile_count();
     if (here) {
         let tile = tiles[turn];
+        let motion = motions[tile.block];
         let reach = reach_of(tile.inside);
         for (var l = reach.x + local; l < reach.y; l += 64u) {
-            add_cell(tile, turn, l);
+            add_cell(tile, motion, turn, l);
         }
     }
     let sum = sum_of_all(local);

@@ -7,9 +7,10 @@ fn sum_tile(turn: u32, local: u32) {
         return;
     }
     let tile = tiles[number];
+    let motion = motions[tile.block];
     let reach = reach_of(tile.inside);
     for (var l = reach.x; l < reach.y; l++) {
-        add_cell(tile, number, l);
+        add_cell(tile, motion, number, l);
     }
     for (var k = 0u; k < 20u; k++) { // unroll
         partials[number * WRENCH + k] = wrench[k];

@@ -170,6 +170,7 @@ pub const CASES: &[Case] = &[
     short("water/standing-wave", water::wave::run),
     short("water/dam-break", water::dam::run),
     short("water/wave-maker", water::maker::run),
+    short("water/pushed", water::pushed::run),
     long("water/solitary", water::solitary::run),
     long("water/schemes", water::schemes::run),
 ];

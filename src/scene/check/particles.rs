@@ -163,15 +163,21 @@ impl Scene {
     /// What says something about the cells of a lattice.
     fn check_of_lattice(&self) -> Result<()> {
         let tables = [
-            ("numerics", self.numerics != Numerics::default()),
-            ("initial", self.initial != Initial::default()),
-            ("output.slices", !self.output.slices.is_empty()),
+            ("numerics", self.numerics != Numerics::default(), ""),
+            (
+                "initial",
+                self.initial != Initial::default(),
+                " ([[water]] have a `velocity`)",
+            ),
+            ("output.slices", !self.output.slices.is_empty(), ""),
         ];
-        for (key, given) in tables {
+        for (key, given, instead) in tables {
             if given {
                 return refuse(
                     key,
-                    "is of a fluid on a lattice, and here are particles; remove it, or [particles]",
+                    format!(
+                        "is of a fluid on a lattice, and here are particles; remove it{instead}, or [particles]"
+                    ),
                 );
             }
         }

@@ -53,11 +53,13 @@ pub fn run(stand: &Stand) -> Outcome {
     {
         records.extend(measure(stand, layers, length)?);
     }
+    records.extend(strike(stand)?);
     Ok(records)
 }
 
-fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record>> {
-    let sensors: String = PATCHES
+/// Sensors on both ends of a tank.
+fn sensors(length: f64) -> String {
+    PATCHES
         .iter()
         .flat_map(|patch| [(patch, 0.0, SIDES[0]), (patch, length, SIDES[1])])
         .map(|((name, [low, high]), at, [side, normal])| {
@@ -68,9 +70,23 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
                 high - low
             )
         })
-        .collect();
+        .collect()
+}
+
+/// Impulse since the start on one of them, Pa s.
+fn impulse(pool: &Pool<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
+    let sensor = pool.surface.sensor(&format!("{name}_{side}"));
+    sensor.map_or(f64::NAN, |sensor| sensor.impulse)
+}
+
+fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record>> {
     let spacing = DEPTH / f64::from(layers);
-    let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], &sensors)?;
+    let mut scene = pool::scene(
+        [length, 1.4 * DEPTH],
+        spacing,
+        [length, DEPTH],
+        &sensors(length),
+    )?;
     scene.fluid.acceleration[0] = (-PUSH * GRAVITY).into();
     if let Some(particles) = &mut scene.particles {
         particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
@@ -81,11 +97,7 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
         pool.advance(passages * (DEPTH / GRAVITY).sqrt())?;
         let time = pool.surface.time();
         for (name, heights) in PATCHES {
-            let impulse = |[side, _]: [&str; 2]| {
-                let sensor = pool.surface.sensor(&format!("{name}_{side}"));
-                sensor.map_or(f64::NAN, |sensor| sensor.impulse)
-            };
-            let [more, less] = SIDES.map(impulse);
+            let [more, less] = SIDES.map(|side| impulse(&pool, name, side));
             let more = 0.5 * (more - less) / time;
             let unit = 1000.0 * PUSH * GRAVITY * DEPTH;
             let trial = pool.trial(&format!("pushed, L/H {}", length / DEPTH));
@@ -96,6 +108,31 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
         }
     }
     Ok(records)
+}
+
+/// A block of water, four times as long as high, strikes a wall with all of its front: what that gives it at once, of the
+/// impulse of incompressible water that a wall can hold (Cooker & Peregrine 1995, J. Fluid Mech. 297:193), which is that
+/// of a sudden push. Here walls only push, and the water bounces off: not the theory's, and without a limit.
+fn strike(stand: &Stand) -> anyhow::Result<Vec<Record>> {
+    let (length, speed) = (6.0, 1.0);
+    let size = [length, 4.0 * DEPTH];
+    let mut scene = pool::scene(size, DEPTH / 25.0, [4.0 * DEPTH, DEPTH], &sensors(length))?;
+    // Hardly any weight: the start wants some.
+    scene.fluid.acceleration[2] = (-1e-3).into();
+    scene.water[0].velocity = [-speed, 0.0, 0.0];
+    if let Some(particles) = &mut scene.particles {
+        particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
+    }
+    let mut pool = Pool::fill(stand, &scene)?;
+    // Sound goes through the depth six times; jets have hardly begun.
+    pool.advance(0.05 * DEPTH / speed)?;
+    let trial = pool.trial("struck");
+    let record = |(name, heights)| {
+        let found = impulse(&pool, name, SIDES[0]) / (1000.0 * speed * DEPTH);
+        let what = format!("impulse of water that strikes flat, ρUH, at the {name}");
+        trial.report(what, found, Some(exact(40.0 * DEPTH, heights, 1e-4)))
+    };
+    Ok(PATCHES.map(record).into())
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What computes, but is probably not what was meant.
 
-use super::{Advice, Scene, Warning};
+use super::{Advice, Motion, Scene, Warning};
+use crate::formula::Formula;
 use glam::DVec3;
 
 /// Sine of the angle from which two directions differ, and share of a time that counts as none: the rounding of what
@@ -37,6 +38,16 @@ impl Scene {
                      longer"
                 ),
             );
+        }
+        for (number, block) in self.blocks.iter().enumerate() {
+            let still = |of: &[Formula; 3]| of.iter().all(|part| part.constant() == Some(0.0));
+            if block.motion == Motion::Driven && still(&block.velocity) && still(&block.spin) {
+                warn(
+                    format!("blocks[{number}].motion"),
+                    "it is driven, with neither `velocity` nor `spin`: it stands still; give one, or motion = \"fixed\""
+                        .into(),
+                );
+            }
         }
         for probe in &self.probes {
             let short = |every: &f64| *every < time_step * (1.0 - ROUNDED);

@@ -105,3 +105,16 @@ fn friction_that_is_a_tangent() {
     let pair = "[[material_pairs]]\nbetween = [\"r\", \"r\"]\nfriction = 0.7\n[run]";
     told("[run]", pair, &["material_pairs[0].friction", "35.0"]);
 }
+
+#[test]
+fn a_driven_block_without_a_drive() {
+    let driven = "size = [0.05, 0.05, 0.05]\nmotion = \"driven\"";
+    told(
+        "size = [0.05, 0.05, 0.05]",
+        driven,
+        &["blocks[0].motion", "stands still", "fixed"],
+    );
+    for drive in ["velocity = [0.01, 0, 0]", "spin = [0, \"sin(t)\", 0]"] {
+        silent("size = [0.05, 0.05, 0.05]", &format!("{driven}\n{drive}"));
+    }
+}

@@ -143,6 +143,11 @@ fn a_block_that_was_under_way_at_the_end_is_said() {
     assert!(!report.trials[0].under_way && report.trials.iter().any(|trial| trial.under_way));
     let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
     assert!(json.contains("\"warning\": \"at "), "{json}");
+    // With what it tells beside the bracket it holds the true one.
+    let slides = 9.81 * 30f64.to_radians().tan();
+    let rest = report.rest.unwrap();
+    assert!(rest <= slides && slides < still, "{rest}");
+    assert!(told.contains(&format!("at {rest} none came")), "{told}");
 }
 
 #[test]

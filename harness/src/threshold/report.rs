@@ -1,6 +1,6 @@
 //! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
 
-use super::{Args, Trial};
+use super::{Args, Trial, trial::BEGUN};
 use crate::print::percent;
 use riprap::output::replace;
 use serde::Serialize;
@@ -22,6 +22,9 @@ pub struct Report {
     pub trials: Vec<Trial>,
     /// The value at which no block moves, and the one at which one does, once both have been tried.
     pub bracket: Option<[f64; 2]>,
+    /// Where a block was under way at the still end of the bracket: the nearest value at which none came to a tenth of what
+    /// counts as motion.
+    pub rest: Option<f64>,
     /// Whether the bracket is as narrow as was asked for.
     pub complete: bool,
     /// What is uncertain about the bracket.
@@ -37,6 +40,7 @@ impl Report {
             tolerance: args.tolerance,
             trials: Vec::new(),
             bracket: None,
+            rest: None,
             complete: false,
             warning: None,
         }
@@ -56,6 +60,17 @@ impl Report {
                 if still > moves { "raise" } else { "lower" }
             ))
         });
+        if let (Some([_, moves]), Some(_)) = (bracket, &self.warning) {
+            let rested = |trial: &&Trial| {
+                trial.moved.is_none()
+                    && trial
+                        .closest
+                        .as_ref()
+                        .is_none_or(|motion| motion.part < BEGUN)
+            };
+            let values = self.trials.iter().filter(rested).map(|trial| trial.value);
+            self.rest = values.min_by(|a, b| (a - moves).abs().total_cmp(&(b - moves).abs()));
+        }
     }
 
     /// Adds a trial.
@@ -107,9 +122,13 @@ impl fmt::Display for Report {
                 self.trials.len(),
                 if self.complete { "" } else { ", stopped" }
             )
-            .and_then(|()| match &self.warning {
-                Some(warning) => write!(f, "\nwarning: {warning}"),
-                None => Ok(()),
+            .and_then(|()| match (&self.warning, self.rest) {
+                (Some(warning), Some(rest)) => write!(
+                    f,
+                    "\nwarning: {warning}; at {rest} none came to a tenth of it"
+                ),
+                (Some(warning), None) => write!(f, "\nwarning: {warning}"),
+                (None, _) => Ok(()),
             }),
             None => write!(f, "{keys}: stopped before both ends were tried"),
         }

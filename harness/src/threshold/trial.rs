@@ -18,7 +18,7 @@ const LOOKS: u64 = 200;
 const SHARE: f64 = 0.01;
 /// Part of the distance from which on a block that still moves is under way: contacts that take up their load move it
 /// by less.
-const BEGUN: f64 = 0.1;
+pub(super) const BEGUN: f64 = 0.1;
 
 /// What motion is.
 #[derive(Clone, Copy, Debug)]

@@ -187,6 +187,11 @@ fn explain(message: &str) -> String {
     if let (true, Some(key)) = (message.starts_with("missing field"), words.first()) {
         return format!("the key `{key}` is missing; add it");
     }
+    let length = message.trim_end().strip_prefix("invalid length ");
+    if let Some((has, wants)) = length.and_then(|l| l.split_once(", expected an array of length "))
+    {
+        return format!("has {has} values; give {wants} between the brackets");
+    }
     message
         .trim_end()
         .replace("expected f64", "expected a number")

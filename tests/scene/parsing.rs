@@ -64,7 +64,7 @@ fn wrong_types_name_the_key() {
     );
     refused(
         changed("0.004]", "]"),
-        &["channel.toml:3:", "domain.size", "length 3"],
+        &["channel.toml:3:", "domain.size", "has 2 values; give 3"],
     );
     refused(
         channel("[initial]\nvelocity = [true, 0, 0]\n"),

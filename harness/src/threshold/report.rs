@@ -1,6 +1,6 @@
 //! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
 
-use super::{Args, Trial, trial::BEGUN};
+use super::{Args, Motion, Trial, trial::BEGUN};
 use crate::print::percent;
 use riprap::output::replace;
 use serde::Serialize;
@@ -52,25 +52,20 @@ impl Report {
         self.warning = bracket.and_then(|[still, moves]| {
             let ended = self.trials.iter().find(|trial| trial.value == still)?;
             let motion = ended.closest.as_ref().filter(|_| ended.under_way)?;
-            Some(format!(
-                "at {still} {} was under way when the trial ended, by {} of what counts as motion: more --steps, or a \
-                 smaller --distance or --speed, {} the threshold",
-                motion.block,
-                percent(motion.part),
-                if still > moves { "raise" } else { "lower" }
-            ))
-        });
-        if let (Some([_, moves]), Some(_)) = (bracket, &self.warning) {
-            let rested = |trial: &&Trial| {
-                trial.moved.is_none()
-                    && trial
-                        .closest
-                        .as_ref()
-                        .is_none_or(|motion| motion.part < BEGUN)
-            };
+            let begun = |motion: &Motion| motion.part >= BEGUN;
+            let rested = |t: &&Trial| t.moved.is_none() && !t.closest.as_ref().is_some_and(begun);
             let values = self.trials.iter().filter(rested).map(|trial| trial.value);
             self.rest = values.min_by(|a, b| (a - moves).abs().total_cmp(&(b - moves).abs()));
-        }
+            let rest = self.rest.map(|rest| format!("; at {rest} none came to a tenth of it"));
+            Some(format!(
+                "at {still} {} was under way when the trial ended, by {} of what counts as motion: more --steps, or a \
+                 smaller --distance or --speed, {} the threshold{}",
+                motion.block,
+                percent(motion.part),
+                if still > moves { "raise" } else { "lower" },
+                rest.unwrap_or_default()
+            ))
+        });
     }
 
     /// Adds a trial.
@@ -122,13 +117,9 @@ impl fmt::Display for Report {
                 self.trials.len(),
                 if self.complete { "" } else { ", stopped" }
             )
-            .and_then(|()| match (&self.warning, self.rest) {
-                (Some(warning), Some(rest)) => write!(
-                    f,
-                    "\nwarning: {warning}; at {rest} none came to a tenth of it"
-                ),
-                (Some(warning), None) => write!(f, "\nwarning: {warning}"),
-                (None, _) => Ok(()),
+            .and_then(|()| match &self.warning {
+                Some(warning) => write!(f, "\nwarning: {warning}"),
+                None => Ok(()),
             }),
             None => write!(f, "{keys}: stopped before both ends were tried"),
         }

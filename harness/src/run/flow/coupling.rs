@@ -23,7 +23,7 @@ pub struct Coupling {
     pub mixed_bricks: usize,
     /// Tiles whose solid fractions were computed, all steps together.
     pub tiles_computed: u64,
-    /// Bricks whose saturation was computed, all steps together.
+    /// Lanes of bricks whose saturation was computed, all steps together.
     pub lanes_computed: u64,
     /// Times that the tiles of blocks were looked for.
     pub searches: u64,

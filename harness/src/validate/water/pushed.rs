@@ -7,6 +7,7 @@ use super::{
     super::{Outcome, Record, Stand},
     pool::{self, GRAVITY, Pool},
 };
+use riprap::scene::Scene;
 use std::f64::consts::PI;
 
 const DEPTH: f64 = 1.0;
@@ -57,11 +58,11 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Sensors on both ends of a tank.
-fn sensors(length: f64) -> String {
-    PATCHES
+/// A tank of `size` (m) with sensors on both of its ends, and water as far as `reach`, in which sound is fast.
+fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
+    let sensors: String = PATCHES
         .iter()
-        .flat_map(|patch| [(patch, 0.0, SIDES[0]), (patch, length, SIDES[1])])
+        .flat_map(|patch| [(patch, 0.0, SIDES[0]), (patch, size[0], SIDES[1])])
         .map(|((name, [low, high]), at, [side, normal])| {
             format!(
                 "[[probes]]\nname = \"{name}_{side}\"\nkind = \"sensor\"\nat = [{at}, 0.5, {}]\n\
@@ -70,7 +71,12 @@ fn sensors(length: f64) -> String {
                 high - low
             )
         })
-        .collect()
+        .collect();
+    let mut scene = pool::scene(size, spacing, [reach, DEPTH], &sensors)?;
+    if let Some(particles) = &mut scene.particles {
+        particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
+    }
+    Ok(scene)
 }
 
 /// Impulse since the start on one of them, Pa s.
@@ -81,16 +87,8 @@ fn impulse(pool: &Pool<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
 
 fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record>> {
     let spacing = DEPTH / f64::from(layers);
-    let mut scene = pool::scene(
-        [length, 1.4 * DEPTH],
-        spacing,
-        [length, DEPTH],
-        &sensors(length),
-    )?;
+    let mut scene = tank([length, 1.4 * DEPTH], spacing, length)?;
     scene.fluid.acceleration[0] = (-PUSH * GRAVITY).into();
-    if let Some(particles) = &mut scene.particles {
-        particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
-    }
     let mut pool = Pool::fill(stand, &scene)?;
     let mut records = Vec::new();
     for passages in ENDS {
@@ -114,15 +112,11 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
 /// impulse of incompressible water that a wall can hold (Cooker & Peregrine 1995, J. Fluid Mech. 297:193), which is that
 /// of a sudden push. Here walls only push, and the water bounces off: not the theory's, and without a limit.
 fn strike(stand: &Stand) -> anyhow::Result<Vec<Record>> {
-    let (length, speed) = (6.0, 1.0);
-    let size = [length, 4.0 * DEPTH];
-    let mut scene = pool::scene(size, DEPTH / 25.0, [4.0 * DEPTH, DEPTH], &sensors(length))?;
+    let (size, speed) = ([6.0 * DEPTH, 4.0 * DEPTH], 1.0);
+    let mut scene = tank(size, DEPTH / 25.0, 4.0 * DEPTH)?;
     // Hardly any weight: the start wants some.
     scene.fluid.acceleration[2] = (-1e-3).into();
     scene.water[0].velocity = [-speed, 0.0, 0.0];
-    if let Some(particles) = &mut scene.particles {
-        particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
-    }
     let mut pool = Pool::fill(stand, &scene)?;
     // Sound goes through the depth six times; jets have hardly begun.
     pool.advance(0.05 * DEPTH / speed)?;

@@ -1,4 +1,5 @@
-//! Runs that end in the middle: killed, or on a disk that is full. What is on disk leads on to the same bits.
+//! Runs that end in the middle: killed, or on a disk that is full. What is on disk leads on to the same bits. Runs that
+//! memory has no room for say so.
 #![cfg(unix)]
 
 mod rig;
@@ -136,5 +137,45 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
     let of = |out: &str, file: &str| fs::read(folder.join(out).join(file)).unwrap();
     for file in ["checkpoint.riprap", last] {
         assert!(of("full", file) == of("good", file), "{file}");
+    }
+}
+
+/// A software adapter has the memory that the process may have: 2.5 GB do not hold 256³ cells of 108 bytes and what they
+/// start from.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_without_memory_for_its_cells_says_how_much_they_take() {
+    let asked = std::env::var("RIPRAP_ADAPTER").ok();
+    if !riprap_harness::gpu::is_software(
+        &riprap_harness::gpu::pick(asked.as_deref())
+            .unwrap()
+            .get_info(),
+    ) {
+        eprintln!(
+            "this adapter has its own memory, which no limit of the process bounds: nothing to test"
+        );
+        return;
+    }
+    let folder = folder("memory");
+    let scene = "domain = { size = [256, 256, 256], cell = 1 }\nfluid = { density = 1, viscosity = 0.02 }\n\
+                 numerics = { time_step = 1, velocity_scale = 0.06 }\nrun = { steps = 1 }\n";
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -v 2500000 && exec \"$0\" \"$@\""]);
+    command.arg(env!("CARGO_BIN_EXE_riprap")).arg("run");
+    command
+        .arg(folder.join("scene.toml"))
+        .arg("--out")
+        .arg(folder.join("out"));
+    let output = command.output().unwrap();
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    for word in [
+        "16777216 cells",
+        "1811939344 bytes",
+        "memory",
+        "larger cell or 16-bit",
+    ] {
+        assert!(text.contains(word), "{word}: {text}");
     }
 }

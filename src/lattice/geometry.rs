@@ -162,6 +162,9 @@ impl Geometry {
             let word = &mut geometry.flags[element as usize];
             *word = *word & !(0xff << (8 * lane)) | u32::from(bits) << (8 * lane);
         }
+        // Neighbours in the list are neighbours in memory.
+        let links = &mut geometry.links;
+        links.sort_unstable_by_key(|link| (link.directions, link.to));
         geometry.stages = Stages::new(&geometry.open);
         geometry.stages.sort(&mut geometry.moving);
         for (_, _, cells) in &mut geometry.open {

@@ -55,9 +55,6 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         setup.solid_lambda =
             (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
     }
-    if let Some(features) = cpu {
-        setup.suit_cpu(features);
-    }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
     let force = |a: f64| units.acceleration_to_lattice(a);
@@ -97,6 +94,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
                 ));
             }
         };
+    }
+    if let Some(features) = cpu {
+        setup.suit_cpu(features);
     }
     if !scene.solids.is_empty() {
         let mask = scene.solid_mask()?;

@@ -1,20 +1,18 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
 // e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, workgroup, $cells, $operator, $reals
+// needs velocity, moments, workgroup, tight, $cells, $operator, $reals
 
 // Nine planes of WORKGROUP elements for each brick: the sum of the fractions of all blocks, plus 8 in cells deep inside
-// one and 16 in full ones of joints, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
+// one and 16 in those of joints, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
 // cells beside one that are fluid the last five are 1, rho - 1 and the fluid's velocity.
 @group(0) @binding(35) var<storage, read_write> saturation_planes: array<Reals>;
 
 // Most of B in full cells where blocks meet each other or a wall: what is in a full cell it would reflect for ever, so
 // that a block had the pressure of the day when its joint closed, and was tied to what it touches by the momentum between
 // them. Water seeps through these, along the joint, and blocks slide on it: of the solid it feels a drag alone, so that its
-// shear is that of its viscosity.
+// shear is that of its viscosity. As the joint opens they become cells as others are.
 const SEEPS = 0.25;
-// What blocks that touch may leave of a cell between them.
-const ROUGH = 2e-3;
 
 struct Saturation {
     // Sum over the blocks; more than 1 where they overlap.
@@ -73,17 +71,18 @@ fn saturate(
     let e = min(saturation.fraction, Real(1.0));
     // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
     let open = e / (1.0 + (1.0 - e) / excess);
-    let full = (e > Real(1.0 - ROUGH)) & !saturation.deep;
+    let tight = clamp((e - Real(1.0 - OPENS)) / (OPENS - ROUGH), Real(0.0), Real(1.0));
+    let narrow = (tight > Real(0.0)) & !saturation.deep;
     var at_wall = Mask(false);
     // What the water loses to walls along them.
     var lost = Vector(Real(0.0), Real(0.0), Real(0.0));
     for (var face = 0u; face < 6u; face++) { // unroll
-        let here = full & wall_at(p, cell, face);
+        let here = narrow & wall_at(p, cell, face);
         at_wall = at_wall | here;
         lost = lost_to_wall(face, here, h, lost);
     }
-    let seeps = saturation.joint | at_wall;
-    let closed = select(open, min(open, Real(SEEPS)), seeps);
+    let seeps = select(Real(0.0), tight, saturation.joint | at_wall);
+    let closed = open + seeps * (min(open, Real(SEEPS)) - open);
     let weight = select(closed, Real(1.0), saturation.deep);
     let v = saturation.velocity;
     var s = equilibrium(rho, v);
@@ -91,7 +90,7 @@ fn saturate(
         s[k] -= (*h)[k];
     }
     let factor = solid_operator(1.0 / (0.5 + excess), rho, u, h, saturation.deep, &s);
-    let higher = select(weight, Real(0.0), seeps);
+    let higher = (1.0 - seeps) * weight;
     for (var k = 1u; k < 27u; k++) { // unroll
         let part = select(higher, weight, Mask(k == 1u || k == 3u || k == 9u));
         (*change)[k] += part * (s[k] - (*change)[k]);
@@ -100,7 +99,7 @@ fn saturate(
     let beside = saturation.beside & !solid(cell);
     let beta = select(Real(0.0), weight / max(saturation.fraction, Real(1e-30)), fluid);
     let a = factor * rho;
-    let each = 2.0 / max(saturation.fraction, Real(1.0));
+    let each = 2.0 * tight / max(saturation.fraction, Real(1.0));
     saturation_planes[plane(slot, 4u, local)] = put_reals(select(beta, Real(1.0), beside));
     saturation_planes[plane(slot, 5u, local)] = put_reals(select(beta * a, (*h)[0u], beside));
     saturation_planes[plane(slot, 6u, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, beside));
@@ -109,7 +108,8 @@ fn saturate(
 }
 
 // Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where
-// `here`. A full cell at a wall has the friction of the lattice there, which belongs to nobody: the block has it all.
+// `here`. A full cell at a wall has the friction of the lattice there, which belongs to nobody: the block has it all, and
+// the less of it the more its joint is open.
 fn lost_to_wall(face: u32, here: Mask, h: ptr<function, array<Real, 27>>, before: Vector) -> Vector {
     let way = select(Real(0.5), Real(-0.5), Mask(face % 2u == 1u));
     let zero = Real(0.0);

@@ -1,6 +1,6 @@
 // Gardner & Sitar 2018, eq. 10: how much of each cell is solid, and how that solid moves, over all parts that share the
 // cell, where one of them can reach. A workgroup is a lane of a saturated brick; its invocations share the cells.
-// needs tables, brick
+// needs tables, brick, tightness
 
 override LANES_OF_ELEMENT: u32;
 
@@ -13,9 +13,6 @@ override LANES_OF_ELEMENT: u32;
 @group(0) @binding(4) var<storage, read> lane_tiles: array<u32>;
 @group(0) @binding(5) var<storage, read> shares: array<f32>;
 @group(0) @binding(6) var<storage, read_write> saturation: array<f32>;
-
-// What blocks that touch may leave of a cell between them.
-const ROUGH = 2e-3;
 
 // What the parts are to one cell.
 struct Sums {
@@ -97,12 +94,13 @@ fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) ->
 fn write(lane: u32, place: u32, sums: Sums) {
     let share = sums.solid.w;
     let some = share > 0.0;
-    let joint = sums.several && !sums.deep && share > 1.0 - ROUGH;
+    let tight = select(0.0, tightness(share), sums.several && !sums.deep);
+    let joint = tight > 0.0;
     let slot = lane / LANES_OF_ELEMENT;
     let first = (slot * PLANES * WORKGROUP + place) * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
     let solid = share + select(0.0, DEEP_SUM, sums.deep) + select(0.0, JOINT_SUM, joint);
-    let all = sums.solid + select(vec4(0.0), sums.beside, joint);
+    let all = sums.solid + tight * sums.beside;
     let u = select(vec3(0.0), all.xyz / all.w, some);
     saturation[first] = select(select(0.0, NEAR, sums.near), solid, some);
     saturation[first + stride] = u.x;

@@ -1,6 +1,6 @@
 // Gardner & Sitar 2018, eqs. 11-12, with the minus that their text has and the equations lack: what the fluid does to
 // one part in one cell, f = -e (a u_p + G), e being the solid fraction; a and G come from the fluid kernel.
-// needs workgroup, tables, brick
+// needs workgroup, tables, brick, tightness
 
 override LANES_OF_ELEMENT: u32;
 
@@ -35,6 +35,8 @@ fn solid_cell(tile: Tile, motion: Motion, share: f32, local: u32) -> SolidCell {
     let e = min(share, 1.0);
     // Blocks that meet slide on what is between them: none of it is due to how they differ.
     let mean = vec3(saturation[first + stride], saturation[first + 2u * stride], saturation[first + 3u * stride]);
-    let u = select(velocity_at(motion, r), mean, saturation[first] >= JOINT_SUM);
+    let own = velocity_at(motion, r);
+    let joint = saturation[first] - JOINT_SUM;
+    let u = select(own, mix(own, mean, tightness(joint)), joint >= 0.0);
     return SolidCell(r, e, -e * (a * u + g), saturation[first + 4u * stride]);
 }

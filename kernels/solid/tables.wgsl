@@ -56,7 +56,7 @@ const TOUCHES = -2.0;
 const UNDECIDED = 4.0;
 // Added to the shares of all parts in a cell that is deep in one of them.
 const DEEP_SUM = 8.0;
-// Added to them in a full cell of a closed joint, in which several blocks meet.
+// Added to them in a cell of a closed joint, in which several blocks meet.
 const JOINT_SUM = 16.0;
 // Numbers that a cell of a saturated brick has: sum of the shares, velocity of the solid (3), beta, a, G (3).
 const PLANES = 9u;

@@ -29,7 +29,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
     "solid":
         "axes", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
         "hull_share", "one_plane", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
-        "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tile_sum_parallel",
+        "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tight", "tightness", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
     "sph":
         "accelerate", "admit", "around_cells", "arrive", "around_lists", "bodies", "body_load", "body_sums", "cling_none", "cling_walls", "clock", "clock_shared", "continued", "drag_laminar", "drag_none", "drift", "friction_laminar", "friction_none", "keep_out", "least", "least_of_water", "list_water", "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "mueller_move", "near", "neighbours", "particle_grid", "penalty", "pressure_at", "runs_open",

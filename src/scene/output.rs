@@ -149,11 +149,12 @@ pub enum Quantity {
     Enstrophy,
     /// ∫ ρ dV, kg.
     Mass,
-    /// ∫ ρu_x dV, kg m/s.
+    /// ∫ ρu_x dV, kg m/s: of what is in the cells, those inside blocks too, where it swings from step to step; what flows
+    /// past blocks is told by a probe on a plane.
     MomentumX,
-    /// ∫ ρu_y dV, kg m/s.
+    /// ∫ ρu_y dV, kg m/s; as `momentum_x`.
     MomentumY,
-    /// ∫ ρu_z dV, kg m/s.
+    /// ∫ ρu_z dV, kg m/s; as `momentum_x`.
     MomentumZ,
     /// Largest speed of the fluid, m/s.
     MaxSpeed,

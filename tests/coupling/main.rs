@@ -16,5 +16,6 @@ mod repeat;
 mod rest;
 #[path = "../rig/mod.rs"]
 mod rig;
+mod rocking;
 mod sliding;
 mod world;

@@ -45,7 +45,9 @@ impl Case {
                     // Deep cells and walls have no beta.
                     let fluid = noise.next() > 0.3;
                     let joint = noise.next() > 0.7;
-                    saturation[at(0)] = if joint { 1.0 + JOINT_SUM } else { 1.0 };
+                    // Half of them are only half closed.
+                    let sum = if noise.next() > 0.5 { 1.0 } else { 0.951 };
+                    saturation[at(0)] = if joint { sum + JOINT_SUM } else { sum };
                     // Nobody may use the mean velocity elsewhere.
                     for plane in 1..4 {
                         let any = 0.1 * noise.next() as f32;
@@ -82,10 +84,13 @@ impl Case {
                 let point = centre(tiling.cell(tile, local).unwrap());
                 let r = (point - moving.centre).to_array();
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
-                let u = match at(0) >= f64::from(JOINT_SUM) {
-                    true => [at(1), at(2), at(3)],
-                    false => moving.at(point).to_array(),
+                let own = moving.at(point);
+                let mean = DVec3::new(at(1), at(2), at(3));
+                let u = match at(0) - f64::from(JOINT_SUM) {
+                    sum if sum >= 0.0 => own.lerp(mean, ((sum - 0.9) / 0.098).clamp(0.0, 1.0)),
+                    _ => own,
                 };
+                let u = u.to_array();
                 let (beta, a) = (at(4), at(5));
                 let held = e * beta;
                 let freed = if beta > 0.0 { e - held } else { 0.0 };

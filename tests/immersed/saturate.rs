@@ -112,8 +112,10 @@ fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f6
     }
     match (sum > 0.0, near) {
         (true, _) if deep => (sum + f64::from(DEEP_SUM), flux / sum),
-        (true, _) if met.len() > 1 && sum > 0.998 => {
-            let mean = (flux + touching) / (sum + touched);
+        (true, _) if met.len() > 1 && sum > 0.9 => {
+            // Those that touch count as the joint closes.
+            let tight = ((sum - 0.9) / 0.098).min(1.0);
+            let mean = (flux + tight * touching) / (sum + tight * touched);
             (sum + f64::from(JOINT_SUM), mean)
         }
         (true, _) => (sum, flux / sum),

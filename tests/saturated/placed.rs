@@ -2,7 +2,7 @@
 
 use crate::{
     subject::Subject,
-    twin::Solid,
+    twin::{Solid, tightness},
     twin_of::{limit, walled},
 };
 use glam::{DMat3, DQuat, DVec3};
@@ -102,20 +102,22 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3]) -> Solid {
         solid.beside |= block.touches(x, 1.5);
     }
     solid.beside &= solid.fraction == 0.0;
-    solid.joint = met.len() > 1 && solid.fraction > 0.998 && !solid.deep;
+    if met.len() > 1 && !solid.deep {
+        solid.tight = tightness(solid.fraction);
+    }
     if solid.fraction > 0.0 {
         solid.velocity = (flux / solid.fraction).to_array();
     }
-    if solid.joint {
-        // Those that touch it count as one each.
+    if solid.tight > 0.0 {
+        // Those that touch it count as one each where it is closed.
         let mut all = solid.fraction;
         for (block, &x) in boxes
             .iter()
             .flat_map(|b| centres.iter().map(move |x| (b, x)))
         {
             if block.share(x) == 0.0 && block.borders(x) {
-                flux += block.velocity_at(x);
-                all += 1.0;
+                flux += solid.tight * block.velocity_at(x);
+                all += solid.tight;
             }
         }
         solid.velocity = (flux / all).to_array();
@@ -139,10 +141,9 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
                 }
                 let r = x - block.centre;
                 // Where blocks meet the mean counts.
-                let velocity = match twin.blocks.as_ref().unwrap().1[cell].joint {
-                    true => solid.velocity,
-                    false => block.velocity_at(x).to_array(),
-                };
+                let tight = twin.blocks.as_ref().unwrap().1[cell].tight;
+                let own = block.velocity_at(x);
+                let velocity = own.lerp(solid.velocity.into(), tight).to_array();
                 let weight = solid.weight(tau);
                 let force = DVec3::from_array(twin.force_on(cell, share, velocity, tau));
                 let held = weight * share / solid.fraction;

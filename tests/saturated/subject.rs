@@ -2,7 +2,7 @@
 
 use crate::{
     rig::Rig,
-    twin::{Solid, Twin, lattice::Q, lattice::W},
+    twin::{Solid, Twin, lattice::Q, lattice::W, tightness},
     twin_of::{noise, poison, random_populations, twin_of},
 };
 use riprap::{
@@ -80,7 +80,11 @@ fn random_solid(cell: usize) -> Solid {
         velocity: [2, 3, 4].map(|n| f64::from((0.02 * (unit(n) - 0.5)) as f32)),
         beside: false,
         deep,
-        joint: !deep && fraction >= 1.0 && unit(5) > 0.5,
+        tight: if !deep && unit(5) > 0.5 {
+            tightness(fraction)
+        } else {
+            0.0
+        },
     }
 }
 
@@ -89,7 +93,7 @@ pub fn planes(solid: &Solid) -> [f32; 4] {
     let mark = match solid {
         Solid { beside: true, .. } => -1.0,
         Solid { deep: true, .. } => solid.fraction + 8.0,
-        Solid { joint: true, .. } => solid.fraction + 16.0,
+        Solid { tight, .. } if *tight > 0.0 => solid.fraction + 16.0,
         _ => solid.fraction,
     };
     let [x, y, z] = solid.velocity;

@@ -4,7 +4,7 @@ use super::collide::collide;
 use super::domain::{Domain, Link};
 use super::lattice::{C, OPPOSITE, Q, W, c_dot, macroscopic};
 use super::rates::{Config, OddClass};
-use super::solid::{Solid, SolidOperator, force_on, solid_change};
+use super::solid::{Solid, SolidOperator, force_on, solid_change, tightness};
 use super::{start, wale};
 
 /// Force per cell.
@@ -87,23 +87,27 @@ impl Twin {
         };
         let own = cells[cell];
         Solid {
-            joint: own.joint || self.is_full_at_wall(cell),
+            tight: own.tight.max(self.tight_at_wall(cell)),
             ..own
         }
     }
 
-    fn is_full_at_wall(&self, cell: usize) -> bool {
-        let Some((_, cells)) = &self.blocks else {
-            return false;
-        };
-        let full = cells[cell].share() > 0.998 && !cells[cell].deep;
-        full && self.domain.walls_at(cell).next().is_some()
+    fn tight_at_wall(&self, cell: usize) -> f64 {
+        match &self.blocks {
+            Some((_, cells))
+                if !cells[cell].deep && self.domain.walls_at(cell).next().is_some() =>
+            {
+                tightness(cells[cell].share())
+            }
+            _ => 0.0,
+        }
     }
 
     /// Momentum that the water of a full cell has lost to walls at rest along these, when its populations came back.
     fn lost_to_walls(&self, cell: usize) -> [f64; 3] {
         let mut lost = [0.0; 3];
-        if !self.is_full_at_wall(cell) {
+        let tight = self.tight_at_wall(cell);
+        if tight == 0.0 {
             return lost;
         }
         for normal in self.domain.walls_at(cell) {
@@ -112,7 +116,7 @@ impl Twin {
                 let out: i32 = (0..3).map(|a| C[i][a] * normal[a]).sum();
                 if out == -1 {
                     for a in (0..3).filter(|&a| along(a)) {
-                        lost[a] -= 2.0 * self.f[cell][i] * f64::from(C[i][a]);
+                        lost[a] -= 2.0 * tight * self.f[cell][i] * f64::from(C[i][a]);
                     }
                 }
             }
@@ -189,16 +193,13 @@ impl Twin {
         let b = solid.weight(tau);
         let change = self.solid_change(cell, solid.velocity, tau);
         let f = &self.f[cell];
-        if solid.joint && !solid.deep {
-            // The momentum alone.
-            let more = |a: usize| -> f64 {
-                let of = |i: usize| (change[i] - (fluid[i] - f[i])) * f64::from(C[i][a]);
-                b * (0..Q).map(of).sum::<f64>()
-            };
-            let more = [0, 1, 2].map(more);
-            return std::array::from_fn(|i| fluid[i] + 3.0 * W[i] * c_dot(i, more));
-        }
-        std::array::from_fn(|i| f[i] + (1.0 - b) * (fluid[i] - f[i]) + b * change[i])
+        let tight = if solid.deep { 0.0 } else { solid.tight };
+        let more: [f64; Q] = std::array::from_fn(|i| b * (change[i] - (fluid[i] - f[i])));
+        // In closed joints the momentum alone.
+        let momentum = [0, 1, 2].map(|a| (0..Q).map(|i| more[i] * f64::from(C[i][a])).sum::<f64>());
+        std::array::from_fn(|i| {
+            fluid[i] + (1.0 - tight) * more[i] + tight * 3.0 * W[i] * c_dot(i, momentum)
+        })
     }
 
     /// Ω^s of a solid in a cell that moves with `u_s`; 0 without blocks.

@@ -31,4 +31,4 @@ pub use collide::collide;
 pub use domain::{Domain, Face, Profile};
 pub use flow::{Force, Twin};
 pub use rates::{Config, Equilibrium, OddClass, Operator, Rates};
-pub use solid::{Solid, SolidOperator};
+pub use solid::{Solid, SolidOperator, tightness};

@@ -26,12 +26,17 @@ pub struct Solid {
     pub beside: bool,
     /// Whether the cell and all within two layers of it are full of one block.
     pub deep: bool,
-    /// Whether it is full and blocks meet in it, or one and a wall.
-    pub joint: bool,
+    /// How closely blocks that meet in it, or one and a wall, fill it: [`tightness`], 0 where they do not.
+    pub tight: f64,
 }
 
 /// Most of B in a full cell of a closed joint, through which water seeps.
 const SEEPS: f64 = 0.25;
+
+/// 1 for a closed joint, which leaves up to 0.002 of a cell, 0 for an open one, which leaves a tenth.
+pub fn tightness(share: f64) -> f64 {
+    ((share - 0.9) / 0.098).clamp(0.0, 1.0)
+}
 
 impl Solid {
     /// Part of the cell that no fluid fills.
@@ -44,14 +49,13 @@ impl Solid {
         self.beside || self.fraction > 0.0
     }
 
-    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a quarter in joints.
+    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a quarter in closed joints.
     pub fn weight(&self, tau: f64) -> f64 {
         let (e, excess) = (self.share(), tau - 0.5);
         let open = e * excess / ((1.0 - e) + excess);
-        match self {
-            Self { deep: true, .. } => 1.0,
-            Self { joint: true, .. } => open.min(SEEPS),
-            _ => open,
+        match self.deep {
+            true => 1.0,
+            false => (1.0 - self.tight) * open + self.tight * open.min(SEEPS),
         }
     }
 

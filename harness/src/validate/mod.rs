@@ -45,7 +45,9 @@ pub use method::Method;
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
 
+use crate::bench::Machine;
 use anyhow::Context;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Compares flows with exact solutions, published tables and float64 references.
@@ -126,6 +128,7 @@ pub const CASES: &[Case] = &[
     short("stability/quiescent", stability::quiescent),
     short("stability/taylor-green", stability::taylor_green),
     short("solids/volume", solids::volume::run),
+    short("solids/plates", solids::plates::run),
     short("solids/array", solids::array::drag),
     long("solids/array-offset", solids::array::offset),
     short("solids/array-comparison", solids::array::comparison),
@@ -226,7 +229,15 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
         records.append(&mut found);
     }
     if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&records)?;
+        let machine = Machine::of(&stand.device.adapter_info());
+        let kept: Vec<_> = records
+            .iter()
+            .map(|record| Kept {
+                record,
+                machine: &machine,
+            })
+            .collect();
+        let text = serde_json::to_string_pretty(&kept)?;
         std::fs::write(path, text + "\n")
             .with_context(|| format!("cannot write {}", path.display()))?;
     }
@@ -234,6 +245,15 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
     let judged = records.iter().filter(|r| r.limit.is_some()).count();
     println!("{} of {judged} checks passed", judged - failed);
     Ok(failed == 0)
+}
+
+/// A record as it is kept: with where and when it was found.
+#[derive(Serialize)]
+struct Kept<'a> {
+    #[serde(flatten)]
+    record: &'a Record,
+    #[serde(flatten)]
+    machine: &'a Machine,
 }
 
 /// The record of a case that could not finish.

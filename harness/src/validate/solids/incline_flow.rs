@@ -207,6 +207,7 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
             .report("first motion after it, s", moved, None),
     );
     let mean = start.iter().sum::<f64>() / start.len() as f64;
+    records.push(trial.report("drag at the start, N", mean, None));
     Ok(History {
         drag,
         records,

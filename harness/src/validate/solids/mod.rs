@@ -10,6 +10,7 @@ pub mod incline_flow;
 pub mod lubrication;
 pub mod momentum;
 pub mod obstacle;
+pub mod plates;
 pub mod release;
 pub mod rotation;
 pub mod settling;

@@ -10,7 +10,8 @@ use riprap::{
     bodies::Pose,
     coupling::Felt,
     formula::Formula,
-    scene::{Block, BlockShape, Boundary, Motion, Rotation, Scene},
+    output::Array,
+    scene::{Block, BlockShape, Boundary, Field, Motion, Rotation, Scene},
     simulation::{Simulation, Totals},
 };
 use std::{path::Path, time::Instant};
@@ -190,6 +191,15 @@ impl<'a> Tank<'a> {
     pub fn totals(&mut self) -> anyhow::Result<Totals> {
         let totals = self.simulation.totals();
         Ok(self.stand.drive("reading sums", totals)??)
+    }
+
+    /// Fields in single cells, places in an array over the domain with x fastest.
+    ///
+    /// # Errors
+    /// If a cell is outside, or the device is lost or silent.
+    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> anyhow::Result<Vec<Array>> {
+        let read = self.simulation.read(fields, cells);
+        Ok(self.stand.drive("reading cells", read)??)
     }
 
     /// What has been run so far; `what` says what is in the tank.

@@ -173,7 +173,7 @@ pub fn short(stand: &Stand) -> Outcome {
 }
 
 /// Velocity of the creeping one by Stokes' law, between walls: those of a square duct whose half width is l slow a sphere
-/// by 1.9033 r/l if it is small, those of a cylinder by 2.105 r/l (Happel & Brenner 1983, sections 7-4 and 7-3). The further
+/// by 1.9033 r/l if it is small, those of a cylinder by 2.105 r/l (Happel & Brenner 1983, chapter 7). The further
 /// terms are those of the cylinder that slows it as much; they are 0.5 % of it.
 fn creeping_velocity() -> f64 {
     let oil = CREEPING;

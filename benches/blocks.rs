@@ -3,16 +3,12 @@
 //! An iteration is a step. Times are CPU time on one core and wall time on all. At the end a table
 //! gives the fastest sample of each, and the exponent p of cost ∝ Nᵖ.
 
-#[path = "../harness/src/bench/rock/exponent.rs"]
-mod exponent;
-#[allow(dead_code)] // The harness uses more of it than benches do.
-#[path = "../harness/src/bench/rock/pile.rs"]
-mod pile;
+#[allow(dead_code)] // Each bench uses its part.
+mod kit;
 
 use cpu_time::ThreadTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
-use exponent::exponent;
-use pile::Pile;
+use kit::{exponent::exponent, pile::Pile};
 use riprap::Error;
 use std::time::{Duration, Instant};
 

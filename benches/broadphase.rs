@@ -6,15 +6,15 @@
 //! each, and the exponent p of cost ∝ Nᵖ. 0.04 of it (1:100: 0.06) is no cost of the search: at
 //! the surface of a scene there are fewer pairs, and small scenes have more surface.
 
-#[allow(dead_code)] // The harness uses more of it than benches do.
-#[path = "../harness/src/gpu.rs"]
-mod gpu;
-#[allow(dead_code)]
+#[allow(dead_code)] // Each bench uses its part.
+mod kit;
+#[allow(dead_code)] // The tests use more of it.
 #[path = "../tests/broadphase/scenes.rs"]
 mod scenes;
 
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
+use kit::gpu;
 use riprap::{
     Error,
     broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},

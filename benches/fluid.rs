@@ -4,34 +4,22 @@
 //! on software adapters, wall time where a GPU has no timestamps. At the end a table compares the
 //! adapters.
 
-#[allow(dead_code)] // The harness uses more of these five than benches do.
-#[path = "../harness/src/bench/arithmetic.rs"]
-mod arithmetic;
-#[allow(dead_code)]
-#[path = "../harness/src/bench/clock.rs"]
-mod clock;
-#[allow(dead_code)]
-#[path = "../harness/src/bench/copy.rs"]
-mod copy;
-#[path = "../harness/src/bench/flow.rs"]
-mod flow;
-#[allow(dead_code)]
-#[path = "../harness/src/gpu.rs"]
-mod gpu;
-#[allow(dead_code)]
-#[path = "../harness/src/bench/subject.rs"]
-mod subject;
+#[allow(dead_code)] // Each bench uses its part.
+mod kit;
 
-use clock::Clock;
-use copy::{Copy, METHODS};
 use criterion::{BenchmarkId, Criterion, Throughput};
+use kit::{
+    clock::Clock,
+    copy::{Copy, METHODS},
+    gpu,
+    subject::Subject,
+};
 use riprap::{
     Error,
     lattice::{Collision, Force, Lattice, Setup, Storage, StreamOnly},
     wgpu,
 };
 use std::{collections::BTreeMap, time::Duration};
-use subject::Subject;
 
 /// Kernel and variant → adapter → million cells, or megabytes, a second.
 type Table = BTreeMap<String, BTreeMap<String, f64>>;

@@ -4,19 +4,14 @@
 //! Times are CPU time over the cores on software adapters, wall time on others. Pairs are those within the support,
 //! each counted once for each of its two ends, as the kernels meet them.
 
-#[allow(dead_code)] // The harness uses more of it than benches do.
-#[path = "../harness/src/gpu.rs"]
-mod gpu;
-
-#[allow(dead_code)]
-#[path = "../harness/src/bench/tank.rs"]
-mod tank;
+#[allow(dead_code)] // Each bench uses its part.
+mod kit;
 
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
+use kit::{gpu, tank::Tank};
 use riprap::{particles::Neighbours, wgpu};
 use std::time::{Duration, Instant};
-use tank::Tank;
 
 /// Particles along an edge.
 const EDGES: [u32; 2] = [20, 40];

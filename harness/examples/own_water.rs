@@ -13,11 +13,8 @@ use riprap::{
     readback::Readback,
     wgpu,
 };
+use riprap_harness::gpu;
 use std::error::Error;
-
-#[allow(dead_code)] // The harness uses more of it.
-#[path = "../src/gpu.rs"]
-mod gpu;
 
 /// Distance of particles, m; the column is 10 wide and 20 high.
 const SPACING: f64 = 0.05;

@@ -3,7 +3,8 @@
 pub mod adapters;
 pub mod bench;
 pub mod check;
-pub mod gpu;
+#[path = "../../benches/kit/mod.rs"]
+mod kit;
 pub mod picture;
 pub mod print;
 pub mod render;
@@ -14,3 +15,5 @@ mod search;
 pub mod stress;
 pub mod threshold;
 pub mod validate;
+
+pub use kit::gpu;

@@ -5,6 +5,7 @@ mod centre;
 mod closed_forms;
 mod faults;
 mod invariance;
+mod laws;
 mod normal;
 mod pairs;
 mod pressure;

@@ -1,7 +1,6 @@
 //! A device for tests, and running a lattice on it.
 #![allow(dead_code)] // Each test binary uses its part.
 
-#[path = "../../harness/src/gpu.rs"]
 pub mod gpu;
 
 use riprap::{

@@ -9,7 +9,6 @@ mod parsing;
 mod particles;
 mod refusals;
 mod sampling;
-mod shipped;
 mod slips;
 mod solids;
 mod units;

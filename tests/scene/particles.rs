@@ -7,7 +7,7 @@ use riprap::units::Units;
 use crate::{CHANNEL, read, refused};
 
 /// A dam of water in a tank, open above, its sides periodic.
-const TANK: &str = r#"
+pub const TANK: &str = r#"
 [domain]
 size = [4.0, 1.0, 2.0]
 [fluid]

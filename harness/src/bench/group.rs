@@ -1,14 +1,16 @@
 //! Measuring the variants of a group in turns, so that a busy minute strikes all of them alike.
 
 use super::{
+    report::{Beside, Machine, Moved, Row},
+    roofline::flops_a_step,
+    variant::{Group, STREAM_ONLY, Variant},
+};
+use crate::kit::{
     arithmetic::Arithmetic,
     clock::{Clock, Spent},
     copy::{Copy, METHODS},
     flow::sheared_noise,
-    report::{Beside, Machine, Moved, Row},
-    roofline::flops_a_step,
     subject::Subject,
-    variant::{Group, STREAM_ONLY, Variant},
 };
 use riprap::{
     Error,

@@ -1,28 +1,21 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
 //! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing.
 
-mod arithmetic;
-mod clock;
-mod copy;
-mod flow;
 mod group;
 mod report;
 pub mod rock;
 mod roofline;
 mod solids;
-mod subject;
 mod table;
-mod tank;
 mod targets;
 mod unused;
 mod variant;
 mod water;
 
-pub use copy::copy_bandwidth;
+pub use crate::kit::copy::copy_bandwidth;
 pub use report::Machine;
 
-use crate::gpu;
-use clock::Clock;
+use crate::kit::{clock::Clock, gpu};
 use report::Row;
 use riprap::wgpu;
 use serde::Serialize;

@@ -1,12 +1,13 @@
 //! A result, in the table and in the file.
 
 use super::{
-    clock,
-    clock::Spent,
     roofline::{self, Ceilings, Parts},
     variant::Variant,
 };
-use crate::gpu;
+use crate::kit::{
+    clock::{self, Spent},
+    gpu,
+};
 use riprap::{
     lattice::{Storage, bytes_a_cell},
     wgpu,

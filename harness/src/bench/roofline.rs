@@ -91,7 +91,8 @@ impl fmt::Display for Parts {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::arithmetic::FLOPS, *};
+    use super::*;
+    use crate::kit::arithmetic::FLOPS;
     use riprap::{link::Program, work::Work};
 
     #[test]

@@ -1,12 +1,11 @@
 //! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
 
-use super::{
+use super::{report::Machine, solids::crowd};
+use crate::kit::{
     clock::{Clock, Spent},
-    report::Machine,
-    solids::crowd,
+    gpu,
     subject::Subject,
 };
-use crate::gpu;
 use glam::{DQuat, DVec3};
 use riprap::{
     Error, Result,

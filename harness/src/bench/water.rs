@@ -1,7 +1,7 @@
 //! Steps of free water: particles and pairs a second.
 
-use super::{copy_bandwidth, report::Machine, rock::exponent, tank::Tank};
-use crate::gpu;
+use super::{copy_bandwidth, report::Machine};
+use crate::kit::{exponent::exponent, gpu, tank::Tank};
 use cpu_time::ProcessTime;
 use riprap::{particles::Neighbours, wgpu};
 use serde::Serialize;

@@ -3,16 +3,13 @@
 mod contact;
 mod core;
 mod cut;
-mod exponent;
 mod few;
-mod pile;
 mod row;
 mod search;
 mod split;
 mod step;
 mod targets;
 
-pub use exponent::exponent;
 pub use row::Row;
 
 use super::report::Machine;

@@ -3,8 +3,8 @@
 use super::{
     contact::Film,
     core::{Core, Cost},
-    pile::Pile,
 };
+use crate::kit::pile::Pile;
 use glam::{DQuat, DVec3};
 use riprap::{
     Result,

@@ -4,11 +4,10 @@ use super::{
     Plan,
     contact::{Film, share_of_programs},
     core::{Core, Cost, time_on_all},
-    pile::Pile,
     row::{Basis, Done, Row, push},
     split::Split,
 };
-use crate::bench::report::Machine;
+use crate::{bench::report::Machine, kit::pile::Pile};
 use riprap::Result;
 
 /// Contacts warm and cold and the step, for each number of blocks.

@@ -10,6 +10,7 @@ pub use turns::Turns;
 pub use world::{World, crowd};
 
 use super::{report::Machine, targets::Target, targets::show};
+use crate::kit::exponent::exponent;
 use riprap::wgpu;
 
 /// Cells across the spheres of a crowd.
@@ -147,10 +148,10 @@ pub fn measure(
         tell("solid fractions, a surface cell", &of, each, "ns");
         points.push((found.surface, found.seconds));
     }
-    let exponent = super::rock::exponent(&points).unwrap_or(f64::NAN);
-    tell("solid fractions, cost ∝ surfaceᵖ, p", "", exponent, "");
+    let power = exponent(&points).unwrap_or(f64::NAN);
+    tell("solid fractions, cost ∝ surfaceᵖ, p", "", power, "");
     // Without the smallest, of which most is the same for all sizes.
-    let last = super::rock::exponent(&points[1..]).unwrap_or(f64::NAN);
+    let last = exponent(&points[1..]).unwrap_or(f64::NAN);
     tell("the same without the smallest", "", last, "");
     show(
         "solids",

@@ -1,7 +1,7 @@
 //! Running something a number of times and seeing what it took.
 
+use super::gpu;
 use super::subject::Subject;
-use crate::gpu;
 use cpu_time::ProcessTime;
 use riprap::{Error, timer::Timer, wgpu};
 use std::time::{Duration, Instant};

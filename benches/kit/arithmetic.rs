@@ -1,6 +1,6 @@
 //! The arithmetic ceiling of an adapter: how many products and sums it does a second where it does nothing else.
 
-use crate::gpu;
+use super::gpu;
 use riprap::{Error, kernel::Kernel, link::Program, wgpu};
 
 /// Turns of the loop: short, since drivers may end long ones.

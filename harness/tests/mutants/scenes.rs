@@ -74,7 +74,7 @@ const SCRAPS: [&str; 14] = [
 ];
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("harness/scenes")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
 }
 
 /// Names and texts, in the order of the names.

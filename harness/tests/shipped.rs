@@ -13,7 +13,7 @@ const UPDATES: f64 = 40e6;
 
 #[test]
 fn shipped_scenes_are_sound_and_run_in_minutes() {
-    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("harness/scenes");
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(dir).unwrap() {
         let path = entry.unwrap().path();

@@ -5,7 +5,7 @@ use parry3d_f64::shape::ConvexPolyhedron;
 use riprap::{block::HalfSpace, contact::Placed};
 
 /// A convex block in its own frame, in the library's terms and in parry's.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Solid {
     pub faces: Vec<HalfSpace>,
     pub vertices: Vec<DVec3>,

@@ -44,6 +44,17 @@ impl Pose {
         }
     }
 
+    /// What of it lies in the plane at `y` (m), where nothing varies along y: all points of it are in that plane.
+    pub(crate) fn in_plane(&self, y: f64) -> Self {
+        Self {
+            centre: self.centre.with_y(y),
+            velocity: in_plane(self.velocity),
+            deformation: plane_part(self.deformation),
+            deformation_rate: plane_part(self.deformation_rate),
+            ..*self
+        }
+    }
+
     /// Velocity of the point X of the block, m/s.
     pub fn point_velocity(&self, x: DVec3) -> DVec3 {
         self.velocity + self.deformation_rate * x
@@ -57,6 +68,15 @@ pub fn skew(w: DVec3) -> DMat3 {
         DVec3::new(-w.z, 0.0, w.x),
         DVec3::new(w.y, -w.x, 0.0),
     )
+}
+
+fn in_plane(v: DVec3) -> DVec3 {
+    v.with_y(0.0)
+}
+
+/// Without row and column of y.
+fn plane_part(m: DMat3) -> DMat3 {
+    DMat3::from_cols(in_plane(m.x_axis), DVec3::ZERO, in_plane(m.z_axis))
 }
 
 /// a ⊗ b, entry i, j being a_i b_j.
@@ -102,6 +122,15 @@ impl Load {
             force,
             moment: outer(force, r),
             ..Self::default()
+        }
+    }
+
+    /// What of it lies in the plane of x and z, where nothing varies along y.
+    pub(crate) fn in_plane(&self) -> Self {
+        Self {
+            force: in_plane(self.force),
+            moment: plane_part(self.moment),
+            ..*self
         }
     }
 

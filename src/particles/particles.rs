@@ -220,6 +220,16 @@ impl Particles {
     /// Sets the time and the places of the bodies for an exchange of `time` (s), of which the steps are then
     /// recorded: [`Particles::advance`] does all of it.
     pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) {
+        // Rounding moves blocks out of a plane, and water there evades along y.
+        let flat: Vec<Pose>;
+        let poses = match self.setup.plane {
+            true => {
+                let middle = self.setup.origin.y + 0.5 * self.setup.size.y;
+                flat = poses.iter().map(|pose| pose.in_plane(middle)).collect();
+                &flat
+            }
+            false => poses,
+        };
         let motions: Vec<Motion> = self
             .order
             .iter()
@@ -386,6 +396,7 @@ impl Particles {
         let unit = time / self.frame.unit_time();
         let (loads, pressures) = sums.split_at(NUMBERS * self.numbers.loaded as usize);
         let load = |&place: &usize| match loads.get(place * NUMBERS..(place + 1) * NUMBERS) {
+            Some(numbers) if self.setup.plane => self.frame.load(numbers, unit).in_plane(),
             Some(numbers) => self.frame.load(numbers, unit),
             None => Load::default(),
         };

@@ -51,6 +51,9 @@ impl Fluid for Pool {
         let loads = &mut done.loads;
         let (rims, walls) = done.pressures.split_at(rims.len());
         self.sealed.push(closed, rims, poses, loads);
+        if self.particles.setup().plane {
+            loads.iter_mut().for_each(|load| *load = load.in_plane());
+        }
         self.sensors.feel(walls, time);
         self.joints += joints_work(&own, loads, poses, time);
         let wet = |load: &Load| load.force != DVec3::ZERO;

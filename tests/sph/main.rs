@@ -6,6 +6,7 @@ mod rig;
 mod energy;
 mod held;
 mod mueller;
+mod plane;
 mod programs;
 mod push;
 mod restored;

@@ -70,9 +70,10 @@ pub enum ProbePlace {
         normal: Direction,
     },
     /// A block: its centroid (m) and velocity (m/s), its rotation since the start as the vector of
-    /// its axis and angle (degrees), its spin (rad/s), and the force (N) and torque (N m) of its
+    /// its axis and angle (degrees, at most 180), its spin (rad/s), and the force (N) and torque (N m) of its
     /// contacts on it. In a fluid also the force (N) and torque (N m) of the flow on it, without
-    /// buoyancy, and its buoyancy (N): those of the last exchange.
+    /// buoyancy, and its buoyancy (N): those of the last exchange. Among particles the force has buoyancy in it, and that
+    /// column is 0. With `coupling.lubrication` also `film_force` (N), that of films of fluid in thin gaps.
     Block {
         /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
         block: String,

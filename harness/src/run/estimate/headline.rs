@@ -149,7 +149,7 @@ fn unit(quantity: &str) -> &'static str {
         name if name.ends_with("_of_max") => "m",
         "rotation" => "°",
         "spin" => "rad/s",
-        "force" | "fluid_force" | "buoyancy" | "support" | "uplift_of_faces" => "N",
+        "force" | "fluid_force" | "film_force" | "buoyancy" | "support" | "uplift_of_faces" => "N",
         "torque" | "fluid_torque" => "N m",
         "strain_energy" => "J",
         "area" => "m²",

@@ -21,6 +21,8 @@ const MEASURED: [&str; 6] = [
 ];
 /// What is measured of a block in a fluid as well.
 const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
+/// What is measured where films of fluid push blocks that nearly touch.
+const FILM: &str = "film_force";
 /// What is measured of a block with fixed points as well: the force with which they hold it.
 const SUPPORT: &str = "support";
 /// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
@@ -64,6 +66,9 @@ impl BlockProbe {
         let mut measured = MEASURED.to_vec();
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
+        }
+        if rock.setup.film.is_some() {
+            measured.push(FILM);
         }
         if rock.blocks.support(block).is_some() {
             measured.push(SUPPORT);
@@ -110,7 +115,8 @@ pub fn find<'a>(
     })
 }
 
-/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, and of `SUPPORT` where something holds it.
+/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, of `FILM` where there may be any, and of `SUPPORT` where
+/// something holds it.
 fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
@@ -122,6 +128,9 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     all.extend(blocks.contact_torques().nth(block));
     if let Some(felt) = rock.felt.get(block) {
         all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
+    }
+    if rock.setup.film.is_some() {
+        all.extend(blocks.film_forces().get(block));
     }
     all.extend(blocks.support(block));
     all

@@ -1,6 +1,6 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Company, Felt, Gap, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet};
+use super::{Company, Felt, Gap, Inside, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet};
 use crate::{
     Result,
     bodies::{Blocks, Motion},
@@ -56,7 +56,10 @@ impl Coupled {
             time_step: units.time_step,
             // Times of steps are rounded.
             hold: (held - 0.5) * units.time_step,
-            inside: Some(scene.fluid.density),
+            inside: Some(Inside {
+                density: scene.fluid.density,
+                layer: units.cell,
+            }),
         };
         let mut rock = Rock::new(device, queue, scene, setup, company).await?;
         let gaps = gaps(

@@ -3,14 +3,43 @@
 use super::{Felt, loads::sum};
 use crate::bodies::{Load, Pose, skew};
 use crate::immersed::spin;
+use crate::integrate::Principal;
 use glam::{DMat3, DVec3};
 
-/// Largest mass of the fluid outside that a block has to move, over that of the fluid it displaces. It is half of it
-/// for a sphere, two thirds for a cube, and more for plates; and on blocks of four cells the viscous layer, a cell
-/// thick, has the third power of 1.5 times their radius, (1.5³ − 1) + ½ 1.5³ = 4.
-const AROUND: f64 = 5.0;
-/// The same of the inertia of turns, which goes with the fifth power: 1.5⁵ − 1 = 7.
-const AROUND_TURNS: f64 = 10.0;
+/// The most of the fluid outside that a block has to move, over what it displaces: its mass, and its inertia for turns.
+///
+/// By the edges a ≤ b ≤ c of the box that has its inertia: ⅔ √(bc)/a bounds the added mass of potential flow, which is half
+/// for a sphere, two thirds for a cube, and 0.48 √(bc)/a for a thin disc (Lamb 1932, art. 102); half of √(bc)/a that
+/// of turns. A viscous layer that goes along adds to that: with R = 1 + layer/(a/2), R³ − 1 of the mass, and R³ times of
+/// what is moved around; for turns 1.5 (R⁵ − 1). A larger bound than is needed slows the answer to sound, which then
+/// drives a light block between walls: on a cube of eight cells that is 2.3 and 3.6, with half the density of the fluid,
+/// 5 and 10 were unstable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Around {
+    /// Of translations.
+    pub mass: f64,
+    /// Of turns.
+    pub inertia: f64,
+}
+
+impl Around {
+    /// Of a block of this volume (m³) and tensor of inertia for a density of one (m⁵) in a viscous layer (m) that is as
+    /// thick as a cell, or the way of viscosity in the time between two exchanges.
+    pub fn of(volume: f64, inertia: DMat3, layer: f64) -> Self {
+        let moments = Principal::of(inertia).moments;
+        // Of a box, I_x = V (b² + c²)/12.
+        let squares = (0.5 * moments.element_sum() - moments) * (12.0 / volume);
+        let mut edges = squares.to_array().map(|square| square.max(0.0).sqrt());
+        edges.sort_by(f64::total_cmp);
+        let [a, b, c] = edges;
+        let flat = (b * c).sqrt() / a;
+        let grown = 1.0 + 2.0 * layer / a;
+        Self {
+            mass: grown.powi(3) - 1.0 + 2.0 / 3.0 * flat * grown.powi(3),
+            inertia: 1.5 * (grown.powi(5) - 1.0) + 0.5 * flat,
+        }
+    }
+}
 
 /// What a block is made of.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +52,8 @@ pub struct Matter {
     pub inertia: DMat3,
     /// Gravity, m/s².
     pub gravity: DVec3,
+    /// The fluid around it.
+    pub around: Around,
 }
 
 /// The fluid inside a block goes where the block goes: the block feels its inertia through the cells, and gets
@@ -66,8 +97,8 @@ impl InnerFluid {
         let held = density * load.entrained / matter.volume;
         let inner = whole.min(held + 0.5 * rock);
         let inner_turning = whole.min(0.5 * (held + rock));
-        let [more, more_turning] =
-            [AROUND, AROUND_TURNS].map(|most| 0.5 * (most * whole - rock).max(0.0));
+        let [more, more_turning] = [matter.around.mass, matter.around.inertia]
+            .map(|most| 0.5 * (most * whole - rock).max(0.0));
         let force = load.force / matter.volume + inner * linear + rock * matter.gravity;
         // At the start what does not come from motion: weight and buoyancy.
         let [before, turned] = match known {
@@ -155,6 +186,10 @@ mod tests {
             volume: 2.0,
             inertia: DMat3::from_diagonal(DVec3::new(1.0, 2.0, 3.0)),
             gravity: DVec3::Z * -10.0,
+            around: Around {
+                mass: 5.0,
+                inertia: 10.0,
+            },
         };
         let load = Load {
             entrained: 1.5,

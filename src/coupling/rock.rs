@@ -1,14 +1,16 @@
 //! The blocks of a scene beside its fluid, whichever that is.
 
-use super::{InnerFluid, Matter, Pace, loads::sum};
+use super::{Around, InnerFluid, Matter, Pace, loads::sum};
 use crate::{
     Result,
+    block::Shape,
     bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
     broadphase::AutoBroadphase,
     scene::Scene,
     simulation::{self, BlockSetup},
 };
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 /// Exchanges that are left out between two looks at the loads while every block rests.
 const REST: u64 = 16;
@@ -32,8 +34,17 @@ pub struct Company {
     pub time_step: f64,
     /// Blocks are held in all exchanges that begin before this time, s.
     pub hold: f64,
-    /// Density of the fluid that is inside the blocks too, kg/m³; none where they displace it.
-    pub inside: Option<f64>,
+    /// The fluid that is inside the blocks too; none where they displace it.
+    pub inside: Option<Inside>,
+}
+
+/// A fluid that is inside of blocks too.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside {
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Thickness of the layer that goes along with a block between two exchanges, m: that of a cell.
+    pub layer: f64,
 }
 
 /// Blocks that feel a fluid.
@@ -44,7 +55,9 @@ pub struct Rock {
     pub(super) finder: AutoBroadphase,
     interval: u64,
     hold: f64,
-    inside: Option<f64>,
+    inside: Option<Inside>,
+    /// What the fluid around each block is to it at most.
+    bounds: Vec<Around>,
     pub(super) felt: Vec<Felt>,
     around: Vec<Felt>,
     pub(super) inner: Vec<InnerFluid>,
@@ -79,6 +92,12 @@ impl Rock {
             interval: scene.coupling.interval.into(),
             hold: company.hold,
             inside: company.inside,
+            bounds: company.inside.map_or_else(Vec::new, |inside| {
+                let shapes = setup.setup.blocks.iter().map(|block| &block.shape);
+                let around =
+                    |shape: &Arc<Shape>| Around::of(shape.volume(), shape.inertia(), inside.layer);
+                shapes.map(around).collect()
+            }),
             felt: vec![Felt::default(); blocks.len()],
             around: vec![Felt::default(); blocks.len()],
             inner: vec![InnerFluid::default(); blocks.len()],
@@ -184,7 +203,7 @@ impl Rock {
     fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
         let felt = &self.felt[block];
         let made = &self.setup.setup.blocks[block];
-        let Some(density) = self.inside else {
+        let Some(Inside { density, .. }) = self.inside else {
             return sum(felt.flow, felt.buoyancy);
         };
         if made.motion != Motion::Free {
@@ -196,6 +215,7 @@ impl Rock {
             volume: made.shape.volume(),
             inertia: turned(pose, made.shape.inertia()),
             gravity: self.blocks.gravity(),
+            around: self.bounds[block],
         };
         self.inner[block].load(felt, pose, &matter, density, dt)
     }
@@ -205,7 +225,7 @@ impl Rock {
         let held = self.is_held();
         let (loads, poses): (Vec<_>, _) = (self.blocks.loads().collect(), self.blocks.poses());
         self.around.clone_from(&self.felt);
-        let Some(density) = self.inside.filter(|_| !held) else {
+        let Some(Inside { density, .. }) = self.inside.filter(|_| !held) else {
             return;
         };
         for (block, felt) in self.around.iter_mut().enumerate() {

@@ -77,3 +77,35 @@ fn blocks_of_half_to_eight_times_the_density_come_to_rest() {
         }
     }
 }
+
+/// A cube of half the density, eight cells across, in a stream between its own images: nothing there damps sound, and an
+/// answer to it that comes late feeds it.
+#[test]
+fn sound_between_light_blocks_dies_away() {
+    let stream = 0.1;
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [initial]
+        velocity = [{stream}, 0, 0]
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        [[blocks]]
+        kind = "box"
+        size = [4, 4, 4]
+        position = [4.15, 4, 4]"#,
+        fluid([16, 16, 16], 0.0577),
+        material("light", 500.0),
+    ));
+    world.advance(1500);
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for _ in 0..60 {
+        world.advance(1);
+        let speed = world.velocity(0).x;
+        (least, most) = (least.min(speed), most.max(speed));
+    }
+    println!("{least:.6} to {most:.6}");
+    assert!(most - least < 0.01 * stream, "{least} {most}");
+    assert!(most < stream && least > 0.5 * stream, "{least} {most}");
+}

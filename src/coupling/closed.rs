@@ -4,7 +4,8 @@
 //! cells has seeped out, and shows it as part of the whole load; for single faces and factors of safety the pressures beside
 //! the wet faces at the rim are fitted by a plane, p = p̄ + g·(x − x̄), with the least squares over their cells, above what
 //! the weight of the water makes of it; that acts on what of the block is dry. Nowhere there is it higher than at these
-//! faces, or lower.
+//! faces, or lower. The rim of a face is where two wet faces or more meet it, its own wet part among them; of one that is
+//! deeper in, it is that of all joints of the block, through which the water comes to it.
 //!
 //! ```text
 //!  p_heel  ┌───────┐          The mean of each wet face and, where all of it is wet, the slope along it that its
@@ -108,6 +109,30 @@ struct Sample {
     first: DVec3,
 }
 
+impl Sample {
+    /// What it shows at the cut: all of it there, with the pressure that its slope has there.
+    fn moved(&self, cut: Cut, cell: f64) -> Option<Self> {
+        let force = self.over.area * fit(&[*self], cell)?.at(cut.place);
+        let over = Moments {
+            area: self.over.area,
+            first: self.over.area * cut.place,
+            second: outer(cut.place, cut.place) * self.over.area,
+        };
+        Some(Self {
+            over,
+            force,
+            first: force * cut.place,
+        })
+    }
+}
+
+/// A line across a face.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    place: DVec3,
+    along: DVec3,
+}
+
 /// p = value + gradient·r, Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Plane {
@@ -121,11 +146,9 @@ impl Plane {
     }
 }
 
-/// The faces of a block with closed joints, and the pressure at the rim of these.
+/// The faces of a block with closed joints, and the pressure at the rim of each, r from the centroid of the block.
 pub(super) struct Rim<'a> {
-    sides: Vec<Side<'a>>,
-    /// The pressure, r from the centroid of the block.
-    plane: Plane,
+    sides: Vec<(Side<'a>, Plane)>,
 }
 
 impl<'a> Rim<'a> {
@@ -156,21 +179,43 @@ impl<'a> Rim<'a> {
         if !whole || !sides.iter().any(Side::is_closed) {
             return None;
         }
-        let samples = samples(&sides, pose.centre, weight);
-        let dry = sides.iter().filter(|side| side.is_closed());
-        let dry = dry.flat_map(|side| side.corners.iter().map(|x| x - pose.centre));
-        let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
-        let plane = Plane {
-            gradient: plane.gradient + weight,
-            ..plane
+        let centre = pose.centre;
+        let closed: Vec<&Side<'_>> = sides.iter().filter(|side| side.is_closed()).collect();
+        let plane = |around: &[&Side<'_>], over: &[&Side<'_>]| {
+            // Where one joint is asked for, the wet part of its own face ends at its rim.
+            let own = |side: &Side<'_>| matches!(over, [one] if std::ptr::eq(*one, side));
+            let samples: Vec<Sample> = around
+                .iter()
+                .map(|side| {
+                    let sample = side.sample(centre, weight);
+                    match side.cut().filter(|_| own(side)) {
+                        Some(cut) => sample.moved(cut, cell).unwrap_or(sample),
+                        None => sample,
+                    }
+                })
+                .collect();
+            let dry = over.iter().flat_map(|side| side.dry_places(centre));
+            let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
+            Some(Plane {
+                gradient: plane.gradient + weight,
+                ..plane
+            })
         };
-        Some(Self { sides, plane })
+        let all = plane(&at_rim(&sides, &closed), &closed)?;
+        let own = |side: &Side<'_>| match &wet_beside(&sides, &[side])[..] {
+            around @ [_, _, ..] => plane(around, &[side]),
+            _ => None,
+        };
+        let planes: Vec<Plane> = sides.iter().map(|side| own(side).unwrap_or(all)).collect();
+        Some(Self {
+            sides: sides.into_iter().zip(planes).collect(),
+        })
     }
 
     /// Force (N) and torque (N m) on the wet faces and of the pressure of the rim on the dry ones.
     fn push(&self) -> [DVec3; 2] {
-        let add = |[force, torque]: [DVec3; 2], side: &Side<'_>| {
-            let dry = side.dry(&self.plane);
+        let add = |[force, torque]: [DVec3; 2], (side, plane): &(Side<'_>, Plane)| {
+            let dry = side.dry(plane);
             [
                 force + side.load.force + dry.force,
                 torque + side.load.moment + dry.moment,
@@ -197,7 +242,7 @@ impl Coupled {
     pub fn closed_joints(&self, block: usize) -> Vec<JointLoad> {
         let load = |rim: Rim<'_>| {
             let sides = rim.sides.iter();
-            sides.map(|side| side.dry(&rim.plane)).collect()
+            sides.map(|(side, plane)| side.dry(plane)).collect()
         };
         self.rim(block, load).unwrap_or_default()
     }
@@ -269,6 +314,37 @@ impl<'a> Side<'a> {
         })
     }
 
+    /// Where a line parts its open from its closed side, from the centroid of the block, and the direction in which the closed
+    /// one lies; none where one of the two is all or lies around the other.
+    fn cut(&self) -> Option<Cut> {
+        let whole = self.open.plus(&self.closed);
+        if self.open.area < SOME * whole.area || self.closed.area < SOME * whole.area {
+            return None;
+        }
+        let [open, closed] = [&self.open, &self.closed].map(|part| part.first / part.area);
+        let along = (closed - open).try_normalize()?;
+        let heights = self.corners.iter().map(|x| along.dot(*x));
+        let (least, most) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        // Of two parts beside each other the middles are half of both apart.
+        let beside = (closed - open).length() > 0.4 * (most - least);
+        let place = open.lerp(closed, self.open.area / whole.area);
+        beside.then_some(Cut { place, along })
+    }
+
+    /// The corners of what is closed of it, from `centre`: of a part that a line cuts off those behind it, and a place on it.
+    fn dry_places(&self, centre: DVec3) -> Vec<DVec3> {
+        let corners = self.corners.iter().map(|x| x - centre);
+        match self.cut() {
+            None => corners.collect(),
+            Some(Cut { place, along }) => corners
+                .filter(|x| along.dot(*x - place) > 0.0)
+                .chain([place])
+                .collect(),
+        }
+    }
+
     fn is_closed(&self) -> bool {
         self.closed.area > SOME * self.load.face.area
     }
@@ -316,24 +392,21 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Those of the wet faces, r from `centre`, at the rims of closed joints; of all where these have none.
-fn samples(sides: &[Side<'_>], centre: DVec3, weight: DVec3) -> Vec<Sample> {
+/// The wet ones of `sides` that have an edge in common with one of `closed`, or are it.
+fn wet_beside<'a>(sides: &'a [Side<'a>], closed: &[&Side<'_>]) -> Vec<&'a Side<'a>> {
     let wet = |side: &&Side<'_>| side.load.wetted > SOME * side.load.face.area;
-    let closed: Vec<_> = sides.iter().filter(|side| side.is_closed()).collect();
-    let at_rim = |side: &&Side<'_>| {
-        closed
-            .iter()
-            .any(|closed| std::ptr::eq(*closed, *side) || closed.meets(side))
+    let beside = |side: &&Side<'_>| {
+        let mut closed = closed.iter();
+        closed.any(|closed| std::ptr::eq(*closed, *side) || closed.meets(side))
     };
-    let sample = |side: &Side<'_>| side.sample(centre, weight);
-    let beside: Vec<_> = sides
-        .iter()
-        .filter(wet)
-        .filter(at_rim)
-        .map(sample)
-        .collect();
+    sides.iter().filter(wet).filter(beside).collect()
+}
+
+/// The wet faces at the rims of closed joints, or all where these have none.
+fn at_rim<'a>(sides: &'a [Side<'a>], closed: &[&Side<'_>]) -> Vec<&'a Side<'a>> {
+    let beside = wet_beside(sides, closed);
     match beside.is_empty() {
-        true => sides.iter().filter(wet).map(sample).collect(),
+        true => wet_beside(sides, &sides.iter().collect::<Vec<_>>()),
         false => beside,
     }
 }

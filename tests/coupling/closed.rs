@@ -184,6 +184,68 @@ fn a_block_that_lands_has_the_push_of_archimedes() {
     }
 }
 
+/// A dam between two levels with a gate on the downstream half of its crest: each joint has the line between its own
+/// ends, whatever is wet elsewhere.
+#[test]
+fn each_joint_has_the_pressure_of_its_own_rim() {
+    let high = 100.0;
+    let mut world = World::new(&format!(
+        r#"{}{}
+        [boundaries]
+        x_min = {{ kind = "wall" }}
+        x_max = {{ kind = "wall" }}
+        y_min = {{ kind = "free_slip" }}
+        y_max = {{ kind = "free_slip" }}
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "wall" }}
+        [initial]
+        pressure = "{high}*max(0, sign(6 - x))"
+        [rock]
+        gravity = [0, 0, 0]
+        {SAFETY}
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [4, 2, 3]
+        position = [6, 1, 1.5]
+        motion = "fixed"
+        [[blocks]]
+        name = "gate"
+        kind = "box"
+        size = [2, 2, 3]
+        position = [7, 1, 4.5]
+        motion = "fixed""#,
+        fluid([24, 4, 12], 0.1),
+        material("rock", 2650.0),
+    ));
+    world.advance(200);
+    let coupled = world.sim.coupled().unwrap();
+    let (faces, joints) = (coupled.faces(0), coupled.closed_joints(0));
+    let face = |normal: DVec3| {
+        let mut all = faces.iter().zip(&joints);
+        all.find(|(load, _)| load.face.normal.dot(normal) > 0.9)
+            .unwrap()
+    };
+    let level = |normal: DVec3| -face(normal).0.force.dot(normal) / face(normal).0.wetted;
+    let [up, down] = [level(-DVec3::X), level(DVec3::X)];
+    assert!(up - down > 0.4 * high, "{up} {down}");
+    let mean = 0.5 * (up + down);
+    for normal in [-DVec3::Z, DVec3::Z] {
+        let joint = face(normal).1;
+        let found = -joint.force.dot(normal) / joint.area;
+        println!("{normal}: {found}, {up} to {down}");
+        assert!(
+            (found - mean).abs() < 0.03 * (up - down),
+            "{normal}: {found}, {mean}"
+        );
+    }
+    // ∫ p x dx about the middle of the base: a line from one side to the other.
+    let base = face(-DVec3::Z).1;
+    let arm = base.moment.y / base.force.z;
+    let exact = (up - down) / (3.0 * mean);
+    assert!((arm / exact - 1.0).abs() < 0.03, "{arm} {exact}");
+}
+
 /// In the open there is nothing to say about joints.
 #[test]
 fn a_block_without_closed_joints_has_none() {

@@ -51,7 +51,6 @@ impl Pose {
             velocity: in_plane(self.velocity),
             deformation: plane_part(self.deformation),
             deformation_rate: plane_part(self.deformation_rate),
-            ..*self
         }
     }
 

@@ -8,6 +8,7 @@ mod held;
 mod mueller;
 mod programs;
 mod push;
+mod refusals;
 mod restored;
 mod step;
 mod still;

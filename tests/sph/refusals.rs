@@ -106,8 +106,9 @@ fn water_that_is_none_is_refused() {
 
 #[test]
 fn exchanges_that_cannot_be_are_refused() {
-    let (_, queue) = nothing();
-    let mut particles = made(tank(), MIDDLE, DVec3::ZERO, 0.0).unwrap();
+    let (device, queue) = nothing();
+    let still = [DVec3::ZERO];
+    let mut particles = Particles::new(&device, &queue, tank(), &[MIDDLE], &still, &[0.0]).unwrap();
     let good = resting(DVec3::ZERO);
     let mut begin = |poses: &[Pose], time: f64| {
         let begun = particles.begin(&queue, poses, time);

@@ -15,8 +15,9 @@ const SHORT: f64 = 2e-4;
 impl Blocks {
     /// Refuses a step of `dt` (s), which has been computed, if a block leaps in it.
     pub(super) fn check_ways(&self, dt: f64) -> Result<()> {
-        if self.bodies.len() < 2 && self.periods.is_none() {
-            // There is nothing in its way.
+        let alone = self.bodies.len() < 2 && self.periods.is_none();
+        if alone || !self.bodies.iter().any(Body::is_free) {
+            // There is nothing in the way that it could touch.
             return Ok(());
         }
         let all = self.bodies.par_iter().zip(&self.states);

@@ -44,7 +44,7 @@ impl Setup {
         let excess = (3.0 * self.nu) as f32;
         if !(excess.is_finite() && excess > 0.0) {
             let message = format!(
-                "the viscosity must be positive, and 3 ν a number of 32 bits; ν is {}",
+                "the viscosity must be positive, and 3 ν a number of 32 bits; ν is {:?}",
                 self.nu
             );
             return Err(Error::scene("fluid.viscosity", message));

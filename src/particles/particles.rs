@@ -121,9 +121,10 @@ impl Particles {
         for (id, position) in positions.iter().enumerate() {
             let at = frame.place(*position);
             let (velocity, pressure) = (velocities[id], pressures[id]);
-            if !(position.is_finite() && frame.holds(at) && pressure.is_finite())
-                || !frame.velocity(velocity).as_vec3().is_finite()
-            {
+            let finite = position.is_finite()
+                && frame.velocity(velocity).as_vec3().is_finite()
+                && pressure.is_finite();
+            if !(finite && frame.holds(at)) {
                 return Err(Error::scene(
                     "water",
                     format!(

@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{
     clock::Clock,
     copy::{Copy, METHODS},
-    gpu,
+    flow, gpu,
     subject::Subject,
 };
 use riprap::{

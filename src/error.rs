@@ -52,7 +52,7 @@ pub enum Error {
         /// What differs.
         message: String,
     },
-    /// A buffer bound to a kernel does not exist under that name, or is missing.
+    /// A buffer or number given to a kernel does not exist under that name, is missing, or cannot be.
     #[error("kernel {kernel}: binding {binding}: {message}")]
     Binding {
         /// Entry point.

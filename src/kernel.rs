@@ -31,7 +31,8 @@ impl Kernel {
     ///
     /// # Errors
     /// [`Error::Limit`] if the device allows fewer bindings or smaller workgroups,
-    /// [`Error::Shader`] if there is no such entry point.
+    /// [`Error::Shader`] if there is no such entry point, [`Error::Binding`] if a number of `constants` is none of 32
+    /// bits.
     pub fn new(
         device: &wgpu::Device,
         linked: &Linked,
@@ -65,6 +66,16 @@ impl Kernel {
             })
             .copied()
             .collect();
+        let lost = constants
+            .iter()
+            .find(|(_, value)| !(*value as f32).is_finite());
+        if let Some((name, value)) = lost {
+            return Err(Error::Binding {
+                kernel: entry.into(),
+                binding: (*name).into(),
+                message: format!("its value is {value}, no number of 32 bits; look at the setup"),
+            });
+        }
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(entry),
             source: wgpu::ShaderSource::Wgsl(linked.text.as_str().into()),

@@ -77,6 +77,7 @@ pub mod work;
 
 pub use error::{Error, Result};
 
+pub use glam;
 pub use wgpu;
 
 /// The README's examples, compiled.

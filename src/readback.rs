@@ -24,7 +24,8 @@ impl Readback {
     /// The first `count` values of `buffer`, after all that was submitted before.
     ///
     /// # Errors
-    /// [`Error::DeviceLost`] if the copy cannot be mapped.
+    /// [`Error::Device`] if the buffer has not as many, cannot be copied from, or they are no whole number of words of 4
+    /// bytes; [`Error::DeviceLost`] if the copy cannot be mapped.
     pub async fn read<T: bytemuck::Pod>(
         &mut self,
         device: &wgpu::Device,
@@ -32,10 +33,11 @@ impl Readback {
         buffer: &wgpu::Buffer,
         count: usize,
     ) -> Result<Vec<T>> {
-        let bytes = (count * size_of::<T>()) as u64;
+        let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
         if bytes == 0 {
             return Ok(Vec::new());
         }
+        check(buffer, bytes)?;
         let staging = match self.staging.take() {
             Some(kept) if kept.size() >= bytes => kept,
             _ => staging(device, bytes),
@@ -47,6 +49,25 @@ impl Readback {
         self.staging = Some(staging);
         Ok(values)
     }
+}
+
+/// Whether the first `bytes` of a buffer can be copied.
+fn check(buffer: &wgpu::Buffer, bytes: u64) -> Result<()> {
+    let message = if bytes > buffer.size() {
+        let held = buffer.size();
+        format!("reading back {bytes} bytes of a buffer that has {held}; ask for fewer")
+    } else if !bytes.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
+        let word = wgpu::COPY_BUFFER_ALIGNMENT;
+        format!(
+            "reading back {bytes} bytes, which are no whole number of words of {word}; ask for more or fewer"
+        )
+    } else if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
+        "reading back a buffer that was made without `BufferUsages::COPY_SRC`; make it with that"
+            .into()
+    } else {
+        return Ok(());
+    };
+    Err(Error::Device(message))
 }
 
 /// A buffer that the host can map.

@@ -53,6 +53,28 @@ impl Units {
         })
     }
 
+    /// Whether all of them are positive numbers.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming the first that is not.
+    pub fn check(&self) -> Result<()> {
+        let all = [
+            ("cell", self.cell),
+            ("time_step", self.time_step),
+            ("density", self.density),
+        ];
+        match all
+            .iter()
+            .find(|(_, unit)| !(*unit > 0.0 && unit.is_finite()))
+        {
+            None => Ok(()),
+            Some((name, unit)) => {
+                let message = format!("is {unit}; give a number greater than 0");
+                Err(Error::scene(format!("units.{name}"), message))
+            }
+        }
+    }
+
     /// m/s of the lattice velocity 1.
     fn velocity(&self) -> f64 {
         self.cell / self.time_step

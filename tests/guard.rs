@@ -5,8 +5,8 @@ mod rig;
 use rig::Rig;
 use riprap::lattice::{Fault, Lattice, Observer, Setup, State};
 
-/// A box with a NaN in one population of a cell, `steps` after it was put in at step `begin`.
-fn fault(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64, steps: usize) -> Option<Fault> {
+/// A box with a NaN in one population of a cell, put in at step `begin`.
+fn poisoned(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64) -> Lattice {
     let count = setup.cells.iter().product::<u32>() as usize;
     let mut clean = rig.start(setup.clone(), &State::rest(count), false);
     let mut saved = rig.populations(&mut clean);
@@ -18,6 +18,12 @@ fn fault(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64, steps: usize) -> 
     lattice
         .set_populations(&rig.device, &rig.queue, &saved)
         .unwrap();
+    lattice
+}
+
+/// What is found `steps` after that.
+fn fault(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64, steps: usize) -> Option<Fault> {
+    let mut lattice = poisoned(rig, setup, cell, begin);
     rig.run(&mut lattice, steps);
     let mut observer = Observer::new(&rig.device, &lattice).unwrap();
     rig.wait(observer.fault(&rig.device, &rig.queue, &lattice))
@@ -51,5 +57,22 @@ fn steps_are_counted_where_the_first_brick_is_solid() {
     for begin in [4, 9] {
         let found = fault(&rig, &setup, cell, begin, 3);
         assert_eq!(found, Some(Fault { step: begin, cell }));
+    }
+}
+
+#[test]
+fn sums_of_a_flow_that_is_no_number_have_no_largest_speed() {
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([8; 3], 0.01);
+    // Nothing stops the run.
+    setup.max_speed = 0.0;
+    let mut lattice = poisoned(&rig, &setup, [5, 3, 6], 0);
+    for _ in 0..2 {
+        let mut observer = Observer::new(&rig.device, &lattice).unwrap();
+        let sums = rig
+            .wait(observer.sums(&rig.device, &rig.queue, &mut lattice))
+            .unwrap();
+        assert!(sums.max_speed.is_nan(), "{sums:?}");
+        rig.run(&mut lattice, 8);
     }
 }

@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
 
     // As many steps as it may take: those after the end of the time do nothing.
-    particles.begin(&queue, &[place], TIME);
+    particles.begin(&queue, &[place], TIME)?;
     let most = (2.0 * TIME / particles.setup().acoustic_step()).ceil() as usize;
     for _ in 0..most.div_ceil(50) {
         let mut encoder = device.create_command_encoder(&Default::default());

@@ -42,7 +42,12 @@ impl Polyhedron {
         })?;
         let centre = corners.iter().sum::<DVec3>() / 4.0;
         let local: Vec<DVec3> = points.iter().map(|p| *p - centre).collect();
-        let faces = hull_planes(&local, corners.map(|c| c - centre), coplanar);
+        let faces =
+            hull_planes(&local, corners.map(|c| c - centre), coplanar).ok_or_else(|| {
+                let message =
+                    "the points are too near to each other to compute with; check their unit, m";
+                Error::scene("vertices", message)
+            })?;
         let size = local.iter().map(|p| p.abs().max_element());
         let half = 2.0 * size.fold(0.0, f64::max);
         let mut cell = Cell::cuboid(DVec3::splat(-half), DVec3::splat(half));
@@ -73,8 +78,9 @@ fn simplex(points: &[DVec3]) -> Option<[DVec3; 4]> {
 }
 
 /// The planes of the hull. The points are first mapped so that `corners` become a regular tetrahedron:
-/// a hull goes with its points, and in the map the cloud is about as thick as it is long.
-fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Vec<HalfSpace> {
+/// a hull goes with its points, and in the map the cloud is about as thick as it is long. None if the map is beyond
+/// all numbers.
+fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Option<Vec<HalfSpace>> {
     let regular = DMat3::from_cols(
         DVec3::new(1.0, 1.0, 1.0),
         DVec3::new(1.0, -1.0, -1.0),
@@ -106,7 +112,7 @@ fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Vec<Half
     let mut corners = vec![Vec::new(); dual.vertices.len()];
     for facet in &dual.facets {
         for vertex in &facet.ring {
-            corners[*vertex as usize].push(all[facet.source as usize]);
+            corners[*vertex as usize].push(*all.get(facet.source as usize)?);
         }
     }
     let planes = dual.vertices.iter().zip(corners).map(|(y, corners)| {
@@ -116,7 +122,7 @@ fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Vec<Half
         let distance = support.fold(f64::NEG_INFINITY, f64::max);
         HalfSpace { normal, distance }
     });
-    planes.collect()
+    Some(planes.collect())
 }
 
 /// Normal of the face with these corners in any order (Newell's: exact for three, the mean for more),

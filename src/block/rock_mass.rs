@@ -88,12 +88,21 @@ impl RockMass {
     /// Cuts the mass.
     ///
     /// # Errors
-    /// If a volume is not a block (see [`Polyhedron::from_half_spaces`]), a joint set cannot be used, or
-    /// there would be more than ten million pieces. Says which volume or set.
+    /// If a volume is not a block (see [`Polyhedron::from_half_spaces`]), a joint set or a limit for slivers cannot be
+    /// used, or there would be more than ten million pieces. Says which volume or set.
     pub fn cut(&self) -> Result<Fragments> {
         if self.volumes.is_empty() {
             let message = "a rock mass needs a volume; give the faces of at least one";
             return Err(Error::scene("volumes", message));
+        }
+        for (name, least) in [
+            ("smallest_volume", self.smallest_volume),
+            ("smallest_thickness", self.smallest_thickness),
+        ] {
+            if !(least >= 0.0 && least.is_finite()) {
+                let message = format!("is {least}; give a number from 0");
+                return Err(Error::scene(name, message));
+            }
         }
         // What facets are known by: all planes, in the coordinates of the mass.
         let mut planes = Vec::new();

@@ -13,6 +13,7 @@ use super::{
     parts::Parts,
     period::Periods,
     resolvers::Resolvers,
+    step::is_time,
     sums::Sum,
     touch::Pair,
     touches::Touches,
@@ -24,7 +25,7 @@ use crate::{
     integrate,
     law::{self, Joint},
 };
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// Blocks that move under gravity, loads and each other's contacts.
 ///
@@ -194,19 +195,20 @@ impl Blocks {
             .collect()
     }
 
-    /// Name of a block.
+    /// Name of a block; empty if there is no such block.
     pub fn name(&self, block: usize) -> &str {
-        &self.bodies[block].name
+        self.bodies.get(block).map_or("", |body| &body.name)
     }
 
-    /// Mass of a block, kg.
+    /// Mass of a block, kg; not a number if there is no such block.
     pub fn mass(&self, block: usize) -> f64 {
-        self.bodies[block].mass
+        self.bodies.get(block).map_or(f64::NAN, |body| body.mass)
     }
 
-    /// Rotation of a block.
-    pub fn rotation(&self, block: usize) -> glam::DQuat {
-        self.states[block].rotation
+    /// Rotation of a block; not a number if there is no such block.
+    pub fn rotation(&self, block: usize) -> DQuat {
+        let state = self.states.get(block);
+        state.map_or(DQuat::NAN, |state| state.rotation)
     }
 
     /// Spins about the world's axes, rad/s.
@@ -214,9 +216,10 @@ impl Blocks {
         self.states.iter().map(|state| state.spin)
     }
 
-    /// Angular momentum of a free block about its centroid, world, kg m²/s.
+    /// Angular momentum of a free block about its centroid, world, kg m²/s; not a number if there is no such block.
     pub fn angular_momentum(&self, block: usize) -> DVec3 {
-        self.states[block].momentum
+        let state = self.states.get(block);
+        state.map_or(DVec3::NAN, |state| state.momentum)
     }
 
     /// Net force of the contacts on each block, N.
@@ -249,9 +252,9 @@ impl Blocks {
         self.states.iter().map(|state| state.asleep)
     }
 
-    /// Whether a block can move: it is free or driven.
+    /// Whether a block can move: it is there, and free or driven.
     pub fn moves(&self, block: usize) -> bool {
-        !self.bodies[block].is_fixed()
+        self.bodies.get(block).is_some_and(|body| !body.is_fixed())
     }
 
     /// Speed of the fastest point of a free block, m/s.
@@ -269,6 +272,9 @@ impl Blocks {
     }
 
     /// The joint between two blocks, by their materials.
+    ///
+    /// # Panics
+    /// If there is no such block.
     pub fn joint(&self, [a, b]: [usize; 2]) -> &Joint {
         let material = |block: usize| self.bodies[block].material;
         self.joints.of(material(a), material(b))
@@ -342,8 +348,9 @@ impl Blocks {
     /// `finder` when they are wanted.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and of the finder.
+    /// Those of [`Blocks::step`], and of the finder, and [`Error::Scene`] if that time is not finite.
     pub async fn advance(&mut self, finder: &mut impl Broadphase, until: f64) -> Result<()> {
+        is_time(until)?;
         while self.time < until {
             if self.wants_pairs() {
                 let pairs = finder.pairs(&self.items()).await?;
@@ -355,8 +362,13 @@ impl Blocks {
     }
 
     /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
-    pub fn wait(&mut self, until: f64) {
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if that time is not finite.
+    pub fn wait(&mut self, until: f64) -> Result<()> {
+        is_time(until)?;
         self.time = self.time.max(until);
+        Ok(())
     }
 
     /// All of them, with their state.

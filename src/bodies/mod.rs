@@ -16,6 +16,7 @@ mod contact_point;
 mod deforming;
 mod films;
 mod items;
+mod leaps;
 mod ledger;
 mod make;
 mod narrow;

@@ -1,6 +1,6 @@
 //! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
-use crate::{integrate::axial, law::inner};
+use crate::{Error, Result, integrate::axial, law::inner};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
@@ -28,6 +28,30 @@ impl Pose {
             velocity,
             deformation_rate: skew(spin) * deformation,
         }
+    }
+
+    /// Whether it is a place and a motion at all.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.centre.is_finite()
+            && self.deformation.is_finite()
+            && self.velocity.is_finite()
+            && self.deformation_rate.is_finite()
+    }
+
+    /// Whether a block keeps a volume in it, and is not turned inside out.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] at `place` if not.
+    pub(crate) fn check_volume(&self, place: impl FnOnce() -> String) -> Result<()> {
+        let determinant = self.deformation.determinant();
+        if determinant > 0.0 {
+            return Ok(());
+        }
+        let message = format!(
+            "the determinant of its deformation F is {determinant}, which leaves no volume; give a matrix whose \
+             determinant is greater than 0, for a rigid block a rotation"
+        );
+        Err(Error::scene(place(), message))
     }
 
     /// Place of the point X of the block, m.
@@ -92,11 +116,12 @@ pub struct Load {
     pub moment: DMat3,
     /// Volume in which the fluid moves with the block, ΣB, m³.
     pub entrained: f64,
-    /// Volume in which the body force is missing from `force`, Σ(ε − B), m³.
+    /// Volume of the block in which the fluid does not move with it, Σ(ε − B), m³. A body force b on the fluid is missing
+    /// from `force` by ρ b ΣB, and the buoyancy −ρ g Σε is that of both volumes.
     pub missing: f64,
     /// First moment of the entrained volume about the centroid, m⁴.
     pub entrained_moment: DVec3,
-    /// First moment of the missing volume about the centroid, m⁴.
+    /// First moment of that volume about the centroid, m⁴.
     pub missing_moment: DVec3,
 }
 

@@ -16,6 +16,15 @@ use rayon::prelude::*;
 /// Blocks that one thread takes at least: handing out fewer costs more.
 pub(super) const FEW: usize = 256;
 
+/// Whether `until` is a time (s) to go to.
+pub(super) fn is_time(until: f64) -> Result<()> {
+    if until.is_finite() {
+        return Ok(());
+    }
+    let message = format!("{until} s is no time to go to; give a finite one");
+    Err(Error::scene("until", message))
+}
+
 /// What a step leads to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stride {
@@ -31,8 +40,9 @@ impl Blocks {
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
     /// the contacts, [`Error::DeepOverlap`] if two blocks are pressed into each other,
-    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Scene`] if pairs are wanted first. After an
-    /// error everything is as it was before the step.
+    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Scene`] if pairs are wanted first, or if a block moves by more
+    /// than half its width, so that it could pass through others unseen. After an error everything is as it was before
+    /// the step.
     pub fn step(&mut self) -> Result<()> {
         self.step_by(Stride {
             dt: self.time_step,
@@ -43,8 +53,13 @@ impl Blocks {
     /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`].
+    /// Those of [`Blocks::step`], and [`Error::Scene`] if that time is past.
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
+        is_time(until)?;
+        if until < self.time {
+            let message = format!("{until} s is past: the time is {} s", self.time);
+            return Err(Error::scene("until", message));
+        }
         self.step_by(self.stride(until))
     }
 
@@ -144,6 +159,7 @@ impl Blocks {
         if let Some(bad) = lost.into_iter().chain(unsound).min() {
             return Err(self.lost(bad, self.time + dt));
         }
+        self.check_ways(dt)?;
         let strains = &self.deforming.next;
         self.parts.follow(&self.bodies, &self.next_states, strains);
         self.find_contacts(dt, false)?;

@@ -155,7 +155,7 @@ impl Rock {
         if !self.moves() || self.is_held() {
             self.around.clone_from(&self.felt);
             if self.moves() {
-                self.blocks.wait(until);
+                self.blocks.wait(until)?;
             }
             return Ok(());
         }

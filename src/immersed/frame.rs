@@ -2,6 +2,7 @@
 
 use super::Motion;
 use crate::{
+    Error, Result,
     bodies::{Load, Pose},
     units::Units,
 };
@@ -17,6 +18,18 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Whether it is a place with units.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if not.
+    pub(super) fn check(&self) -> Result<()> {
+        if !self.origin.is_finite() {
+            let message = format!("is {}; give a finite place", self.origin);
+            return Err(Error::scene("frame.origin", message));
+        }
+        self.units.check()
+    }
+
     /// A place in cells from the lower corner.
     pub fn place(&self, x: DVec3) -> DVec3 {
         (x - self.origin) / self.units.cell
@@ -67,14 +80,6 @@ impl Frame {
 
 /// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
 pub(super) const FARTHEST: f64 = 1e9;
-
-/// Whether a pose is a place and a motion at all.
-pub(super) fn finite(pose: &Pose) -> bool {
-    pose.centre.is_finite()
-        && pose.deformation.is_finite()
-        && pose.velocity.is_finite()
-        && pose.deformation_rate.is_finite()
-}
 
 /// Whole numbers of cells; what lies beyond all integers is as far away as they go.
 pub(super) fn whole(base: DVec3) -> [i32; 3] {

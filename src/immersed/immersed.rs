@@ -3,7 +3,7 @@
 use super::{
     Frame, MOST_FACES, Motion, Part, Plan,
     face_sums::FaceSums,
-    frame::{FARTHEST, finite},
+    frame::FARTHEST,
     kernels::Kernels,
     outline::{outline, rows},
     tiles::{Outline, Tiling},
@@ -72,13 +72,14 @@ impl Immersed {
     /// [`Immersed::place`].
     ///
     /// # Errors
-    /// [`Error::Scene`] if the lattice has no solid operator; [`Error::Limit`] of the device.
+    /// [`Error::Scene`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
         frame: Frame,
         blocks: Vec<Submerged>,
     ) -> Result<Self> {
+        frame.check()?;
         let mut order: Vec<usize> = (0..blocks.len()).collect();
         order.sort_by_key(|&block| !blocks[block].loaded);
         let mut number = vec![0; blocks.len()];
@@ -135,7 +136,7 @@ impl Immersed {
     /// and lays down what is to be computed anew.
     ///
     /// # Errors
-    /// If the number of poses differs, one is not finite or farther away than cells are counted, or the device
+    /// If the number of poses differs, one is not finite, leaves no volume or is farther away than cells are counted, or the device
     /// does not hold the cells; then nothing is in place, and the next call does everything anew.
     pub fn place(
         &mut self,
@@ -148,13 +149,16 @@ impl Immersed {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
             return Err(Error::scene("poses", message));
         }
-        let nowhere = |pose: &Pose| !finite(pose);
+        let nowhere = |pose: &Pose| !pose.is_finite();
         if let Some(bad) = poses.iter().position(nowhere) {
             return Err(Error::NotFinite {
                 block: format!("block {bad}"),
                 time: lattice.step() as f64 * self.frame.units.time_step,
                 remedy: "look at its load and its drive; a shorter time step may help".into(),
             });
+        }
+        for (block, pose) in poses.iter().enumerate() {
+            pose.check_volume(|| format!("block {block}"))?;
         }
         let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
         if let Some(bad) = poses.iter().position(far) {

@@ -2,6 +2,7 @@
 
 use super::{
     Face, Force, Geometry, Grid, Setup, Storage,
+    check::finite,
     geometry::{FaceCell, MovingCell},
     populations, program,
     streams::Streams,
@@ -107,7 +108,7 @@ impl Lattice {
     /// [`Error::Scene`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
     /// hold it.
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
-        check(&setup)?;
+        setup.check()?;
         if !device.features().contains(setup.features()) {
             return Err(Error::Device(
                 "`Setup::wide` asks for 64-bit words, which this device was not opened with; request \
@@ -260,7 +261,7 @@ impl Lattice {
     /// they hold from the next submission on.
     ///
     /// # Errors
-    /// If the face is not a velocity face or the number of cells differs.
+    /// If there is no such face, it is not a velocity face, the number of cells differs, or a velocity is not finite.
     pub fn set_face_velocity(
         &mut self,
         queue: &wgpu::Queue,
@@ -268,9 +269,17 @@ impl Lattice {
         side: usize,
         velocity: Vec<[f32; 3]>,
     ) -> Result<()> {
-        let face = &mut self.setup.faces[axis][side];
+        let faces = self.setup.faces.get_mut(axis);
+        let Some(face) = faces.and_then(|faces| faces.get_mut(side)) else {
+            let message =
+                format!("there is no side {side} of axis {axis}; axes are 0 to 2, sides 0 and 1");
+            return Err(Error::scene("boundaries", message));
+        };
         match face {
-            Face::Velocity(old) if old.len() == velocity.len() => *old = velocity,
+            Face::Velocity(old) if old.len() == velocity.len() => {
+                finite(&face_name(axis, side), velocity.as_flattened())?;
+                *old = velocity;
+            }
             _ => {
                 let message = format!("this face takes no list of {} velocities", velocity.len());
                 return Err(Error::scene(face_name(axis, side), message));
@@ -433,53 +442,11 @@ pub fn in_plane(axis: usize) -> (usize, usize) {
     }
 }
 
-/// The name of a face in scenes.
+/// The name of a face in scenes, by its axis, 0 to 2, and side, 0 or 1.
 pub fn face_name(axis: usize, side: usize) -> String {
+    let axis = ["x", "y", "z"].get(axis).unwrap_or(&"?");
     format!(
-        "boundaries.{}_{}",
-        ["x", "y", "z"][axis],
-        ["min", "max"][side]
+        "boundaries.{axis}_{}",
+        if side == 0 { "min" } else { "max" }
     )
-}
-
-fn check(setup: &Setup) -> Result<()> {
-    if !(setup.nu.is_finite() && setup.nu > 0.0) {
-        let message = format!("the viscosity must be positive, not {}", setup.nu);
-        return Err(Error::scene("fluid.viscosity", message));
-    }
-    let cells: usize = setup.cells.iter().map(|&n| n as usize).product();
-    let same = |name: &str, n: usize, cells: usize| {
-        let message = format!("{n} values for {cells} cells");
-        if n == cells {
-            Ok(())
-        } else {
-            Err(Error::scene(name, message))
-        }
-    };
-    if !setup.solid.is_empty() {
-        same("solids", setup.solid.len(), cells)?;
-    }
-    if let Force::Field(field) = &setup.force {
-        same("fluid.acceleration", field.len(), cells)?;
-    }
-    for (axis, faces) in setup.faces.iter().enumerate() {
-        let periodic = faces.iter().filter(|face| **face == Face::Periodic).count();
-        if periodic == 1 {
-            let message = "a face is periodic only together with the opposite one";
-            return Err(Error::scene(face_name(axis, 0), message));
-        }
-        let (a, b) = in_plane(axis);
-        for (side, face) in faces.iter().enumerate() {
-            if let Face::Velocity(list) = face {
-                let plane = setup.cells[a] as usize * setup.cells[b] as usize;
-                same(&face_name(axis, side), list.len(), plane)?;
-            }
-        }
-    }
-    let brick: u64 = setup.brick.iter().map(|&n| u64::from(n)).product();
-    if ![32, 64, 128, 256].contains(&brick) {
-        let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
-        return Err(Error::scene("brick", message));
-    }
-    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Reading fields where somebody looks, and nowhere else.
 
 use super::{Lattice, fluid};
-use crate::{Result, kernel::Kernel, readback::Readback};
+use crate::{Error, Result, kernel::Kernel, readback::Readback};
 
 /// Copies values of listed cells together before they leave the device.
 #[derive(Debug)]
@@ -25,6 +25,11 @@ impl Gather {
     ) -> Result<Vec<f32>> {
         if cells.is_empty() {
             return Ok(Vec::new());
+        }
+        let count = field.size() / 4;
+        if let Some(bad) = cells.iter().find(|&&cell| u64::from(cell) >= count) {
+            let message = format!("there is no cell {bad}, only {count}");
+            return Err(Error::scene("cells", message));
         }
         let list = fluid::storage(device, "listed cells", bytemuck::cast_slice(cells));
         let out = fluid::result_buffer(device, "gathered", 4 * cells.len() as u64);

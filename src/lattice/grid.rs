@@ -44,7 +44,7 @@ impl Grid {
             return Err(Error::scene("numerics.lanes", message));
         }
         let periodic = setup.periodic_axes();
-        let pad = |n: u32, axis: usize| n + u32::from(!periodic[axis]);
+        let pad = |n: u32, axis: usize| n.saturating_add(u32::from(!periodic[axis]));
         let depth = pad(z, 2);
         if periodic[2] && depth % lanes != 0 {
             return Err(Error::scene(
@@ -53,17 +53,19 @@ impl Grid {
                     "{depth} cells along a periodic z do not divide into {lanes} lanes; use {} or {} \
                      cells, or walls, or another number of lanes",
                     depth - depth % lanes,
-                    depth + lanes - depth % lanes
+                    depth.saturating_add(lanes - depth % lanes)
                 ),
             ));
         }
         let elements = [pad(x, 0), pad(y, 1), depth.div_ceil(lanes)];
-        let total: u64 = elements.iter().map(|&n| u64::from(n)).product::<u64>() * u64::from(lanes);
-        if total > u64::from(u32::MAX) / 27 {
+        let elements_all = elements.iter().map(|&n| u128::from(n)).product::<u128>();
+        let total = elements_all * u128::from(lanes);
+        let most = u64::from(u32::MAX) / 27;
+        if total > u128::from(most) {
             return Err(Error::Limit {
                 name: "cells of one grid".into(),
-                wants: total,
-                has: u64::from(u32::MAX) / 27,
+                wants: u64::try_from(total).unwrap_or(u64::MAX),
+                has: most,
                 remedy: "use a larger cell".into(),
             });
         }

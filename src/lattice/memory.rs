@@ -29,7 +29,7 @@ pub fn bytes_a_population(storage: Storage) -> u64 {
 /// The bytes that a fluid takes, spread so that the limits hold.
 ///
 /// # Errors
-/// [`Error::Limit`] that names the limit and how many cells would fit.
+/// [`Error::Limit`] that names the limit, and how many cells would fit if it is one of bytes.
 pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memory> {
     let scalars = u64::from(grid.element_count()) * u64::from(grid.lanes);
     let direction = scalars * bytes_a_population(setup.storage);
@@ -61,6 +61,23 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         None if each == 0 => Q,
         None => Q.div_ceil(each),
     };
+    // A smaller grid mends neither of these.
+    if free == 0 || setup.bindings.is_some() && wanted > free {
+        let least = setup.bindings.map_or(1, |_| wanted);
+        let mut remedy = format!(
+            "the populations take {least} of them and the rest of this setup {beside}; open the device with a higher \
+             `max_storage_buffers_per_shader_stage`, if its adapter has it"
+        );
+        if wanted > free && free > 0 {
+            remedy += &format!(", or set `bindings` to at most {free}");
+        }
+        return Err(Error::Limit {
+            name: "storage buffers a shader stage of this device".into(),
+            wants: u64::from(least + beside),
+            has: limits.max_storage_buffers_per_shader_stage.into(),
+            remedy,
+        });
+    }
     // Of what is not populations, the vectors of a field have one binding, and each result has one.
     let vectors = setup.wale.is_some() || field == 1;
     let widest = if vectors { 12 } else { 4 };

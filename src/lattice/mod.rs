@@ -2,6 +2,7 @@
 
 mod boundary;
 mod bytes;
+mod check;
 mod exchange;
 mod fluid;
 mod gather;

@@ -7,17 +7,35 @@ use super::{
     inside::Kept,
     program,
 };
-use crate::{Result, kernel::Kernel, readback::Readback};
+use crate::{Error, Result, kernel::Kernel, readback::Readback};
 
 /// A number that follows from the velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derived {
     /// Q-criterion (Hunt, Wray & Moin 1988).
     QCriterion,
-    /// Eddy viscosity of WALE.
+    /// Eddy viscosity of WALE, which the setup must have.
     EddyViscosity,
     /// A component of the vorticity, 0 to 2.
     Vorticity(u32),
+}
+
+impl Derived {
+    /// Whether `lattice` has it.
+    fn check(self, lattice: &Lattice) -> Result<()> {
+        match self {
+            Self::EddyViscosity if lattice.setup.wale.is_none() => {
+                let message = "this lattice is laminar and has no eddy viscosity; set `wale`, or do not ask for it";
+                Err(Error::scene("derived", message))
+            }
+            Self::Vorticity(axis) if axis > 2 => {
+                let message =
+                    format!("there is no component {axis} of the vorticity; give 0, 1 or 2");
+                Err(Error::scene("derived", message))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Sums over the fluid cells, lattice units.
@@ -31,7 +49,7 @@ pub struct Sums {
     pub kinetic_energy: f64,
     /// Σ (curl u)²/2.
     pub enstrophy: f64,
-    /// Largest |u|.
+    /// Largest |u|; not a number if one is not.
     pub max_speed: f64,
     /// Fluid cells.
     pub cells: f64,
@@ -49,6 +67,8 @@ pub struct Fault {
 /// Reads a [`Lattice`]: buffers and kernels that only output needs.
 #[derive(Debug)]
 pub struct Observer {
+    /// A buffer of the lattice, by which it is known.
+    of: wgpu::Buffer,
     density: wgpu::Buffer,
     velocity: [wgpu::Buffer; 3],
     /// Made when first asked for.
@@ -95,6 +115,7 @@ impl Observer {
             None => None,
         };
         Ok(Self {
+            of: lattice.buffers.populations[0].clone(),
             density,
             velocity,
             derived: None,
@@ -113,9 +134,9 @@ impl Observer {
     /// what crosses it.
     ///
     /// # Errors
-    /// If the device cannot bind what blocks leave of their cells.
+    /// If this observes another lattice, or the device cannot bind what blocks leave of their cells.
     pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
-        self.record_cells(lattice, pass);
+        self.record_cells(lattice, pass)?;
         if self
             .kept
             .as_ref()
@@ -151,7 +172,7 @@ impl Observer {
         self.record_cells(
             lattice,
             &mut encoder.begin_compute_pass(&Default::default()),
-        );
+        )?;
         queue.submit([encoder.finish()]);
         let count = lattice.grid.cell_count();
         let mut velocity = [const { Vec::new() }; 3];
@@ -162,9 +183,20 @@ impl Observer {
     }
 
     /// The same without what solids do to the momentum of a cell in the middle of a step.
-    fn record_cells(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) {
+    fn record_cells(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
+        self.check(lattice)?;
         lattice.close(pass);
         self.macroscopic[lattice.parity()].record(pass);
+        Ok(())
+    }
+
+    /// Whether this was made for `lattice`.
+    fn check(&self, lattice: &Lattice) -> Result<()> {
+        if lattice.buffers.populations.first() == Some(&self.of) {
+            return Ok(());
+        }
+        let message = "it was made for another lattice; make one for each";
+        Err(Error::scene("observer", message))
     }
 
     /// Density minus one on the domain cells, f32, x fastest.
@@ -244,7 +276,7 @@ impl Observer {
     /// Reads a field that follows from the velocity gradient, lattice units.
     ///
     /// # Errors
-    /// If the device is lost or does not hold the field.
+    /// If the lattice has no such field, or the device is lost or does not hold it.
     pub async fn derived(
         &mut self,
         device: &wgpu::Device,
@@ -259,7 +291,7 @@ impl Observer {
     /// Reads such a field on the given cells (places, x fastest), or on all, lattice units.
     ///
     /// # Errors
-    /// If the device is lost or does not hold the field.
+    /// If the lattice has no such field, or the device is lost or does not hold it.
     pub async fn derived_on(
         &mut self,
         device: &wgpu::Device,
@@ -268,6 +300,8 @@ impl Observer {
         quantity: Derived,
         on: Option<&[u32]>,
     ) -> Result<Vec<f32>> {
+        self.check(lattice)?;
+        quantity.check(lattice)?;
         let cells = lattice.grid.cell_count();
         let buffer = match &self.derived {
             Some(kept) => kept.clone(),
@@ -332,6 +366,7 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<Sums> {
+        self.check(lattice)?;
         let turns = lattice.grid.cell_count().div_ceil(64);
         let (buffer, dispatch) = match self.sums.take() {
             Some(made) => made,
@@ -351,7 +386,7 @@ impl Observer {
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             // The ledger of blocks and fluid is that of what is in the cells.
-            self.record_cells(lattice, &mut pass);
+            self.record_cells(lattice, &mut pass)?;
             dispatch.record(&mut pass);
         }
         queue.submit([encoder.finish()]);
@@ -366,7 +401,12 @@ impl Observer {
             }
             sums.kinetic_energy += part[4];
             sums.enstrophy += part[5];
-            sums.max_speed = sums.max_speed.max(part[6].sqrt());
+            // The larger of two numbers leaves out what is none; the kinetic energy does not.
+            let lost = part[4].is_nan() || sums.max_speed.is_nan();
+            sums.max_speed = match lost {
+                true => f64::NAN,
+                false => sums.max_speed.max(part[6].sqrt()),
+            };
             sums.cells += part[7];
         }
         Ok(sums)

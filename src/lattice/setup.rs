@@ -56,7 +56,7 @@ pub enum Force {
 pub enum Face {
     /// The opposite face.
     Periodic,
-    /// A no-slip wall half a cell beyond the last cells, with its velocity.
+    /// A no-slip wall half a cell beyond the last cells, with its velocity, which is along the wall.
     Wall([f64; 3]),
     /// Specular reflection half a cell beyond the last cells.
     FreeSlip,
@@ -214,7 +214,7 @@ impl Setup {
     /// those that are not periodic add an element.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
-        let length = self.cells[0] + u32::from(!self.periodic_axes()[0]);
+        let length = self.cells[0].saturating_add(u32::from(!self.periodic_axes()[0]));
         let long = match length.div_ceil(32) {
             1 => length.next_power_of_two().max(8),
             n if n % 2 == 1 => 32,

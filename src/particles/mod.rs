@@ -8,6 +8,7 @@
 
 mod advise;
 mod asked;
+mod check;
 mod cloud;
 mod crowd;
 mod edge;

@@ -2,6 +2,7 @@
 
 use super::{
     Clock, Frame, Home, Motion, Numbers, Particle, Setup, State, Water, Works,
+    check::check_exchange,
     followed::Followed,
     hulls,
     kernels::{Kernels, NUMBERS},
@@ -111,12 +112,19 @@ impl Particles {
         };
         let (hulls, planes) = hulls::hulls(&setup, &frame, &order);
         hulls::check(device, &hulls)?;
+        if positions.is_empty() {
+            let message = "there is no particle; give one at least, or leave the water out";
+            return Err(Error::scene("water", message));
+        }
         let kernels = Kernels::new(device, queue, &setup, &frame, numbers, (&hulls, &planes))?;
         let mut particles = Vec::with_capacity(positions.len().max(1));
         for (id, position) in positions.iter().enumerate() {
             let at = frame.place(*position);
             let (velocity, pressure) = (velocities[id], pressures[id]);
-            if !frame.holds(at) || !velocity.is_finite() || !pressure.is_finite() {
+            let finite = position.is_finite()
+                && frame.velocity(velocity).as_vec3().is_finite()
+                && pressure.is_finite();
+            if !(finite && frame.holds(at)) {
                 return Err(Error::scene(
                     "water",
                     format!(
@@ -125,6 +133,7 @@ impl Particles {
                     ),
                 ));
             }
+            setup.check_pressure(id, pressure)?;
             particles.push(Particle {
                 at,
                 id: id as u32,
@@ -179,8 +188,8 @@ impl Particles {
     /// many steps as it wants.
     ///
     /// # Errors
-    /// [`Error::Diverged`] if a particle is nowhere, or the water so fast that time stands still;
-    /// [`Error::DeviceLost`].
+    /// Those of [`Particles::begin`]; [`Error::ParticleLost`] if a particle is nowhere, or the water so fast that time
+    /// stands still; [`Error::DeviceLost`].
     pub async fn advance(
         &mut self,
         device: &wgpu::Device,
@@ -188,7 +197,7 @@ impl Particles {
         poses: &[Pose],
         time: f64,
     ) -> Result<Exchange> {
-        self.begin(queue, poses, time);
+        self.begin(queue, poses, time)?;
         loop {
             let wanted = (f64::from(self.clock.left) / f64::from(self.clock.limit)).ceil();
             let batch = (wanted as u64).clamp(1, BATCH);
@@ -219,7 +228,12 @@ impl Particles {
 
     /// Sets the time and the places of the bodies for an exchange of `time` (s), of which the steps are then
     /// recorded: [`Particles::advance`] does all of it.
-    pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) {
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is not one pose for each body, one is not finite or leaves no volume, or the time is not
+    /// greater than 0.
+    pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) -> Result<()> {
+        check_exchange(poses, self.setup.bodies.len(), time)?;
         // Rounding moves blocks out of a plane, and water there evades along y.
         let flat: Vec<Pose>;
         let poses = match self.setup.plane {
@@ -281,6 +295,7 @@ impl Particles {
         self.followed.follow(poses, time);
         // Until it is known what the clock has come to.
         self.renewed = true;
+        Ok(())
     }
 
     /// Has the next step sort the particles anew. Between two such calls their order, and with it the rounding of
@@ -319,7 +334,7 @@ impl Particles {
     /// less.
     ///
     /// # Errors
-    /// [`Error::Limit`] if the device has no room for so many.
+    /// [`Error::Scene`] if a place is not finite; [`Error::Limit`] if the device has no room for so many.
     pub fn ask(
         &mut self,
         device: &wgpu::Device,
@@ -327,6 +342,11 @@ impl Particles {
         places: &[DVec3],
         walls: &[(DVec3, f64)],
     ) -> Result<()> {
+        let mut all = places.iter().chain(walls.iter().map(|(x, _)| x));
+        if let Some(bad) = all.position(|x| !x.is_finite()) {
+            let message = "is not finite; give a place in m";
+            return Err(Error::scene(format!("places[{bad}]"), message));
+        }
         let place = |(x, most): (DVec3, f32)| {
             let [x, y, z] = self.frame.place(x);
             [x, y, z, most.to_bits().cast_signed()]

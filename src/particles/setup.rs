@@ -1,7 +1,7 @@
 //! What particles of water want to know.
 
 use super::Solid;
-use crate::{Error, Result, scene};
+use crate::scene;
 use glam::DVec3;
 
 /// A face of the domain, as particles meet it.
@@ -96,7 +96,7 @@ pub struct Setup {
     pub artificial_viscosity: f64,
     /// δ.
     pub density_diffusion: f64,
-    /// Courant number C of the acoustic step; beyond 1.4 water may blow up.
+    /// Courant number C of the acoustic step, at most 1.4: beyond, water may blow up.
     pub courant: f64,
     /// Pressure of a density.
     pub state: StateEquation,
@@ -182,36 +182,5 @@ impl Setup {
     /// Longest step that laminar viscosity allows, s: h²/8ν (Morris, Fox & Zhu 1997); infinite without it.
     pub fn friction_step(&self) -> f64 {
         (self.smoothing * self.spacing).powi(2) / (8.0 * self.laminar_viscosity)
-    }
-
-    pub(super) fn check(&self) -> Result<()> {
-        let positive = [
-            ("spacing", self.spacing),
-            ("smoothing", self.smoothing),
-            ("sound_speed", self.sound_speed),
-            ("density", self.density),
-            ("courant", self.courant),
-            ("size.x", self.size.x),
-            ("size.y", self.size.y),
-            ("size.z", self.size.z),
-        ];
-        for (name, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                let message = format!("is {value}; give a positive number");
-                return Err(Error::scene(format!("particles.{name}"), message));
-            }
-        }
-        if !(self.gravity.is_finite() && self.origin.is_finite()) {
-            return Err(Error::scene(
-                "particles",
-                "gravity and origin must be finite",
-            ));
-        }
-        if self.plane && self.gravity.y != 0.0 {
-            let message =
-                "gravity has a part along y, and with particles.plane nothing moves there";
-            return Err(Error::scene("fluid.acceleration", message));
-        }
-        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! Solid or fluid, cell by cell.
 
+use crate::error::{Error, Result};
 use crate::scene::{Axis, Face};
 
 /// Which cells are solid, x fastest.
@@ -11,12 +12,20 @@ pub struct Mask {
 
 impl Mask {
     /// All fluid on a grid of `cells` along x, y, z.
-    pub fn new(cells: [u32; 3]) -> Self {
-        let count = cells.iter().map(|n| *n as usize).product();
-        Self {
-            cells,
-            solid: vec![0; count],
-        }
+    ///
+    /// # Errors
+    /// If they do not fit into memory.
+    pub fn new(cells: [u32; 3]) -> Result<Self> {
+        let count: u128 = cells.iter().map(|n| u128::from(*n)).product();
+        let mut solid = Vec::new();
+        let room = usize::try_from(count).ok();
+        let room = room.filter(|count| solid.try_reserve_exact(*count).is_ok());
+        let Some(room) = room else {
+            let message = format!("{count} cells do not fit into memory; use a larger cell");
+            return Err(Error::scene("domain.cell", message));
+        };
+        solid.resize(room, 0);
+        Ok(Self { cells, solid })
     }
 
     /// Number of cells along x, y, z.
@@ -35,15 +44,22 @@ impl Mask {
         (k as usize * ny + j as usize) * nx + i as usize
     }
 
-    /// Whether the cell `ijk` is solid.
-    pub fn is_solid(&self, ijk: [u32; 3]) -> bool {
-        self.solid[self.index(ijk)] != 0
+    /// Whether the cell `ijk` is on the grid.
+    fn has(&self, ijk: [u32; 3]) -> bool {
+        (0..3).all(|axis| ijk[axis] < self.cells[axis])
     }
 
-    /// Makes the cell `ijk` solid or fluid.
+    /// Whether the cell `ijk` is solid; those outside of the grid are not.
+    pub fn is_solid(&self, ijk: [u32; 3]) -> bool {
+        self.has(ijk) && self.solid[self.index(ijk)] != 0
+    }
+
+    /// Makes the cell `ijk` solid or fluid; those outside of the grid stay as they are.
     pub fn set(&mut self, ijk: [u32; 3], solid: bool) {
-        let index = self.index(ijk);
-        self.solid[index] = u8::from(solid);
+        if self.has(ijk) {
+            let index = self.index(ijk);
+            self.solid[index] = u8::from(solid);
+        }
     }
 
     /// Number of solid cells.
@@ -56,7 +72,11 @@ impl Mask {
         let axis = face.axis().index();
         let [fast, slow] = face.axis().others().map(Axis::index);
         let cells = self.cells;
-        let layer = if face.is_max() { cells[axis] - 1 } else { 0 };
+        let layer = if face.is_max() {
+            cells[axis].saturating_sub(1)
+        } else {
+            0
+        };
         (0..cells[slow]).flat_map(move |s| {
             (0..cells[fast]).map(move |f| {
                 let mut ijk = [layer; 3];

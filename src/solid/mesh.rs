@@ -26,19 +26,20 @@ impl TriangleMesh {
     ///
     /// Triangles that lose their area by this are left out.
     ///
-    /// # Panics
+    /// # Errors
     /// If a triangle names a vertex that is not there.
-    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Self> {
+        named(triangles, vertices.len()).map_err(|message| Error::scene("triangles", message))?;
         let (kept, of) = weld(vertices);
         let triangles = triangles
             .iter()
             .map(|corners| corners.map(|c| of[c as usize]))
             .filter(|[a, b, c]| a != b && b != c && c != a)
             .collect();
-        Self {
+        Ok(Self {
             vertices: kept,
             triangles,
-        }
+        })
     }
 
     /// Reads an STL or OBJ file; its unit becomes `scale` m and its origin goes to `translate` m.
@@ -69,18 +70,31 @@ impl TriangleMesh {
         }
         let place = |v: &DVec3| *v * scale + DVec3::from(translate);
         let placed: Vec<DVec3> = vertices.iter().map(place).collect();
-        Ok(Self::new(&placed, &triangles))
+        Self::new(&placed, &triangles).map_err(|error| Error::file(path, error))
     }
 
-    /// Corners of the triangle `index`, m.
+    /// Corners of the triangle `index`, m; not numbers if it or they are not there.
     pub fn corners(&self, index: usize) -> [DVec3; 3] {
-        self.triangles[index].map(|c| self.vertices[c as usize])
+        let corner = |c: u32| self.vertices.get(c as usize).copied().unwrap_or(DVec3::NAN);
+        let triangle = self.triangles.get(index);
+        triangle.map_or([DVec3::NAN; 3], |corners| corners.map(corner))
     }
 
     /// Lower and upper corner of the box around the mesh, m.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let (min, max) = around(&self.vertices);
         (min.into(), max.into())
+    }
+}
+
+/// Whether all corners of `triangles` are among so many vertices.
+pub(super) fn named(triangles: &[[u32; 3]], vertices: usize) -> Result<(), String> {
+    let all = triangles.iter().flatten();
+    match all.max().filter(|corner| **corner as usize >= vertices) {
+        None => Ok(()),
+        Some(corner) => Err(format!(
+            "a triangle names the vertex {corner}, and there are only {vertices}; count them from 0, or export the mesh again"
+        )),
     }
 }
 

@@ -25,7 +25,7 @@ impl Scene {
     /// If the file of a mesh cannot be read, a mesh is open or lies wholly outside the domain, or
     /// no fluid is left.
     pub fn solid_mask(&self) -> Result<Mask> {
-        let mut mask = Mask::new(self.cells());
+        let mut mask = Mask::new(self.cells())?;
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
             let filled = !solid.void;

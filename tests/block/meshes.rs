@@ -22,7 +22,7 @@ fn mesh(triangles: &[[DVec3; 3]]) -> TriangleMesh {
     let corners: Vec<[u32; 3]> = (0..triangles.len() as u32)
         .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
         .collect();
-    TriangleMesh::new(vertices, &corners)
+    TriangleMesh::new(vertices, &corners).unwrap()
 }
 
 /// A prism over a polygon (counter-clockwise) cut into triangles, from z = 0 to `height`.

@@ -1,7 +1,10 @@
 //! What is no block is refused, and the message says which face and what to do.
 
 use glam::DVec3;
-use riprap::block::{Form, HalfSpace, Part, Polyhedron, Shape};
+use riprap::{
+    block::{Form, HalfSpace, Part, Polyhedron, RockMass, Shape},
+    solid::TriangleMesh,
+};
 
 fn cube() -> Vec<HalfSpace> {
     Polyhedron::cuboid(DVec3::ONE).unwrap().faces().to_vec()
@@ -185,5 +188,38 @@ fn parts_that_overlap() {
         let mut same = parts.to_vec();
         same[1].offset = same[0].offset;
         refused(Shape::compound(same), &["overlaps"]);
+    }
+}
+
+#[test]
+fn points_too_near_to_compute_with() {
+    let tiny = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(|x| x * 1e-120);
+    refused(Polyhedron::from_vertices(&tiny), &["vertices", "unit"]);
+}
+
+#[test]
+fn triangles_of_vertices_that_are_not_there() {
+    let vertices = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    let words = ["vertex 3", "only 3"];
+    refused(TriangleMesh::new(&vertices, &[[0, 1, 3]]), &words);
+    let mesh = TriangleMesh {
+        vertices,
+        triangles: vec![[0, 1, 3]],
+    };
+    refused(Shape::from_mesh(&mesh), &["not there"]);
+    assert!(mesh.closed().is_err());
+    assert!(mesh.corners(0)[2].is_nan() && mesh.corners(7)[0].is_nan());
+}
+
+#[test]
+fn limits_for_slivers() {
+    for bad in [f64::NAN, -1.0, f64::INFINITY] {
+        let cut = |volume, thickness| {
+            let mut mass = RockMass::new(vec![cube()]);
+            (mass.smallest_volume, mass.smallest_thickness) = (volume, thickness);
+            mass.cut()
+        };
+        refused(cut(bad, 0.0), &["smallest_volume"]);
+        refused(cut(0.0, bad), &["smallest_thickness"]);
     }
 }

@@ -246,3 +246,40 @@ fn single_loads_for_free_blocks_in_cells_that_reflect_are_refused() {
     let noble = text.replace("[numerics]", "[numerics]\nsolid_operator = \"noble\"");
     scene(&noble).unwrap();
 }
+
+#[test]
+fn a_frame_without_units_and_a_pose_without_volume_are_refused() {
+    let rig = Rig::new();
+    let mut lattice = lattice(&rig, [16, 8, 8], Some(SolidOperator::Holdych));
+    let mut put = |change: &dyn Fn(&mut Frame, &mut Pose)| {
+        let (mut frame, mut pose) = (frame(), at(DVec3::splat(4.0)));
+        change(&mut frame, &mut pose);
+        let immersed = Immersed::new(&rig.device, &lattice, frame, vec![ball(2.0)]);
+        let placed =
+            immersed.and_then(|mut all| all.place(&rig.device, &rig.queue, &mut lattice, &[pose]));
+        placed.map_err(|error| error.to_string()).err()
+    };
+    assert_eq!(put(&|_, _| {}), None);
+    for bad in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        for (place, told) in [
+            ("units.cell", put(&|frame, _| frame.units.cell = bad)),
+            (
+                "units.time_step",
+                put(&|frame, _| frame.units.time_step = bad),
+            ),
+            ("units.density", put(&|frame, _| frame.units.density = bad)),
+        ] {
+            assert!(
+                told.as_ref().is_some_and(|told| told.starts_with(place)),
+                "{told:?}"
+            );
+        }
+    }
+    let told = put(&|frame, _| frame.origin.x = f64::NAN).unwrap();
+    assert!(told.starts_with("frame.origin"), "{told}");
+    let told = put(&|_, pose| pose.deformation.z_axis = DVec3::ZERO).unwrap();
+    assert!(
+        told.starts_with("block 0: ") && told.contains("determinant"),
+        "{told}"
+    );
+}

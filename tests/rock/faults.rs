@@ -199,3 +199,57 @@ fn a_drive_without_a_value_names_its_formula_and_the_time() {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
+
+/// A cube above a floor, in steps that are too long to see it.
+#[test]
+fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
+    let falling = |dt: f64, velocity: f64| {
+        let mut cube = cube(2.5);
+        cube.velocity.z = velocity;
+        let mut setup = setup(vec![floor(), cube], joint(1e8, 30.0));
+        setup.time_step = Some(dt);
+        blocks(setup)
+    };
+    // Driven by gravity alone from rest, ½ g Δt² in the first step.
+    let mut long = falling(1.0, 0.0);
+    let text = try_run(&mut long, 3.0).expect_err("a leap").to_string();
+    for part in ["blocks[1] (cube):", "4.905e0 m in a step", "of at most"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert_eq!((long.time(), long.poses()[1].centre.z), (0.0, 2.5));
+    let text = try_run(&mut falling(1e-4, -1e5), 0.01).expect_err("a bullet");
+    assert!(text.to_string().contains("1.000e5 m/s"), "{text}");
+    // Steps that see the floor end at it, one way or the other.
+    for dt in [0.1, 0.01] {
+        assert!(try_run(&mut falling(dt, 0.0), 3.0).is_err(), "{dt}");
+    }
+    // There is nothing that it could pass through.
+    let mut alone = setup(vec![cube(2.5)], joint(1e8, 30.0));
+    alone.time_step = Some(1.0);
+    try_run(&mut blocks(alone), 3.0).expect("free fall");
+}
+
+#[test]
+fn times_that_are_past_or_none_are_refused() {
+    let mut blocks = blocks(setup(vec![floor(), cube(1.5)], joint(1e8, 30.0)));
+    try_run(&mut blocks, 0.01).expect("it falls");
+    let before = blocks.snapshot();
+    for until in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let text = try_run(&mut blocks, until).expect_err("no time");
+        assert!(text.to_string().starts_with("until: "), "{text}");
+        assert!(blocks.step_towards(until).is_err());
+        assert!(blocks.wait(until).is_err());
+    }
+    let text = blocks.step_towards(0.005).expect_err("it is past");
+    assert!(text.to_string().contains("0.005 s is past"), "{text}");
+    try_run(&mut blocks, 0.005).expect("nothing is left to do");
+    assert_eq!(blocks.snapshot(), before);
+}
+
+#[test]
+fn a_block_that_is_not_there_has_no_numbers() {
+    let blocks = blocks(setup(vec![floor(), cube(0.5)], joint(1e8, 30.0)));
+    assert_eq!((blocks.name(2), blocks.moves(2)), ("", false));
+    assert!(blocks.mass(2).is_nan() && blocks.rotation(2).is_nan());
+    assert!(blocks.angular_momentum(2).is_nan());
+}

@@ -94,7 +94,7 @@ fn indexed(triangles: &[[DVec3; 3]]) -> TriangleMesh {
     let order: Vec<[u32; 3]> = (0..triangles.len() as u32)
         .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
         .collect();
-    TriangleMesh::new(&vertices, &order)
+    TriangleMesh::new(&vertices, &order).unwrap()
 }
 
 /// A cube of `cells` cells of 1 mm with the given solids; meshes lie in the scratch directory.
@@ -382,4 +382,18 @@ fn a_million_cells_and_ten_thousand_triangles() {
         (volume / (4.0 / 3.0 * std::f64::consts::PI * 64e3) - 1.0).abs() < 4e-3,
         "{volume}"
     );
+}
+
+#[test]
+fn a_mask_has_no_cells_outside_of_its_grid() {
+    let mut mask = Mask::new([2, 3, 4]).unwrap();
+    for outside in [[2, 0, 0], [0, 3, 0], [0, 0, 4]] {
+        mask.set(outside, true);
+        assert!(!mask.is_solid(outside));
+    }
+    assert_eq!(mask.solid_count(), 0);
+    mask.set([1, 2, 3], true);
+    assert!(mask.is_solid([1, 2, 3]));
+    let told = Mask::new([u32::MAX; 3]).unwrap_err().to_string();
+    assert!(told.contains("domain.cell"), "{told}");
 }

@@ -9,6 +9,7 @@ mod mueller;
 mod plane;
 mod programs;
 mod push;
+mod refusals;
 mod restored;
 mod step;
 mod still;

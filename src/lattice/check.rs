@@ -1,0 +1,163 @@
+//! A setup that can be computed, in numbers that the device can hold.
+
+use super::{Face, Force, Setup, face_name, in_plane};
+use crate::{Error, Result};
+
+impl Setup {
+    /// Whether a fluid can be made of it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming the first field that cannot be used.
+    pub(super) fn check(&self) -> Result<()> {
+        self.check_numbers()?;
+        let cells = self.cells.iter().map(|&n| u128::from(n)).product();
+        if !self.solid.is_empty() {
+            same("solids", self.solid.len(), cells)?;
+        }
+        match &self.force {
+            Force::None => {}
+            Force::Constant(force) => finite("fluid.acceleration", &force.map(|f| f as f32))?,
+            Force::Field(field) => {
+                same("fluid.acceleration", field.len(), cells)?;
+                finite("fluid.acceleration", field.as_flattened())?;
+            }
+        }
+        for (axis, faces) in self.faces.iter().enumerate() {
+            let periodic = faces.iter().filter(|face| **face == Face::Periodic).count();
+            if periodic == 1 {
+                let message = "a face is periodic only together with the opposite one";
+                return Err(Error::scene(face_name(axis, 0), message));
+            }
+            for (side, face) in faces.iter().enumerate() {
+                self.check_face(face, axis, &face_name(axis, side))?;
+            }
+        }
+        let brick = self.brick.iter().map(|&n| u128::from(n)).product::<u128>();
+        if ![32, 64, 128, 256].contains(&brick) {
+            let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
+            return Err(Error::scene("brick", message));
+        }
+        Ok(())
+    }
+
+    fn check_numbers(&self) -> Result<()> {
+        let excess = (3.0 * self.nu) as f32;
+        if !(excess.is_finite() && excess > 0.0) {
+            let message = format!(
+                "the viscosity must be positive, and 3 ν a number of 32 bits; ν is {:?}",
+                self.nu
+            );
+            return Err(Error::scene("fluid.viscosity", message));
+        }
+        let rates = self.rates;
+        let rates = [
+            ("s4", rates.s4),
+            ("s10", rates.s10),
+            ("s13", rates.s13),
+            ("s16", rates.s16),
+            ("s17", rates.s17),
+            ("s18", rates.s18),
+            ("s20", rates.s20),
+            ("s23", rates.s23),
+            ("s26", rates.s26),
+        ];
+        for (name, rate) in rates {
+            let rate = rate as f32;
+            if !(rate > 0.0 && rate < 2.0) {
+                let message = format!("is {rate}; a rate lies between 0 and 2");
+                return Err(Error::scene(format!("rates.{name}"), message));
+            }
+        }
+        let lambdas = [
+            ("lambda", self.lambda),
+            ("wall_lambda", self.wall_lambda),
+            ("solid_lambda", self.solid_lambda),
+        ];
+        for (name, lambda) in lambdas {
+            if let Some(lambda) = lambda
+                && !(lambda > 0.0 && lambda.is_finite())
+            {
+                let message = format!("is {lambda}; give a number greater than 0");
+                return Err(Error::scene(format!("numerics.{name}"), message));
+            }
+        }
+        if !(0.0..2.0).contains(&self.odd_rate_floor) {
+            let message = format!(
+                "is {}; a rate lies from 0 to below 2, such as 0.8",
+                self.odd_rate_floor
+            );
+            return Err(Error::scene("numerics.odd_rate_floor", message));
+        }
+        if let Some(constant) = self.wale
+            && !(constant >= 0.0 && (constant as f32).is_finite())
+        {
+            let message = format!("is {constant}; give a number from 0, such as 0.5");
+            return Err(Error::scene("numerics.wale_constant", message));
+        }
+        let squared = (self.max_speed * self.max_speed) as f32;
+        if !(self.max_speed >= 0.0 && squared.is_finite()) {
+            let message = format!(
+                "is {}; give a speed such as 0.43, or 0 for no guard",
+                self.max_speed
+            );
+            return Err(Error::scene("max_speed", message));
+        }
+        Ok(())
+    }
+
+    /// The face normal to `axis` that messages call `name`.
+    fn check_face(&self, face: &Face, axis: usize, name: &str) -> Result<()> {
+        match face {
+            Face::Periodic | Face::FreeSlip => Ok(()),
+            Face::Wall(velocity) => {
+                finite(name, &velocity.map(|v| v as f32))?;
+                if velocity[axis] != 0.0 {
+                    let message = format!(
+                        "a wall moves only along itself, so that component {axis} of its velocity must be 0, not {}; \
+                         for flow through the face use `Face::Velocity`",
+                        velocity[axis]
+                    );
+                    return Err(Error::scene(name, message));
+                }
+                Ok(())
+            }
+            Face::Velocity(list) => {
+                let (a, b) = in_plane(axis);
+                let plane = u128::from(self.cells[a]) * u128::from(self.cells[b]);
+                same(name, list.len(), plane)?;
+                finite(name, list.as_flattened())
+            }
+            Face::Pressure { density } | Face::Outflow { density } => {
+                if *density > 0.0 && (*density as f32).is_finite() {
+                    return Ok(());
+                }
+                let message = format!(
+                    "its density is {density}; give a number greater than 0, such as 1 for the pressure 0"
+                );
+                Err(Error::scene(name, message))
+            }
+        }
+    }
+}
+
+/// There must be as many values as cells.
+fn same(name: &str, values: usize, cells: u128) -> Result<()> {
+    if values as u128 == cells {
+        return Ok(());
+    }
+    Err(Error::scene(
+        name,
+        format!("{values} values for {cells} cells"),
+    ))
+}
+
+/// All of these must be numbers.
+pub(super) fn finite(name: &str, values: &[f32]) -> Result<()> {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(bad) => {
+            let message = format!("contains {bad}; give finite numbers of 32 bits");
+            Err(Error::scene(name, message))
+        }
+    }
+}

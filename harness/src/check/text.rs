@@ -33,7 +33,7 @@ impl Report {
             line("", format!("buffers: {}", shorten(&kernel.bindings)));
         }
         for left_out in &self.left_out {
-            line("only", left_out.to_string());
+            line("runs", left_out.to_string());
         }
         self.numerics(&mut line);
         if let Some(blocks) = &self.blocks {

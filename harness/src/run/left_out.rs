@@ -185,11 +185,14 @@ impl LeftOut {
 impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let share = 100.0 * self.done / self.of;
-        write!(
-            f,
-            "{:.0} of {:.0} ({share:.2} %) {}",
-            self.done, self.of, self.what
-        )?;
+        match self.done {
+            0.0 => write!(f, "none of {:.0} {}", self.of, self.what)?,
+            done => write!(
+                f,
+                "only {done:.0} of {:.0} ({share:.2} %) {}",
+                self.of, self.what
+            )?,
+        }
         match self.saves {
             Some(saves) if saves > 2.0 => {
                 write!(f, "; saves an estimated {saves:.0} times what a step takes")

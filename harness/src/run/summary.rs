@@ -235,7 +235,7 @@ impl fmt::Display for Summary {
             writeln!(f, "  {safety}")?;
         }
         for left_out in &self.left_out {
-            writeln!(f, "  only {left_out}")?;
+            writeln!(f, "  ran {left_out}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

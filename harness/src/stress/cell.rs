@@ -119,7 +119,7 @@ fn short(value: f64) -> String {
 }
 
 /// A field of a table: in quotes where it has to be (RFC 4180).
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.to_owned(),

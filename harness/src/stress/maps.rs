@@ -82,11 +82,17 @@ impl Map {
             let wrong = cells.iter().filter(|cell| cell.agrees == Some(false));
             let (wrong, refused): (Vec<&&Cell>, Vec<&&Cell>) =
                 wrong.partition(|cell| !cell.warned.starts_with("refused"));
+            let needless = cells
+                .iter()
+                .filter(|cell| cell.agrees.is_some() && cell.outcome.is_good())
+                .filter(|cell| cell.warned.starts_with("warned"));
             lines.push(format!(
-                "advice: {} of {judged} cells disagree: {} ended badly without a warning, {} were refused that end well",
+                "advice: {} of {judged} cells disagree: {} ended badly without a warning, {} were refused that end well; \
+                 {} were warned of that end well, some for accuracy",
                 wrong.len() + refused.len(),
                 wrong.len(),
-                refused.len()
+                refused.len(),
+                needless.count()
             ));
         }
         lines

@@ -23,7 +23,10 @@ pub use maps::{MAPS, Map};
 pub use outcome::Outcome;
 pub use sink::Sink;
 
-use crate::validate::{Stand, solids::tank::Tank};
+use crate::{
+    bench::Machine,
+    validate::{Stand, solids::tank::Tank},
+};
 use std::{path::PathBuf, time::Instant};
 
 /// Maps where the methods are stable, and tries what may break them; writes stress.csv, stress.json and a picture of
@@ -66,7 +69,7 @@ fn warned(tank: &Tank<'_>) -> String {
 /// If there is no adapter, or the files cannot be written.
 pub fn run(args: &Args) -> anyhow::Result<bool> {
     let stand = Stand::open(args.adapter.as_deref(), args.full)?;
-    let mut sink = Sink::begin(&args.out)?;
+    let mut sink = Sink::begin(&args.out, Machine::of(&stand.device.adapter_info()))?;
     let begin = Instant::now();
     let wanted = |map: &&Map| args.only.as_ref().is_none_or(|only| only == map.name);
     for map in MAPS.iter().filter(wanted) {

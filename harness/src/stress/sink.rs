@@ -1,36 +1,52 @@
 //! Where cells go: a table and a list on disk that grow with each, and lines on the terminal.
 
-use super::{Cell, cell::COLUMNS};
+use super::{
+    Cell,
+    cell::{COLUMNS, quoted},
+};
+use crate::bench::Machine;
 use anyhow::{Context, Result};
 use riprap::output::replace;
+use serde::Serialize;
 use std::{
     fs::File,
     io::Write,
     path::{Path, PathBuf},
 };
 
+/// A cell in the list, with where it was found.
+#[derive(Serialize)]
+struct Kept<'a> {
+    #[serde(flatten)]
+    cell: &'a Cell,
+    #[serde(flatten)]
+    machine: &'a Machine,
+}
+
 /// The cells so far, which are on disk already.
 #[derive(Debug)]
 pub struct Sink {
     folder: PathBuf,
+    machine: Machine,
     table: File,
     cells: Vec<Cell>,
 }
 
 impl Sink {
-    /// An empty table and list in `folder`.
+    /// An empty table and list in `folder`, of what this machine finds.
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn begin(folder: &Path) -> Result<Self> {
+    pub fn begin(folder: &Path, machine: Machine) -> Result<Self> {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make {}", folder.display()))?;
         let path = folder.join("stress.csv");
         let mut table =
             File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
-        writeln!(table, "{COLUMNS}")?;
+        writeln!(table, "{COLUMNS},adapter,driver,commit,date")?;
         let sink = Self {
             folder: folder.to_owned(),
+            machine,
             table,
             cells: Vec::new(),
         };
@@ -45,15 +61,27 @@ impl Sink {
     pub fn add(&mut self, cell: Cell) -> Result<()> {
         println!("{}", line(&cell));
         // One call a row: a killed stress ends between rows.
+        let Machine {
+            adapter,
+            driver,
+            commit,
+            date,
+            ..
+        } = &self.machine;
+        let commit = commit.as_deref().unwrap_or_default();
+        let row = [&cell.row(), &quoted(adapter), &quoted(driver), commit, date].join(",");
         self.table
-            .write_all((cell.row() + "\n").as_bytes())
+            .write_all((row + "\n").as_bytes())
             .with_context(|| format!("cannot write {}/stress.csv", self.folder.display()))?;
         self.cells.push(cell);
         self.list()
     }
 
     fn list(&self) -> Result<()> {
-        let text = serde_json::to_string_pretty(&self.cells)? + "\n";
+        let machine = &self.machine;
+        let kept = |cell| Kept { cell, machine };
+        let cells: Vec<Kept<'_>> = self.cells.iter().map(kept).collect();
+        let text = serde_json::to_string_pretty(&cells)? + "\n";
         Ok(replace(&self.folder.join("stress.json"), |file| {
             file.write_all(text.as_bytes())
         })?)
@@ -107,7 +135,7 @@ mod tests {
     #[test]
     fn what_was_added_is_on_disk_before_the_end() {
         let folder = std::env::temp_dir().join(format!("riprap-stress-{}", std::process::id()));
-        let mut sink = Sink::begin(&folder).unwrap();
+        let mut sink = Sink::begin(&folder, Machine::host()).unwrap();
         for steps in 1..=2 {
             sink.add(Cell {
                 map: "a".into(),
@@ -130,6 +158,9 @@ mod tests {
             let list: serde_json::Value = serde_json::from_str(&list).unwrap();
             assert_eq!(list.as_array().unwrap().len(), steps as usize);
             assert_eq!(list[0]["outcome"], "ended");
+            assert_eq!(list[0]["adapter"], "no adapter");
+            let lengths: Vec<_> = table.lines().map(|row| row.split(',').count()).collect();
+            assert!(lengths.iter().all(|n| *n == lengths[0]), "{table}");
         }
         std::fs::remove_dir_all(folder).unwrap();
     }

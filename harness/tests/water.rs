@@ -247,7 +247,7 @@ fn what_leaves_through_an_open_face_is_counted() {
     assert_eq!(pool.particles, 32);
     // It comes 0.8 m far, and all of it was within 0.6 m of the face.
     assert!(pool.escaped >= 30, "{}", pool.escaped);
-    assert!(summary.to_string().contains("left through open faces"));
+    assert!(summary.to_string().contains("have left the domain"));
     // 40 kg each that move at 10 m/s.
     let taken = summary.water_energies.unwrap().left / (10.0 * f64::from(pool.escaped));
     assert!(

@@ -39,6 +39,17 @@ impl Scene {
                 ),
             );
         }
+        let exchange = f64::from(self.coupling.interval) * time_step;
+        if self.has_blocks() && self.has_fluid() && self.coupling.interval > 1 && exchange >= length
+        {
+            warn(
+                "coupling.interval".into(),
+                format!(
+                    "blocks meet the fluid every {exchange:.3e} s and the run ends at {length:.6} s: none of them will feel \
+                     it; take less, or run longer"
+                ),
+            );
+        }
         for (number, block) in self.blocks.iter().enumerate() {
             let still = |of: &[Formula; 3]| of.iter().all(|part| part.constant() == Some(0.0));
             if block.motion == Motion::Driven && still(&block.velocity) && still(&block.spin) {

@@ -81,6 +81,12 @@ fn blocks_that_are_held_to_the_end() {
     told("hold = 0", "hold = 99", &["coupling.hold", "99 s", "0.2"]);
     told("hold = 0", "hold = 0.2", &["coupling.hold"]);
     silent("hold = 0", "hold = 0.19");
+    told(
+        "hold = 0",
+        "interval = 100000",
+        &["coupling.interval", "0.2"],
+    );
+    silent("hold = 0", "interval = 2");
 }
 
 #[test]

@@ -88,8 +88,18 @@ pub struct Kernel {
     pub slots: BTreeMap<String, String>,
     /// Names of its buffers.
     pub bindings: Vec<String>,
-    /// Groups of 64 invocations.
+    /// Groups of invocations.
     pub workgroups: u32,
+    /// Invocations of a group.
+    pub invocations: u32,
+    /// Floating-point operations of an invocation, counted from its code, on the longest way through.
+    pub flops: u64,
+    /// Bytes that an invocation reads from buffers, so counted.
+    pub read: u64,
+    /// Bytes that it writes.
+    pub written: u64,
+    /// Loops whose turns the code does not tell: they count once.
+    pub loops: u64,
 }
 
 /// Time step and the numbers of the method.
@@ -210,6 +220,11 @@ impl Kernel {
             slots: kernel.slots().iter().cloned().collect(),
             bindings: kernel.bindings().iter().map(|b| b.name.clone()).collect(),
             workgroups,
+            invocations: kernel.invocations(),
+            flops: kernel.work().flops,
+            read: kernel.work().read,
+            written: kernel.work().written,
+            loops: kernel.work().loops,
         }
     }
 }

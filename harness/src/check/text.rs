@@ -1,6 +1,6 @@
 //! The report as one reads it.
 
-use super::Report;
+use super::{Report, report::Kernel};
 use crate::print::{bytes, duration};
 use std::fmt::Write;
 
@@ -31,6 +31,7 @@ impl Report {
                 line("", format!("slots: {}", slots.join(", ")));
             }
             line("", format!("buffers: {}", shorten(&kernel.bindings)));
+            line("", kernel.work());
         }
         for left_out in &self.left_out {
             line("runs", left_out.to_string());
@@ -124,6 +125,25 @@ impl Report {
             (None, None) => "as the collision operator has it".into(),
         };
         line("Λ", magic);
+    }
+}
+
+impl Kernel {
+    /// What an invocation does, and all of them together in a step.
+    fn work(&self) -> String {
+        let all = f64::from(self.workgroups) * f64::from(self.invocations);
+        let open = match self.loops {
+            0 => String::new(),
+            n => format!("; of {n} loops one turn is counted"),
+        };
+        format!(
+            "an invocation: {} flop, {} B read, {} B written at most; all: {:.3e} flop, {}{open}",
+            self.flops,
+            self.read,
+            self.written,
+            all * self.flops as f64,
+            bytes((all * (self.read + self.written) as f64) as u64),
+        )
     }
 }
 

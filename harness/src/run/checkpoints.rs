@@ -74,9 +74,11 @@ impl<E: Engine> Recorder<E> for Checkpoints {
         match written.and_then(|()| origin::keep(&self.text, &self.path)) {
             // Nobody asked for it, and the run goes on without.
             Err(error) if self.own.is_some() => {
-                notes
-                    .warnings
-                    .push(format!("no checkpoint at step {step}: {error:#}"));
+                const FAILED: &str = "no checkpoint at step";
+                // A full disk stays full: it is told once.
+                if !notes.warnings.iter().any(|told| told.starts_with(FAILED)) {
+                    notes.warnings.push(format!("{FAILED} {step}: {error:#}"));
+                }
                 return Ok(());
             }
             done => done?,

@@ -185,7 +185,7 @@ fn kept(checkpoint: Option<&Path>, step: Option<u64>, files: usize) -> String {
             path.display()
         ),
         _ => format!(
-            "{files} files are kept, and no checkpoint yet: run.checkpoint_every gives earlier ones"
+            "{files} files are kept, and no checkpoint: run.checkpoint_every gives earlier ones, where the disk has room"
         ),
     }
 }

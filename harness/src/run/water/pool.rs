@@ -119,7 +119,7 @@ impl fmt::Display for Pool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "  {} particles of water, {} of shells; {} left through open faces",
+            "  {} particles of water, {} of shells; {} have left the domain",
             self.particles, self.shell, self.escaped
         )?;
         write!(

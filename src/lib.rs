@@ -8,9 +8,12 @@
 //! Rock goes its own way through the host: [`block`] (shapes, and masses cut by joints) →
 //! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
 //! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
-//! [`bodies`] (all of it, a step) → [`safety`] (how far from moving). What water does to it and it to water is
-//! [`immersed`]; water with a free surface is [`particles`], on the same blocks, and
-//! [`simulation::FreeSurface`] its loop.
+//! [`bodies`] (all of it, a step) → [`safety`] (how far from moving).
+//!
+//! Where both meet, [`immersed`] has the cells of blocks in the lattice and what the fluid does to them, and [`coupling`]
+//! what blocks make of that: buoyancy, inertia, joints, and the loop in which they move. Water with a free surface is
+//! [`particles`], on the same blocks, and [`simulation::FreeSurface`] its loop. [`probe`] measures, [`checkpoint`] keeps a
+//! state on disk, and [`guide`] has the equations of all of it with their sources.
 //!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
 //! adapter, reads no environment, never blocks and does not panic on input.

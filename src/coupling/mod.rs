@@ -4,6 +4,11 @@
 //! they are and how often they want to meet it, and moves them under what they felt, in as many sub-steps as their
 //! contacts want. [`Coupled`] has their cells in a lattice besides, whose fluid runs the bricks that they reach first, and
 //! the rest while their loads are read.
+//!
+//! Joints that hold no fluid to compute have files of their own. In the lattice, `joints` tells which faces are in one and
+//! `closed` what its water does, from the wet faces around it. Among particles, `sealed` does both: `rim` finds where a
+//! joint ends, `head` continues the pressure from there, `passed_on` carries it through a mass of blocks, and `across`
+//! is what particles themselves leave to do. `over` serves both: what lies over a face.
 
 mod across;
 mod advice;

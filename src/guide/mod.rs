@@ -11,8 +11,8 @@
 //! rock, both are coupled, and with `[particles]` the water is one of particles. Both fluids meet blocks through the same
 //! two structures, [`Pose`](crate::bodies::Pose) in and [`Load`](crate::bodies::Load) out.
 //!
-//! Errors that these pages name were measured by `riprap validate` and `riprap report` of the harness, on lavapipe
-//! (Mesa's Vulkan on the CPU); the README has the tables.
+//! Errors that these pages name were measured on lavapipe (Mesa's Vulkan on the CPU), by `riprap validate` and `riprap
+//! report` of the harness unless a page says otherwise; the README has the tables.
 
 #[doc = include_str!("lattice.md")]
 pub mod lattice {}

@@ -28,8 +28,9 @@ impl Immersed {
     }
 
     /// The loads on all blocks from the numbers of [`Immersed::wrenches`]: what the fluid did to the solid
-    /// in its cells, without what a body force in these cells and the weight of the water add. Blocks
-    /// without loads have none.
+    /// in its cells, without what a body force in these cells and the weight of the water add, and with the inertia of
+    /// the fluid in them: [`Ambient`](crate::coupling::Ambient) and [`InnerFluid`](crate::coupling::InnerFluid) make of
+    /// it the load on rock. Blocks without loads have none.
     ///
     /// # Errors
     /// If there are too few numbers.

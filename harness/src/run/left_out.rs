@@ -221,7 +221,7 @@ mod tests {
         assert!(
             told[0]
                 .to_string()
-                .starts_with("9 of 900 (1.00 %) linear programs"),
+                .starts_with("only 9 of 900 (1.00 %) linear programs"),
             "{}",
             told[0]
         );

@@ -295,11 +295,12 @@ fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
         (1, false, 8),
         (17, false, 32),
         (32, false, 32),
-        (32, true, 64),
+        (32, true, 32),
         (96, false, 32),
+        (96, true, 32),
         (97, false, 64),
         (128, false, 64),
-        (128, true, 32),
+        (128, true, 64),
         (144, true, 32),
     ] {
         let mut setup = Setup::periodic([cells, 3, 3], 0.01);

@@ -107,21 +107,30 @@ struct Sample {
     over: Moments,
     force: f64,
     first: DVec3,
+    /// Mean of the squares of places in one of its cells about the centre of that, m².
+    cells: DMat3,
 }
 
 impl Sample {
     /// What it shows at the cut: all of it there, with the pressure that its slope has there.
     fn moved(&self, cut: Cut, cell: f64) -> Option<Self> {
-        let force = self.over.area * fit(&[*self], cell)?.at(cut.place);
-        let over = Moments {
-            area: self.over.area,
-            first: self.over.area * cut.place,
-            second: outer(cut.place, cut.place) * self.over.area,
-        };
+        let plane = fit(&[*self], cell)?;
+        let area = self.over.area;
+        let foot = self.over.first / area;
+        let spread = self.over.second * (1.0 / area) - outer(foot, foot);
+        let onto = DMat3::IDENTITY - outer(cut.along, cut.along);
+        let place = foot + cut.along * cut.along.dot(cut.place - foot);
+        let spread = onto * spread * onto;
+        let pressure = plane.at(place);
         Some(Self {
-            over,
-            force,
-            first: force * cut.place,
+            over: Moments {
+                area,
+                first: area * place,
+                second: (spread + outer(place, place)) * area,
+            },
+            force: area * pressure,
+            first: area * (pressure * place + spread * plane.gradient),
+            cells: onto * self.cells * onto,
         })
     }
 }
@@ -184,27 +193,31 @@ impl<'a> Rim<'a> {
         let plane = |around: &[&Side<'_>], over: &[&Side<'_>]| {
             // Where one joint is asked for, the wet part of its own face ends at its rim.
             let own = |side: &Side<'_>| matches!(over, [one] if std::ptr::eq(*one, side));
-            let samples: Vec<Sample> = around
-                .iter()
-                .map(|side| {
-                    let sample = side.sample(centre, weight);
-                    match side.cut().filter(|_| own(side)) {
-                        Some(cut) => sample.moved(cut, cell).unwrap_or(sample),
-                        None => sample,
-                    }
-                })
-                .collect();
+            let sample = |side: &&Side<'_>| {
+                let sample = side.sample(centre, (weight, cell));
+                let cut = side.cut().filter(|_| own(side));
+                cut.and_then(|cut| sample.moved(cut, cell))
+                    .unwrap_or(sample)
+            };
+            let samples: Vec<Sample> = around.iter().map(sample).collect();
             let dry = over.iter().flat_map(|side| side.dry_places(centre));
-            let plane = limited(fit(&samples, cell)?, (&samples, cell), dry);
+            let plane = limited(fit(&samples, cell)?, &samples, dry);
             Some(Plane {
                 gradient: plane.gradient + weight,
                 ..plane
             })
         };
         let all = plane(&at_rim(&sides, &closed), &closed)?;
-        let own = |side: &Side<'_>| match &wet_beside(&sides, &[side])[..] {
-            around @ [_, _, ..] => plane(around, &[side]),
-            _ => None,
+        let own = |side: &Side<'_>| {
+            let mut around = wet_beside(&sides, &[side]);
+            let cut = side.cut();
+            if let Some(cut) = cut {
+                around.retain(|beside| {
+                    std::ptr::eq(*beside, side) || side.meets_behind(beside, cut, centre)
+                });
+            }
+            let known = around.len() > 1 || cut.is_some() && around.len() == 1;
+            known.then(|| plane(&around, &[side])).flatten()
         };
         let planes: Vec<Plane> = sides.iter().map(|side| own(side).unwrap_or(all)).collect();
         Some(Self {
@@ -356,8 +369,17 @@ impl<'a> Side<'a> {
         self.corners.iter().filter(shared).count() >= 2
     }
 
-    /// What its wet part shows, r from `centre`, of the pressure less that of the `weight` of the fluid (N/m³).
-    fn sample(&self, centre: DVec3, weight: DVec3) -> Sample {
+    /// Whether another face, with which it has an edge in common, has a corner of its closed part.
+    fn meets_behind(&self, other: &Self, cut: Cut, centre: DVec3) -> bool {
+        let near = 1e-6 * self.load.face.area.sqrt();
+        let behind = |x: &&DVec3| cut.along.dot(**x - centre - cut.place) > 0.0;
+        let mut corners = self.corners.iter().filter(behind);
+        corners.any(|x| other.corners.iter().any(|y| x.distance(*y) < near))
+    }
+
+    /// What its wet part shows, r from `centre`, of the pressure less that of the `weight` of the fluid (N/m³), in cells of
+    /// `cell` (m).
+    fn sample(&self, centre: DVec3, (weight, cell): (DVec3, f64)) -> Sample {
         let load = self.load;
         let normal = load.face.normal;
         let force = -load.force.dot(normal) - load.shifted();
@@ -374,6 +396,7 @@ impl<'a> Side<'a> {
             over,
             force: force - weight.dot(over.first),
             first: first - over.second * weight,
+            cells: (DMat3::IDENTITY - outer(normal, normal)) * (cell * cell / 12.0),
         }
     }
 
@@ -418,6 +441,7 @@ fn fit(samples: &[Sample], cell: f64) -> Option<Plane> {
         over: Moments::ZERO,
         force: 0.0,
         first: DVec3::ZERO,
+        cells: DMat3::ZERO,
     };
     for sample in samples {
         sum.over = sum.over.plus(&sample.over);
@@ -440,17 +464,13 @@ fn fit(samples: &[Sample], cell: f64) -> Option<Plane> {
 /// A plane made less steep about the middle of the samples where at some of `places` it would be beyond what it is at the
 /// edges of these, and what it is there at least and at most: what is far from all of them is not known from slopes
 /// between neighbouring cells.
-fn limited(
-    plane: Plane,
-    (samples, cell): (&[Sample], f64),
-    places: impl Iterator<Item = DVec3>,
-) -> Plane {
+fn limited(plane: Plane, samples: &[Sample], places: impl Iterator<Item = DVec3>) -> Plane {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut middle, mut area) = (DVec3::ZERO, 0.0);
-    for Sample { over, .. } in samples {
+    for Sample { over, cells, .. } in samples {
         let foot = over.first / over.area;
         let spread = over.second * (1.0 / over.area) - outer(foot, foot);
-        let spread = spread + DMat3::IDENTITY * (cell * cell / 12.0);
+        let spread = spread + *cells;
         // From the middle of a rectangle to its edges, along the gradient.
         let reach = (3.0 * plane.gradient.dot(spread * plane.gradient)).max(0.0);
         least = least.min(plane.at(foot) - reach.sqrt());

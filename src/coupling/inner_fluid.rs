@@ -10,8 +10,8 @@ use glam::{DMat3, DVec3};
 ///
 /// By the edges a ≤ b ≤ c of the box that has its inertia: ⅔ √(bc)/a bounds the added mass of potential flow, which is half
 /// for a sphere, two thirds for a cube, and 0.48 √(bc)/a for a thin disc (Lamb 1932, art. 102); half of √(bc)/a that
-/// of turns. A viscous layer that goes along adds to that: with R = 1 + layer/(a/2), R³ − 1 of the mass, and R³ times of
-/// what is moved around; for turns 1.5 (R⁵ − 1). A larger bound than is needed slows the answer to sound, which then
+/// of turns. A viscous layer that goes along makes the box grow by itself on each side, to G times the volume: that is
+/// G − 1 of the mass, and G times of what is moved around; for turns 1.5 (G^(5/3) − 1). A larger bound than is needed slows the answer to sound, which then
 /// drives a light block between walls: on a cube of eight cells that is 2.3 and 3.6, with half the density of the fluid,
 /// 5 and 10 were unstable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,11 +32,12 @@ impl Around {
         let mut edges = squares.to_array().map(|square| square.max(0.0).sqrt());
         edges.sort_by(f64::total_cmp);
         let [a, b, c] = edges;
-        let flat = (b * c).sqrt() / a;
-        let grown = 1.0 + 2.0 * layer / a;
+        let [p, q, r] = edges.map(|edge| edge + 2.0 * layer);
+        let grown = p * q * r / (a * b * c);
+        let flat = (q * r).sqrt() / p;
         Self {
-            mass: grown.powi(3) - 1.0 + 2.0 / 3.0 * flat * grown.powi(3),
-            inertia: 1.5 * (grown.powi(5) - 1.0) + 0.5 * flat,
+            mass: grown - 1.0 + 2.0 / 3.0 * flat * grown,
+            inertia: 1.5 * (grown.powf(5.0 / 3.0) - 1.0) + 0.5 * flat,
         }
     }
 }

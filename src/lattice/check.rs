@@ -63,8 +63,9 @@ impl Setup {
         ];
         for (name, rate) in rates {
             let rate = rate as f32;
-            if !(rate > 0.0 && rate < 2.0) {
-                let message = format!("is {rate}; a rate lies between 0 and 2");
+            // 2 is what 1/τ of the least viscosities is in 32 bits.
+            if !(rate > 0.0 && rate <= 2.0) {
+                let message = format!("is {rate}; a rate lies above 0, up to 2");
                 return Err(Error::scene(format!("rates.{name}"), message));
             }
         }

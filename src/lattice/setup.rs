@@ -209,12 +209,11 @@ impl Setup {
     /// Suits an adapter that computes on the CPU and offers `features`: bricks that are rows of 32 or
     /// 64 elements, and words as wide as it has. Its threads walk through an invocation's neighbours one
     /// after the other, so that rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
-    /// Invocations beyond the grid cost as much as others there, so that rows are the longest that leave
-    /// the fewest: 1.15 times the speed for 145 elements along x. Faces along x should be set by then:
-    /// those that are not periodic add an element.
+    /// Invocations beyond the cells cost as much as others there, so that rows are the longest that leave
+    /// the fewest; rows without any cell, of the padding behind the last ones alone, are left out.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
-        let length = self.cells[0].saturating_add(u32::from(!self.periodic_axes()[0]));
+        let length = self.cells[0];
         let long = match length.div_ceil(32) {
             1 => length.next_power_of_two().max(8),
             n if n % 2 == 1 => 32,

@@ -16,8 +16,9 @@ const BOXES: [[f64; 3]; 2] = [[2.0, 2.5, 2.5], [1.936_491_673_103_708_4; 3]];
 /// What a block seems to be heavier, kg, of the mass `mass` and that of the fluid that it displaces: stable for an added mass
 /// that is two thirds of the latter, more if it is flat, grown by a layer of a cell of 0.5 m on each side, and the layer.
 fn virtual_mass([a, b, c]: [f64; 3], displaced: f64, mass: f64) -> f64 {
-    let grown = ((a + 2.0 * 0.5) / a).powi(3);
-    let most = (grown - 1.0) + 2.0 / 3.0 * (b * c).sqrt() / a * grown;
+    let grown = (a + 1.0) * (b + 1.0) * (c + 1.0) / (a * b * c);
+    let flat = ((b + 1.0) * (c + 1.0)).sqrt() / (a + 1.0);
+    let most = (grown - 1.0) + 2.0 / 3.0 * flat * grown;
     (0.5 * (most * displaced - mass)).max(0.0)
 }
 

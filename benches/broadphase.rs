@@ -17,7 +17,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::gpu;
 use riprap::{
     Error,
-    broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
     wgpu,
 };
 use std::time::{Duration, Instant};

@@ -17,7 +17,7 @@ use pairs::Couple;
 use rig::{Random, Solid};
 use riprap::{
     Result,
-    contact::{Cache, Counts, Normal, Options, Placed, Resolver, Verdict},
+    rock::contact::{Cache, Counts, Normal, Options, Placed, Resolver, Verdict},
 };
 use std::time::Duration;
 

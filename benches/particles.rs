@@ -10,7 +10,7 @@ mod kit;
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{gpu, tank::Tank};
-use riprap::{particles::Neighbours, wgpu};
+use riprap::{sph::NeighbourSearch, wgpu};
 use std::time::{Duration, Instant};
 
 /// Particles along an edge.
@@ -61,9 +61,9 @@ fn bench(
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
     let neighbours = if software {
-        Neighbours::Lists
+        NeighbourSearch::Lists
     } else {
-        Neighbours::Cells
+        NeighbourSearch::Cells
     };
     let mut tank = Tank::fill(&device, &queue, edge, neighbours)?;
     let count = tank.count;

@@ -1,55 +1,97 @@
 #!/usr/bin/env bash
-# Installs what riprap needs and this machine lacks: a linker, and where there is no driver for a
-# GPU the software one of Mesa; with --tests Python's venv too. Says so, and does nothing else.
+# Installs what riprap needs and this machine lacks: a linker, and where no Vulkan driver works Mesa's
+# software one, lavapipe. With --tests Python's venv too; with --adapters also the other software
+# adapters: OpenGL over EGL, and SwiftShader in <target>/swiftshader. Says so, and does nothing else.
 set -euo pipefail
+root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 
 if ! command -v cargo >/dev/null; then
     echo "riprap: there is no cargo; install Rust 1.95 or later, see https://rustup.rs" >&2
     exit 1
 fi
 
+# as_root [-n] COMMAND...: -n fails where sudo would ask for a password.
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        [ "$1" != -n ] || shift
+        "$@"
+    else
+        sudo "$@"
+    fi
+}
+
+# install [-n] PACKAGE...: false where that fails or is impossible, with the reason in $reason.
+install() {
+    local ask=()
+    if [ "$1" = -n ]; then
+        ask=(-n)
+        shift
+    fi
+    if ! command -v apt-get >/dev/null; then
+        reason="there is no apt-get; install what Debian calls $*"
+    elif [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+        reason="as root: apt-get update && apt-get install $*"
+    else
+        echo "riprap: installing $*"
+        if { as_root "${ask[@]}" apt-get update &&
+            as_root "${ask[@]}" env DEBIAN_FRONTEND=noninteractive \
+                apt-get install -y --no-install-recommends "$@"; } >"$scratch/log" 2>&1 </dev/null; then
+            reason="$* are installed, but find no device"
+            return
+        fi
+        [ ${#ask[@]} -gt 0 ] || cat "$scratch/log" >&2
+        reason="that failed; as root: apt-get update && apt-get install $*"
+    fi
+    return 1
+}
+
+fail() {
+    echo "riprap: $1" >&2
+    exit 1
+}
+
 missing=()
 command -v cc >/dev/null || missing+=(gcc libc6-dev)
-
-# Whether a Vulkan driver is registered and its loader is there, or Mesa's OpenGL over EGL.
-has_adapter() {
-    [ "$(uname -s)" = Linux ] || return 0 # Metal and Direct3D come with the system.
-    [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] || return 0 # The user names the driver.
-    local libraries folder
-    libraries=$(PATH="$PATH:/sbin:/usr/sbin" ldconfig -p)
-    if [[ $libraries == *libvulkan.so.1* ]]; then
-        for folder in /etc /usr/local/etc /usr/local/share /usr/share; do
-            ! compgen -G "$folder/vulkan/icd.d/*.json" >/dev/null || return 0
-        done
-    fi
-    [[ $libraries == *libEGL_mesa.so.0* ]]
-}
-has_adapter || missing+=(mesa-vulkan-drivers libvulkan1)
-
-if [ "${1:-}" = --tests ] && ! python3 -c "import venv, ensurepip" 2>/dev/null; then
+if [[ " $* " == *" --tests "* ]] && ! python3 -c "import venv, ensurepip" 2>/dev/null; then
     missing+=(python3-venv)
 fi
+[ ${#missing[@]} -eq 0 ] || install "${missing[@]}" || fail "$reason"
 
-[ ${#missing[@]} -gt 0 ] || exit 0
-if ! command -v apt-get >/dev/null; then
-    echo "riprap: this machine lacks what Debian calls ${missing[*]}; install it, please" >&2
-    exit 1
-fi
-sudo=
-if [ "$(id -u)" -ne 0 ]; then
-    sudo=sudo
-    if ! command -v sudo >/dev/null; then
-        echo "riprap: as root, please: apt-get install ${missing[*]}" >&2
-        exit 1
+[ "$(uname -s)" = Linux ] || exit 0 # Metal and Direct3D come with the system.
+
+# works vulkan|egl: whether a driver of it finds a device.
+cc -o "$scratch/probe" "$root/harness/probe.c" -ldl
+works() { timeout 60 "$scratch/probe" "$1" 2>/dev/null; }
+
+lavapipe=(mesa-vulkan-drivers libvulkan1)
+if ! works vulkan; then
+    named=${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}
+    if [ -n "$named" ]; then
+        reason="VK_DRIVER_FILES or VK_ICD_FILENAMES names $named, which does not work"
+    elif works egl; then
+        install -n "${lavapipe[@]}" || true
+    else
+        install "${lavapipe[@]}" || fail "$reason"
+    fi
+    if ! works vulkan; then
+        works egl || fail "no adapter: $reason"
+        echo "riprap: OpenGL over EGL instead of Vulkan, at about half the speed: $reason" >&2
     fi
 fi
-echo "riprap: installing ${missing[*]}"
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-if ! { $sudo apt-get update &&
-    DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y --no-install-recommends "${missing[@]}"; } \
-    >"$log" 2>&1 </dev/null; then
-    cat "$log" >&2
-    echo "riprap: that failed; as root, please: apt-get update && apt-get install ${missing[*]}" >&2
-    exit 1
-fi
+
+[[ " $* " == *" --adapters "* ]] || exit 0
+works egl || { install libegl1 libgl1-mesa-dri && works egl; } || fail "$reason"
+target=${CARGO_TARGET_DIR:-$root/target}
+[[ $target == /* ]] || target=$root/$target
+driver=$target/swiftshader
+[ ! -e "$driver/vk_swiftshader_icd.json" ] || exit 0
+# Debian has SwiftShader in Chromium: two files of the package are all that is needed.
+mkdir -p "$driver"
+cd "$scratch"
+echo "riprap: unpacking SwiftShader from chromium-common"
+as_root apt-get update >log 2>&1 && apt-get download chromium-common >log 2>&1 ||
+    { cat log >&2; fail "SwiftShader, which the package chromium-common holds, cannot be downloaded"; }
+dpkg-deb --fsys-tarfile chromium-common_*.deb |
+    tar -x -C "$driver" --strip-components=4 ./usr/lib/chromium/libvk_swiftshader.so ./usr/lib/chromium/vk_swiftshader_icd.json

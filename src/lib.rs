@@ -1,22 +1,26 @@
 //! GPU compute kernels for rock blocks in water, on any vendor's GPU through wgpu.
 //!
-//! The data goes one way, and so do the modules: [`scene`] (what the user wrote, SI) → [`units`]
-//! (the border to lattice units) → [`lattice`] (the fluid on the device) → [`simulation`] (the
-//! loop) → [`output`] (files). Below them, [`link`] makes one shader of the files in `kernels/`
-//! and [`kernel`] binds and records it.
+//! The modules follow the path of the data:
 //!
-//! Rock goes its own way through the host: [`block`] (shapes, and masses cut by joints) →
-//! [`broadphase`] (which may touch; on the device, or on the host where they are few) → [`contact`]
-//! (which do, and how) → [`law`] (what forces that gives) → [`integrate`] (where they go) →
-//! [`bodies`] (all of it, a step) → [`safety`] (how far from moving).
+//! | stage | module |
+//! |---|---|
+//! | a scene in SI units, from TOML | [`scene`], [`formula`] |
+//! | conversion to lattice units | [`units`] |
+//! | shapes, poses and loads; rock masses cut by joint sets | [`geometry`] |
+//! | a fluid that fills its domain: D3Q27 lattice Boltzmann | [`lattice`] |
+//! | blocks in that fluid: partially saturated cells | [`psm`] |
+//! | water with a free surface: SPH | [`sph`] |
+//! | motion of blocks: [`rock::broadphase`], [`rock::contact`], [`rock::law`], [`rock::integrate`] | [`rock`] |
+//! | exchange between a fluid and blocks: buoyancy, added mass, joints | [`coupling`] |
+//! | the loops, [probes](simulation::probe) and [checkpoints](simulation::checkpoint) | [`simulation`] |
+//! | factors of safety of blocks | [`safety`] |
+//! | VTK, CSV and sampled fields | [`output`] |
 //!
-//! Where both meet, [`immersed`] has the cells of blocks in the lattice and what the fluid does to them, and [`coupling`]
-//! what blocks make of that: buoyancy, inertia, joints, and the loop in which they move. Water with a free surface is
-//! [`particles`], on the same blocks, and [`simulation::FreeSurface`] its loop. [`probe`] measures, [`checkpoint`] keeps a
-//! state on disk, and [`guide`] has the equations of all of it with their sources.
+//! [`gpu`] is below all of them: [`gpu::link`] makes one shader from the files in `kernels/`, and [`gpu::kernel`] binds and
+//! records it. [`guide`] has the equations, with sources and limits.
 //!
-//! The caller owns device, queue and encoder; the library owns pipelines and buffers. It picks no
-//! adapter, reads no environment, never blocks and does not panic on input.
+//! The caller owns device, queue and encoder; the library owns pipelines and buffers. It chooses no
+//! adapter, reads no environment, does not block, and does not panic on input.
 //!
 //! ```
 //! use riprap::{lattice::{Lattice, Observer, Setup, State}, wgpu};
@@ -36,7 +40,7 @@
 //!     for _ in 0..10 {
 //!         lattice.record(&mut pass);
 //!     }
-//!     // Density and velocity, in buffers that your own kernels can bind.
+//!     // Density and velocity, in buffers that your kernels can bind.
 //!     observer.record(&mut lattice, &mut pass)?;
 //! }
 //! queue.submit([encoder.finish()]);
@@ -48,42 +52,33 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod block;
-pub mod bodies;
-pub mod broadphase;
-pub mod checkpoint;
-pub mod contact;
 pub mod coupling;
 pub mod error;
-mod filled;
 pub mod formula;
+pub mod geometry;
+pub mod gpu;
 pub mod guide;
-pub mod immersed;
-pub mod integrate;
-pub mod kernel;
 pub mod lattice;
-pub mod law;
-pub mod layout;
-pub mod link;
 pub mod output;
-pub mod particles;
-pub mod probe;
-pub mod readback;
+pub mod psm;
+pub mod rock;
 pub mod safety;
 pub mod scene;
-pub mod search;
 pub mod simulation;
-pub mod solid;
-pub mod timer;
+pub mod sph;
 pub mod units;
-pub mod work;
 
 pub use error::{Error, Result};
 
 pub use glam;
 pub use wgpu;
 
-/// The README's examples, compiled.
+/// The examples of the README, compiled.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;
+
+/// The examples of the book, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/src/embedding.md")]
+pub struct Embedding;

@@ -4,8 +4,8 @@ mod rig;
 
 use rig::Rig;
 use riprap::{
-    checkpoint::Checkpoint,
     lattice::{Face, Force, Inside, Lattice, Populations, Setup, State, Storage},
+    simulation::checkpoint::Checkpoint,
     wgpu,
 };
 

@@ -2,9 +2,11 @@
 
 use riprap::{
     Error,
-    lattice::{FaceCell, Link, MovingCell, Setup, single_cells},
-    layout::check,
-    link::{Linked, Program},
+    gpu::{
+        layout::check,
+        link::{Linked, Program, source},
+    },
+    lattice::{C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, single_cells},
 };
 use std::mem::offset_of;
 
@@ -45,6 +47,48 @@ fn face_cells() {
     for entry in ["pressure_face", "outflow"] {
         check::<FaceCell>(&linked(entry).module, "FaceCell", &fields).unwrap();
     }
+}
+
+#[test]
+fn uniforms_of_single_cells() {
+    let pass = [
+        ("odd", offset_of!(CellPass, odd)),
+        ("half", offset_of!(CellPass, half)),
+        ("first", offset_of!(CellPass, first)),
+        ("end", offset_of!(CellPass, end)),
+    ];
+    let face = [
+        ("normal", offset_of!(OpenFace, normal)),
+        ("density", offset_of!(OpenFace, density)),
+        ("hold", offset_of!(OpenFace, hold)),
+        ("integral", offset_of!(OpenFace, integral)),
+    ];
+    for entry in ["pressure_face", "outflow"] {
+        let linked = linked(entry);
+        check::<CellPass>(&linked.module, "CellPass", &pass).unwrap();
+        check::<OpenFace>(&linked.module, "OpenFace", &face).unwrap();
+    }
+}
+
+/// The host counts links along the directions in which the kernels stream.
+#[test]
+fn directions() {
+    let text = source("lattice").unwrap();
+    let (_, list) = text.split_once("const C = array<vec3<i32>, 27>(").unwrap();
+    let (list, _) = list.split_once(";").unwrap();
+    let there: Vec<[i32; 3]> = list
+        .split("vec3(")
+        .skip(1)
+        .map(|vector| {
+            let (vector, _) = vector.split_once(')').unwrap();
+            let c: Vec<i32> = vector
+                .split(',')
+                .map(|c| c.trim().parse().unwrap())
+                .collect();
+            c.try_into().unwrap()
+        })
+        .collect();
+    assert_eq!(there, C);
 }
 
 /// The host reads four words: steps after an even one, after an odd one, first bad step and cell.

@@ -6,10 +6,10 @@ mod rig;
 use rig::Rig;
 use riprap::{
     Error,
+    gpu::readback::Readback,
     lattice::{
         Derived, Face, Force, Grid, Lattice, Observer, Rates, Setup, State, Storage, Sums, memory,
     },
-    readback::Readback,
     wgpu,
 };
 
@@ -67,7 +67,8 @@ fn eight_storage_buffers_give_the_same_bits_as_more() {
     let (two, found) = run(promised(), Some(2));
     assert_eq!(two, 2);
     assert!(found == expected, "two bindings");
-    let most = all.most_bindings().min(26);
+    // What leaves two of eight leaves all but six of more.
+    let most = (all.device.limits().max_storage_buffers_per_shader_stage - 6).min(27);
     let (_, found) = run(all.device.limits(), Some(most));
     assert!(found == expected, "{most} bindings");
     // More than the device has are refused, not cut.

@@ -5,9 +5,8 @@ mod rig;
 use rig::Rig;
 use riprap::{
     Error, Result,
-    checkpoint::Checkpoint,
     scene::Scene,
-    simulation::{FreeSurface, Simulation},
+    simulation::{FreeSurface, Simulation, checkpoint::Checkpoint},
 };
 use std::{path::Path, time::Duration};
 
@@ -118,7 +117,7 @@ fn both_ways_of_waiting_end() {
     });
     queue.write_buffer(&buffer, 0, &[7; 16]);
     for looks in [true, false] {
-        let mut readback = riprap::readback::Readback::default();
+        let mut readback = riprap::gpu::readback::Readback::default();
         let read = readback.read::<u8>(device, queue, &buffer, 16);
         let patience = Duration::from_secs(60);
         let bytes = rig::gpu::drive_by(device, looks, patience, "a buffer", read).unwrap();

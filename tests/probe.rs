@@ -1,8 +1,8 @@
 //! Probes on images whose values are formulas.
 
 use riprap::output::{Array, Image};
-use riprap::probe::{Gauge, Layer};
 use riprap::scene::{Axis, Scene};
+use riprap::simulation::probe::{Gauge, Layer};
 use std::path::Path;
 
 /// 8 × 6 × 4 cells of 0.5 m, walls in y, with a block in a corner; z is periodic.

@@ -3,8 +3,8 @@
 mod rig;
 
 use riprap::{
+    gpu::timer::{self, Timer},
     lattice::{Lattice, Setup, State, StreamOnly},
-    timer::{self, Timer},
     wgpu,
 };
 use std::time::Duration;

@@ -3,7 +3,10 @@
 mod rig;
 
 use rig::Rig;
-use riprap::{checkpoint::WaterCheckpoint, scene::Scene, simulation::FreeSurface};
+use riprap::{
+    scene::Scene,
+    simulation::{FreeSurface, checkpoint::WaterCheckpoint},
+};
 use std::path::Path;
 
 /// A slab on the floor, whose joint carries the pressure of the water at its rim; a stone on it; one that falls, and a

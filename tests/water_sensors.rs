@@ -118,7 +118,7 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let (mut pushed, mut cut) = (0.0, None);
     while pool.time() < 0.8 {
         rig.wait(pool.advance(1)).unwrap();
-        pushed += pool.felt()[0].flow.force.x * pool.time_step();
+        pushed += pool.external_load()[0].flow.force.x * pool.time_step();
         if cut.is_none() && pool.time() > 0.5 {
             cut = Some((pool.step(), rig.wait(pool.checkpoint()).unwrap()));
         }

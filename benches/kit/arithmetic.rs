@@ -1,7 +1,11 @@
 //! The arithmetic ceiling of an adapter: how many products and sums it does a second where it does nothing else.
 
 use super::gpu;
-use riprap::{Error, kernel::Kernel, link::Program, wgpu};
+use riprap::{
+    Error,
+    gpu::{kernel::Kernel, link::Program},
+    wgpu,
+};
 
 /// Turns of the loop: short, since drivers may end long ones.
 const TURNS: u32 = 64;

@@ -3,7 +3,7 @@
 use super::gpu;
 use super::subject::Subject;
 use cpu_time::ProcessTime;
-use riprap::{Error, timer::Timer, wgpu};
+use riprap::{Error, gpu::timer::Timer, wgpu};
 use std::time::{Duration, Instant};
 
 /// A hanging driver is given up after this.

@@ -1,7 +1,11 @@
 //! The copy bandwidth of an adapter: the fastest of four ways to copy.
 
 use super::{clock::Clock, subject::Subject};
-use riprap::{Error, kernel::Kernel, link::Program, wgpu};
+use riprap::{
+    Error,
+    gpu::{kernel::Kernel, link::Program},
+    wgpu,
+};
 use std::time::{Duration, Instant};
 
 /// A way to copy.

@@ -3,11 +3,13 @@
 use glam::DVec3;
 use riprap::{
     Result,
-    block::{Form, HalfSpace, JointSet, RockMass, Scatter, Shape},
-    bodies::{Block, Blocks, Material, Setup},
-    broadphase::{Broadphase, HostBroadphase},
-    contact::Placed,
-    law::Joint,
+    geometry::{Form, HalfSpace, JointSet, RockMass, Scatter, Shape},
+    rock::{
+        Block, Blocks, Material, Setup,
+        broadphase::{Broadphase, HostBroadphase},
+        contact::Placed,
+        law::Joint,
+    },
 };
 
 use std::sync::Arc;

@@ -5,8 +5,8 @@ use super::{
     copy::{Copy, Method},
 };
 use riprap::{
+    gpu::timer::{self, Timer},
     lattice::{Lattice, StreamOnly},
-    timer::{self, Timer},
     wgpu,
 };
 

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 use riprap::{
     Result,
-    bodies::Pose,
-    particles::{Body, Neighbours, Particles, Setup, Side},
+    geometry::Pose,
+    sph::{Body, NeighbourSearch, Setup, Side, SphSolver},
     wgpu,
 };
 use std::collections::HashMap;
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub struct Tank {
     /// The water on the device.
-    pub particles: Particles,
+    pub particles: SphSolver,
     /// Particles of the water.
     pub count: usize,
     /// Neighbours of a particle, those in walls included.
@@ -32,7 +32,7 @@ impl Tank {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         edge: u32,
-        neighbours: Neighbours,
+        neighbours: NeighbourSearch,
     ) -> Result<Self> {
         let (mut setup, positions) = tank(edge);
         setup.neighbours = neighbours;
@@ -49,7 +49,7 @@ impl Tank {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         edge: u32,
-        neighbours: Neighbours,
+        neighbours: NeighbourSearch,
     ) -> Result<Self> {
         let (mut setup, mut positions) = tank(edge);
         setup.neighbours = neighbours;
@@ -66,7 +66,7 @@ impl Tank {
         let still = vec![DVec3::ZERO; positions.len()];
         let pressure = |x: &DVec3| setup.density * 9.81 * (setup.size.z - x.z);
         let pressures: Vec<f64> = positions.iter().map(pressure).collect();
-        let particles = Particles::new(device, queue, setup, positions, &still, &pressures)?;
+        let particles = SphSolver::new(device, queue, setup, positions, &still, &pressures)?;
         let mut tank = Self {
             particles,
             count: positions.len(),
@@ -92,9 +92,9 @@ impl Tank {
         let reach = 2.0 * setup.smoothing * setup.spacing;
         let cell = |x: DVec3| (x / reach).floor().to_array().map(|n| n as i32);
         let mut cells: HashMap<[i32; 3], Vec<(DVec3, usize)>> = HashMap::new();
-        let shell = setup.bodies.iter().flat_map(|body| &body.shell);
+        let boundary = setup.bodies.iter().flat_map(|body| &body.boundary);
         let all = water.positions.iter().map(|x| (*x, 0));
-        for (x, kind) in all.chain(shell.map(|x| (*x, 1))) {
+        for (x, kind) in all.chain(boundary.map(|x| (*x, 1))) {
             cells.entry(cell(x)).or_default().push((x, kind));
         }
         let mut pairs = [0.0; 2];
@@ -130,7 +130,7 @@ impl Tank {
             velocity: DVec3::ZERO,
             deformation_rate: DMat3::ZERO,
         }];
-        let time = self.particles.limit() * f64::from(steps) * 0.999;
+        let time = self.particles.step_limit() * f64::from(steps) * 0.999;
         let done = self.particles.advance(device, queue, &poses, time).await?;
         Ok([done.steps, done.sorts])
     }
@@ -142,19 +142,19 @@ fn tank(edge: u32) -> (Setup, Vec<DVec3>) {
     let mut setup = Setup::tank(DVec3::ONE, spacing, 45.0);
     setup.faces[2][1] = Side::Open;
     let layers = setup.layers() as i32;
-    let (mut shell, mut water) = (Vec::new(), Vec::new());
+    let (mut boundary, mut water) = (Vec::new(), Vec::new());
     let edge = edge as i32;
     for k in -layers..edge {
         for j in -layers..edge + layers {
             for i in -layers..edge + layers {
                 let place = spacing * (DVec3::new(i.into(), j.into(), k.into()) + 0.5);
                 let inside = [i, j, k].iter().all(|n| (0..edge).contains(n));
-                if inside { &mut water } else { &mut shell }.push(place);
+                if inside { &mut water } else { &mut boundary }.push(place);
             }
         }
     }
     setup.bodies = vec![Body {
-        shell,
+        boundary,
         ..Body::default()
     }];
     (setup, water)

@@ -7,9 +7,8 @@
 
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::{Block, Blocks, Load, Material, Setup},
-    broadphase::HostBroadphase,
+    geometry::{Load, Polyhedron, Shape},
+    rock::{Block, Blocks, Material, Setup, broadphase::HostBroadphase},
 };
 use std::{error::Error, sync::Arc};
 

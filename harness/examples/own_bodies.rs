@@ -10,12 +10,11 @@
 
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::{Load, Pose},
-    coupling::{Ambient, Around, Felt, InnerFluid, Matter},
+    coupling::{AddedMass, Ambient, FluidLoad, InteriorInertia, MassProperties},
     formula::Formula,
-    immersed::{Frame, Immersed, Submerged},
+    geometry::{Load, Polyhedron, Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator, State},
+    psm::{Frame, SolidBlock, SolidCells},
     units::Units,
     wgpu,
 };
@@ -44,8 +43,8 @@ struct Body {
     turn: DQuat,
     velocity: DVec3,
     spin: DVec3,
-    inner: InnerFluid,
-    around: Around,
+    interior: InteriorInertia,
+    added_mass: AddedMass,
     before: Option<Load>,
 }
 
@@ -53,13 +52,13 @@ impl Body {
     fn new(shape: Shape, density: f64, place: DVec3) -> Self {
         Self {
             mass: density * shape.volume(),
-            around: Around::of(shape.volume(), shape.inertia(), UNITS.cell),
+            added_mass: AddedMass::bound(shape.volume(), shape.inertia(), UNITS.cell),
             shape: shape.into(),
             place,
             turn: DQuat::IDENTITY,
             velocity: DVec3::ZERO,
             spin: DVec3::ZERO,
-            inner: InnerFluid::default(),
+            interior: InteriorInertia::default(),
             before: None,
         }
     }
@@ -68,11 +67,11 @@ impl Body {
         Pose::rigid(self.place, self.turn, self.velocity, self.spin)
     }
 
-    /// Force (N) and torque (N m) on the rock, its weight among them, by what its cells felt in this step.
-    fn pull(&mut self, load: &Load, ambient: &Ambient) -> [DVec3; 2] {
-        // Cells inside a body reflect what is in them, so that its loads swing from step to step.
+    /// Force (N) and torque (N m) on the rock, weight included, from the load on its cells in this step.
+    fn force_and_torque(&mut self, load: &Load, ambient: &Ambient) -> [DVec3; 2] {
+        // Full cells reflect their populations, so that loads oscillate from step to step.
         let before = self.before.replace(*load).unwrap_or(*load);
-        let felt = Felt {
+        let cell_load = FluidLoad {
             flow: Load {
                 force: 0.5 * (load.force + before.force),
                 moment: 0.5 * (load.moment + before.moment),
@@ -81,15 +80,21 @@ impl Body {
             buoyancy: ambient.buoyancy(load),
         };
         // The inertia of both shapes is the same about every axis.
-        let matter = Matter {
+        let properties = MassProperties {
             mass: self.mass,
             volume: self.shape.volume(),
             inertia: self.shape.inertia(),
             gravity: GRAVITY,
-            around: self.around,
+            added: self.added_mass,
         };
         let pose = self.pose();
-        let load = (self.inner).load(&felt, &pose, &matter, UNITS.density, UNITS.time_step);
+        let load = (self.interior).load(
+            &cell_load,
+            &pose,
+            &properties,
+            UNITS.density,
+            UNITS.time_step,
+        );
         [load.force + self.mass * GRAVITY, load.torque()]
     }
 
@@ -130,12 +135,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         origin: DVec3::ZERO,
         units: UNITS,
     };
-    let submerged = bodies.iter().map(|body| Submerged {
+    let solids = bodies.iter().map(|body| SolidBlock {
         shape: body.shape.clone(),
         loaded: true,
         faces: false,
     });
-    let mut immersed = Immersed::new(&device, &lattice, frame, submerged.collect())?;
+    let mut cells = SolidCells::new(&device, &lattice, frame, solids.collect())?;
 
     // The water has no weight of its own: its pressure is counted from the hydrostatic one.
     let ambient = Ambient {
@@ -146,19 +151,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     for _ in 0..STEPS {
         let poses: Vec<_> = bodies.iter().map(Body::pose).collect();
-        immersed.place(&device, &queue, &mut lattice, &poses)?;
+        cells.place(&device, &queue, &mut lattice, &poses)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            immersed.record_cells(&mut pass);
+            cells.record_cells(&mut pass);
             lattice.record_saturated(&mut pass);
-            immersed.record_loads(&mut pass);
+            cells.record_loads(&mut pass);
             lattice.record_rest(&mut pass);
         }
-        let wrenches = read(&device, &queue, encoder, &immersed)?;
-        let loads = immersed.loads(&wrenches)?;
+        let wrenches = read(&device, &queue, encoder, &cells)?;
+        let loads = cells.loads(&wrenches)?;
         for (body, load) in bodies.iter_mut().zip(&loads) {
-            let pull = body.pull(load, &ambient);
+            let pull = body.force_and_torque(load, &ambient);
             body.step(pull, UNITS.time_step);
         }
     }
@@ -187,16 +192,16 @@ fn read(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     mut encoder: wgpu::CommandEncoder,
-    immersed: &Immersed,
+    cells: &SolidCells,
 ) -> Result<Vec<f32>, Box<dyn Error>> {
-    let bytes = 4 * immersed.wrench_count() as u64;
+    let bytes = 4 * cells.wrench_count() as u64;
     let staging = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("wrenches"),
         size: bytes,
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
-    encoder.copy_buffer_to_buffer(immersed.wrenches(), 0, &staging, 0, bytes);
+    encoder.copy_buffer_to_buffer(cells.wrenches(), 0, &staging, 0, bytes);
     queue.submit([encoder.finish()]);
     staging.map_async(wgpu::MapMode::Read, .., |_| {});
     device.poll(patience())?;

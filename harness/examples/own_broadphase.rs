@@ -8,9 +8,11 @@
 
 use glam::DVec3;
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::{Block, Blocks, Material, Setup},
-    broadphase::{Broadphase, HostBroadphase, Item},
+    geometry::{Polyhedron, Shape},
+    rock::{
+        Block, Blocks, Material, Setup,
+        broadphase::{Broadphase, HostBroadphase, Item},
+    },
 };
 use std::{error::Error, sync::Arc};
 

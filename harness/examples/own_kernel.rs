@@ -8,9 +8,7 @@
 
 use anyhow::{Result, ensure};
 use riprap::{
-    kernel::Kernel,
-    link::Program,
-    readback::Readback,
+    gpu::{kernel::Kernel, link::Program, readback::Readback},
     wgpu::{self, util::DeviceExt},
 };
 use riprap_harness::gpu;

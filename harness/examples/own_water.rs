@@ -8,9 +8,9 @@
 
 use glam::{DMat3, DVec3};
 use riprap::{
-    bodies::Pose,
-    particles::{Body, Particles, Setup, Side},
-    readback::Readback,
+    geometry::Pose,
+    gpu::readback::Readback,
+    sph::{Body, Setup, Side, SphSolver},
     wgpu,
 };
 use riprap_harness::gpu;
@@ -42,12 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     setup.bodies = vec![Body {
-        shell: wall,
+        boundary: wall,
         ..Body::default()
     }];
     let still = vec![DVec3::ZERO; water.len()];
     let pressures: Vec<f64> = water.iter().map(|x| 9810.0 * (1.0 - x.z)).collect();
-    let mut particles = Particles::new(&device, &queue, setup, &water, &still, &pressures)?;
+    let mut particles = SphSolver::new(&device, &queue, setup, &water, &still, &pressures)?;
     let place = Pose {
         centre: DVec3::ZERO,
         deformation: DMat3::IDENTITY,
@@ -68,12 +68,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let patience = std::time::Duration::from_secs(120);
     let mut readback = Readback::default();
     let read = readback.read(&device, &queue, particles.buffer(), water.len());
-    let found: Vec<riprap::particles::Particle> =
-        gpu::drive(&device, patience, "the water", read)??;
-    let frame = particles.frame();
+    let found: Vec<riprap::sph::Particle> = gpu::drive(&device, patience, "the water", read)??;
+    let grid = particles.grid();
     let there = found.iter().filter(|particle| particle.at[0] >= 0);
     let front = there
-        .map(|particle| frame.position(particle.at).x)
+        .map(|particle| grid.position(particle.at).x)
         .fold(0.0, f64::max);
     let start = f64::from(COLUMN[0]) * SPACING;
     println!("the front has run from {start:.2} to {front:.2} m in {TIME} s");

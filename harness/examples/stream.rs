@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use glam::{DMat3, DVec3};
-use riprap::block::{Form, Polyhedron};
+use riprap::geometry::{Form, Polyhedron};
 use riprap::output::{Array, Image};
 use riprap::wgpu;
 use riprap_harness::gpu;

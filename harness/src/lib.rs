@@ -3,6 +3,7 @@
 pub mod adapters;
 pub mod bench;
 pub mod check;
+pub mod fingerprint;
 #[path = "../../benches/kit/mod.rs"]
 mod kit;
 pub mod picture;

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check, report,
+    adapters, bench, check, fingerprint, report,
     run::{self, Unfinished},
     schema, stress, threshold, validate,
 };
@@ -29,6 +29,7 @@ enum Command {
     Validate(validate::Args),
     Stress(stress::Args),
     Bench(bench::Args),
+    Fingerprint(fingerprint::Args),
     Report(report::Args),
 }
 
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Stress(args) => stress::run(&args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Fingerprint(args) => fingerprinted(&args),
         Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
@@ -92,6 +94,11 @@ fn bisected(args: &threshold::Args) -> anyhow::Result<ExitCode> {
         println!("{report}");
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn fingerprinted(args: &fingerprint::Args) -> anyhow::Result<ExitCode> {
+    listen()?;
+    fingerprint::run(args, &STOP).map(passed)
 }
 
 fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {

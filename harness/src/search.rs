@@ -3,9 +3,12 @@
 use crate::gpu;
 use riprap::{
     Error, Result,
-    broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
-    scene::{Scene, Search},
-    simulation::{Dry, LeftOut, block_setup},
+    rock::broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    scene::{
+        Scene, Search,
+        build::{LeftOut, block_setup},
+    },
+    simulation::Dry,
     wgpu,
 };
 use std::{path::Path, time::Duration};

@@ -268,7 +268,7 @@ fn a_held_block_tells_its_buoyancy_and_feels_no_flow_where_there_is_none() {
 }
 
 /// On the floor of the tank: its base is dry and the only face in a joint, and nothing drives it but its buoyancy, of
-/// which its weight is 2.65 times.
+/// which its weight is 2.65 times: about each edge of the base, too.
 #[test]
 fn a_block_tells_its_faces_and_how_safely_it_stands() {
     let folder = folder("coupled_faces");
@@ -278,7 +278,7 @@ fn a_block_tells_its_faces_and_how_safely_it_stands() {
     );
     let summary = go(&args(&folder, &text, "out"));
     let told = summary.to_string();
-    let line = "cube: factor of safety sliding inf, uplift 2.65, toppling inf at";
+    let line = "cube: factor of safety sliding inf, uplift 2.65, toppling 2.65 at";
     assert!(told.contains(line), "{told}");
     let cube = folder.join("out/cube.csv");
     assert_eq!(last(&cube, "safety_sliding"), f64::INFINITY);

@@ -45,7 +45,7 @@ duration = 0.1
 [output]
 every = 0.05
 [[output.histories]]
-quantities = ["block_kinetic_energy", "block_potential_energy", "contact_energy", "friction_work", "damping_work", "outside_work", "energy_error", "contacts", "awake_blocks", "block_max_speed"]
+quantities = ["block_kinetic_energy", "block_potential_energy", "contact_energy", "friction_work", "damping_work", "contact_loss", "outside_work", "energy_error", "contacts", "awake_blocks", "block_max_speed"]
 [[probes]]
 name = "top"
 kind = "block"
@@ -100,6 +100,11 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     assert_eq!((rocks.blocks, rocks.awake), (5, 4));
     assert!(rocks.contacts >= 2);
     assert!(rocks.energy_error.abs() < 1e-2, "{}", rocks.energy_error);
+    // Damping only takes; what ended contacts held is a column of its own.
+    let (history, ledger) = (out.join("history.csv"), rocks.ledger);
+    let damping = ledger.dashpot + ledger.mass_damping + ledger.film;
+    assert_eq!(last(&history, "damping_work"), damping);
+    assert_eq!(last(&history, "contact_loss"), ledger.lost);
 
     let blocks = read_with_vtk(&out.join("blocks.pvd"));
     let times: Vec<f64> = blocks["entries"]

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use riprap::bodies::Motion;
-use riprap::particles::particle_setup;
+use riprap::rock::Motion;
 use riprap::scene::Scene;
-use riprap::simulation::block_setup;
+use riprap::scene::build::block_setup;
+use riprap::scene::build::particle_setup;
 use riprap::units::Units;
 
 /// Speed of a CPU adapter on two cores, cell updates/s.

@@ -1,7 +1,7 @@
 //! Lines along a flow in space: along the flow, spread over the fluid, around what is not fluid.
 
 use glam::{DMat3, DVec3};
-use riprap::block::{Form, Polyhedron};
+use riprap::geometry::{Form, Polyhedron};
 use riprap::output::{Array, Image};
 use riprap_harness::picture::{Placed, traces};
 

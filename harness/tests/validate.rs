@@ -1,6 +1,6 @@
 //! How cases are named and selected, and what their records say.
 
-use riprap_harness::validate::{CASES, Trial, record, select};
+use riprap_harness::validate::{CASES, Trial, list, record, select};
 
 fn names(pattern: Option<&str>) -> Vec<&'static str> {
     let cases = select(pattern).unwrap();
@@ -32,6 +32,22 @@ fn names_are_family_and_case_and_occur_once() {
         let same = CASES.iter().filter(|other| other.name == case.name);
         assert_eq!(same.count(), 1, "{}", case.name);
     }
+}
+
+#[test]
+fn the_list_has_a_line_a_case_with_its_form_and_what_it_computes() {
+    let text = list(CASES);
+    assert_eq!(text.lines().count(), CASES.len());
+    for (line, case) in text.lines().zip(CASES) {
+        let mut words = line.split_whitespace();
+        assert_eq!(words.next(), Some(case.name));
+        let form = if case.only_full { "full" } else { "short" };
+        assert_eq!(words.next(), Some(form));
+        assert!(words.count() >= 3, "{line}");
+        assert!(line.chars().count() <= 120, "{line}");
+    }
+    let one = list(&select(Some("cavity/*")).unwrap());
+    assert_eq!(one.lines().count(), 2);
 }
 
 fn trial() -> Trial {

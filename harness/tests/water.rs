@@ -186,6 +186,9 @@ fn levels_and_run_up_are_drawn_over_time() {
         assert!(summary.files.contains(&out.join(name)), "{name}");
     }
     assert!(!out.join("beyond.png").exists());
+    // As the scene's documentation says of dry gauges.
+    let dry = fs::read_to_string(out.join("beyond.csv")).unwrap();
+    assert!(dry.lines().count() > 5 && dry.lines().skip(1).all(|row| row.ends_with(",NaN")));
     let told = summary.warnings.join("\n");
     assert!(told.contains("tank.png is not drawn"), "{told}");
 }

@@ -9,7 +9,13 @@ struct FaceCell {
 
 @group(0) @binding(40) var<storage, read> face_cells: array<FaceCell>;
 
-// The cells of the list that are completed now.
-override FROM: u32;
-override TO: u32;
-override FACE_DENSITY: f32;
+struct OpenFace {
+    // Outward.
+    normal: vec3<f32>,
+    density: f32,
+    // Of the difference to that density what an outflow face removes each step, and what of its sum over time.
+    hold: f32,
+    integral: f32,
+}
+
+@group(0) @binding(46) var<uniform> open_face: OpenFace;

@@ -12,9 +12,9 @@ fn incoming(cell: vec3<u32>, q: u32) -> Word {
         return Word(0u, scalar_of(cell));
     }
     if ((q & 1u) == 1u) {
-        return Word(q + 1u - ODD, scalar_of(cell));
+        return Word(q + 1u - cell_pass.odd, scalar_of(cell));
     }
-    return Word(q - 1u + ODD, scalar_of(neighbour_cell(cell, C[q - 1u])));
+    return Word(q - 1u + cell_pass.odd, scalar_of(neighbour_cell(cell, C[q - 1u])));
 }
 
 fn read_incoming(cell: vec3<u32>, q: u32) -> f32 {

@@ -2,7 +2,7 @@
 // the body force on what is fluid, (1 - B) F, and half of what the solid does. A plane of cells then carries in a steady flow what
 // crosses it, wherever solids are: exactly with the operator of Holdych; the others have a part of the body force more. Corrects what
 // macroscopic.wgsl has written.
-// needs scalar_grid, $cell_force
+// needs scalar_grid, psm_planes, $cell_force
 
 override BRICK_X: u32;
 override BRICK_Y: u32;
@@ -10,7 +10,7 @@ override BRICK_Z: u32;
 
 // Their number, and those that blocks reach.
 @group(0) @binding(40) var<storage, read> bricks: array<u32>;
-// See saturation_cells.wgsl.
+// See psm_planes.wgsl.
 @group(0) @binding(35) var<storage, read> saturation_planes: array<f32>;
 @group(0) @binding(50) var<storage, read> density: array<f32>;
 @group(0) @binding(51) var<storage, read_write> velocity_x_out: array<f32>;
@@ -35,25 +35,24 @@ fn inside_solids(
     if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
         return;
     }
-    let first = (slot * 9u * elements + element) * LANES_OF_ELEMENT + lane;
+    let first = plane_element(slot, 0u, elements, element) * LANES_OF_ELEMENT + lane;
     let stride = elements * LANES_OF_ELEMENT;
-    let kept = saturation_planes[first];
-    let beta = saturation_planes[first + 4u * stride];
-    if (!(kept > 0.0) || !(beta > 0.0)) {
+    let sum = decode_sum(saturation_planes[first + PLANE_SUM * stride]);
+    let beta = saturation_planes[first + PLANE_BETA * stride];
+    if (!(sum.fraction > 0.0) || !(beta > 0.0)) {
         return;
     }
-    let fraction = kept - select(select(0.0, 8.0, kept >= 8.0), 16.0, kept >= 16.0);
     let v = vec3(
-        saturation_planes[first + stride],
-        saturation_planes[first + 2u * stride],
-        saturation_planes[first + 3u * stride],
+        saturation_planes[first + PLANE_VELOCITY * stride],
+        saturation_planes[first + (PLANE_VELOCITY + 1u) * stride],
+        saturation_planes[first + (PLANE_VELOCITY + 2u) * stride],
     );
     let n = cell.x + CELLS_X * (cell.y + CELLS_Y * cell.z);
     let rho = 1.0 + density[n];
     let force = cell_force(cell) / rho;
     let before = vec3(velocity_x_out[n], velocity_y_out[n], velocity_z_out[n]) - 0.5 * force;
-    let pull = fraction * saturation_planes[first + 5u * stride] / rho;
-    let u = before + 0.5 * (1.0 - fraction * beta) * force + 0.5 * pull * (v - before);
+    let pull = sum.fraction * saturation_planes[first + PLANE_A * stride] / rho;
+    let u = before + 0.5 * (1.0 - sum.fraction * beta) * force + 0.5 * pull * (v - before);
     velocity_x_out[n] = u.x;
     velocity_y_out[n] = u.y;
     velocity_z_out[n] = u.z;

@@ -12,7 +12,7 @@ struct Link {
 @group(0) @binding(40) var<storage, read> links: array<Link>;
 
 fn in_step(direction: u32) -> u32 {
-    return ((direction - 1u) ^ ODD) + 1u;
+    return ((direction - 1u) ^ cell_pass.odd) + 1u;
 }
 
 @compute @workgroup_size(64)

@@ -15,18 +15,14 @@ struct MovingCell {
 // For each of them the velocity of its face normal to x, y, z.
 @group(0) @binding(41) var<storage, read> wall_velocity: array<f32>;
 
-// The cells of the list that are completed now.
-override FROM: u32;
-override TO: u32;
-
 @compute @workgroup_size(64)
 fn move_wall(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = FROM + invocation(group, groups, local);
-    if (n >= TO) {
+    let n = cell_pass.first + invocation(group, groups, local);
+    if (n >= cell_pass.end) {
         return;
     }
     let here = moving_cells[n];

@@ -1,19 +1,12 @@
 // Orlanski 1976, J. Comput. Phys. 21:251, on populations: those that enter through the face follow
 // df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. Towards the
-// given density they get the share HOLD of the difference and, so that none is left in the mean, the
-// share INTEGRAL of its sum over time.
+// given density they get the share hold of the difference and, so that none is left in the mean, the
+// share integral of its sum over time.
 // needs scalar_grid, incoming, weights, face_cells
 
 // For each face cell its populations as the face will want them in the next step; in place of the
 // one at rest the sum over time.
 @group(0) @binding(41) var<storage, read_write> carried: array<f32>;
-
-override HOLD: f32;
-override INTEGRAL: f32;
-// Outward normal of the face.
-override NORMAL_X: f32;
-override NORMAL_Y: f32;
-override NORMAL_Z: f32;
 
 struct Inside {
     excess: f32,
@@ -22,12 +15,11 @@ struct Inside {
 
 fn inside(cell: vec3<u32>) -> Inside {
     var excess = read_incoming(cell, 0u);
-    let normal = vec3(NORMAL_X, NORMAL_Y, NORMAL_Z);
     var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
         let f = read_incoming(cell, q);
         excess += f;
-        flux += f * dot(vec3<f32>(C[q]), normal);
+        flux += f * dot(vec3<f32>(C[q]), open_face.normal);
     }
     return Inside(excess, flux / (1.0 + excess));
 }
@@ -45,7 +37,7 @@ fn remember_cell(n: u32, inner_state: Inside) {
     }
     // The density on the face, half a cell further out.
     let face_excess = 1.5 * inside(cell).excess - 0.5 * inner_state.excess;
-    carried[27u * n] += INTEGRAL * (FACE_DENSITY - 1.0 - face_excess);
+    carried[27u * n] += open_face.integral * (open_face.density - 1.0 - face_excess);
 }
 
 @compute @workgroup_size(64)
@@ -54,8 +46,8 @@ fn remember(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = FROM + invocation(group, groups, local);
-    if (n < TO) {
+    let n = cell_pass.first + invocation(group, groups, local);
+    if (n < cell_pass.end) {
         remember_cell(n, inside(padded_cell(face_cells[n].inner)));
     }
 }
@@ -66,14 +58,14 @@ fn flow_out(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = FROM + invocation(group, groups, local);
-    if (n >= TO) {
+    let n = cell_pass.first + invocation(group, groups, local);
+    if (n >= cell_pass.end) {
         return;
     }
     let here = face_cells[n];
     let cell = padded_cell(here.cell);
-    let difference = FACE_DENSITY - 1.0 - inside(padded_cell(here.inner)).excess;
-    let anchor = HOLD * difference + carried[27u * n];
+    let difference = open_face.density - 1.0 - inside(padded_cell(here.inner)).excess;
+    let anchor = open_face.hold * difference + carried[27u * n];
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
             write_incoming(cell, q, carried[27u * n + q] + anchor * weight(q));

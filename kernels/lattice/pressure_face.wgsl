@@ -10,8 +10,8 @@ fn hold_pressure(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = FROM + invocation(group, groups, local);
-    if (n >= TO) {
+    let n = cell_pass.first + invocation(group, groups, local);
+    if (n >= cell_pass.end) {
         return;
     }
     let here = face_cells[n];
@@ -31,7 +31,7 @@ fn hold_pressure(
     }
     // The density is given on the face, half a cell beyond this cell and one and a half beyond the
     // inner one; velocity and stress are as they are inside.
-    let change = (FACE_DENSITY - 1.0 - excess) * (2.0 / 3.0);
+    let change = (open_face.density - 1.0 - excess) * (2.0 / 3.0);
     let u = j / (1.0 + excess);
     let rho_excess = excess + change;
     let flux = j + change * u;

@@ -1,11 +1,9 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
 // e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, workgroup, tight, $cells, $operator, $reals
+// needs velocity, moments, workgroup, psm_planes, tight, $cells, $operator, $reals
 
-// Nine planes of WORKGROUP elements for each brick: the sum of the fractions of all blocks, plus 8 in cells deep inside
-// one and 16 in those of joints, -1 in cells beside one; the mean velocity of the blocks; and for the forces beta = B / e, beta a and beta G. In
-// cells beside one that are fluid the last five are 1, rho - 1 and the fluid's velocity.
+// See psm_planes.wgsl; WORKGROUP elements a plane.
 @group(0) @binding(35) var<storage, read_write> saturation_planes: array<Reals>;
 
 // Most of B in full cells where blocks meet each other or a wall: what is in a full cell it would reflect for ever, so
@@ -25,20 +23,17 @@ struct Saturation {
 }
 
 fn plane(slot: u32, n: u32, local: u32) -> u32 {
-    return (slot * 9u + n) * WORKGROUP + local;
+    return plane_element(slot, n, WORKGROUP, local);
 }
 
 fn saturation_of(slot: u32, local: u32) -> Saturation {
-    let kept = get_reals(saturation_planes[plane(slot, 0u, local)]);
-    let joint = kept >= Real(16.0);
-    let deep = (kept >= Real(8.0)) & !joint;
+    let sum = decode_sum(get_reals(saturation_planes[plane(slot, PLANE_SUM, local)]));
     let velocity = Vector(
-        get_reals(saturation_planes[plane(slot, 1u, local)]),
-        get_reals(saturation_planes[plane(slot, 2u, local)]),
-        get_reals(saturation_planes[plane(slot, 3u, local)]),
+        get_reals(saturation_planes[plane(slot, PLANE_VELOCITY, local)]),
+        get_reals(saturation_planes[plane(slot, PLANE_VELOCITY + 1u, local)]),
+        get_reals(saturation_planes[plane(slot, PLANE_VELOCITY + 2u, local)]),
     );
-    let sum = kept - select(select(Real(0.0), Real(8.0), deep), Real(16.0), joint);
-    return Saturation(max(sum, Real(0.0)), velocity, kept != Real(0.0), kept < Real(0.0), deep, joint);
+    return Saturation(sum.fraction, velocity, sum.near, sum.beside, sum.deep, sum.joint);
 }
 
 // What the eddy viscosity of the next step sees: the solid's velocity in the solid.
@@ -100,11 +95,11 @@ fn saturate(
     let beta = select(Real(0.0), weight / max(saturation.fraction, Real(1e-30)), fluid);
     let a = factor * rho;
     let each = 2.0 * tight / max(saturation.fraction, Real(1.0));
-    saturation_planes[plane(slot, 4u, local)] = put_reals(select(beta, Real(1.0), beside));
-    saturation_planes[plane(slot, 5u, local)] = put_reals(select(beta * a, (*h)[0u], beside));
-    saturation_planes[plane(slot, 6u, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, beside));
-    saturation_planes[plane(slot, 7u, local)] = put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, beside));
-    saturation_planes[plane(slot, 8u, local)] = put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, beside));
+    saturation_planes[plane(slot, PLANE_BETA, local)] = put_reals(select(beta, Real(1.0), beside));
+    saturation_planes[plane(slot, PLANE_A, local)] = put_reals(select(beta * a, (*h)[0u], beside));
+    saturation_planes[plane(slot, PLANE_G, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, beside));
+    saturation_planes[plane(slot, PLANE_G + 1u, local)] = put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, beside));
+    saturation_planes[plane(slot, PLANE_G + 2u, local)] = put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, beside));
 }
 
 // Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where

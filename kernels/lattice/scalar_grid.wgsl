@@ -8,8 +8,19 @@ override LANES_OF_ELEMENT: u32;
 override CELLS_X: u32;
 override CELLS_Y: u32;
 override CELLS_Z: u32;
-// Parity of the step that loads.
-override ODD: u32;
+
+// What the dispatches of one kernel differ in.
+struct CellPass {
+    // Parity of the step that loads.
+    odd: u32,
+    // Half of the words that is written where two cells share a word.
+    half: u32,
+    // The cells of the kernel's list that are completed.
+    first: u32,
+    end: u32,
+}
+
+@group(0) @binding(45) var<uniform> cell_pass: CellPass;
 
 // Invocations of a workgroup of 64, folded over two dimensions.
 fn invocation(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {

@@ -1,8 +1,8 @@
-// Gardner & Sitar 2018, eqs. 11-12, of particles: the load on each body from the forces on its shell.
+// Gardner & Sitar 2018, eqs. 11-12, for particles: the load on each body from the forces on its boundary particles.
 // needs bodies, clock, body_sums
 
-@group(0) @binding(0) var<storage, read> homes: array<Home>;
-@group(0) @binding(1) var<storage, read> motions: array<Motion>;
+@group(0) @binding(0) var<storage, read> reference_positions: array<ReferencePosition>;
+@group(0) @binding(1) var<storage, read> motions: array<BodyMotion>;
 @group(0) @binding(2) var<storage, read> forces: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> clock: Clock;
 
@@ -17,10 +17,10 @@ fn body_load(
         let motion = motions[body];
         let end = motion.first + motion.count;
         for (var n = motion.first + local; n < end; n += 64u) {
-            let x = homes[n].place;
-            let turned = clock.elapsed * (velocity_at(motion, x) - motion.velocity);
-            add_force(forces[n].xyz, lever(motion, x) + turned);
+            let x = reference_positions[n].position;
+            let rotated = clock.elapsed * (velocity_at(motion, x) - motion.velocity);
+            add_force(forces[n].xyz, lever(motion, x) + rotated);
         }
     }
-    add_up(body, local, clock.step);
+    reduce_load(body, local, clock.step);
 }

@@ -1,13 +1,13 @@
-// Force and moment on each body, a workgroup a body, added up over the steps of an exchange.
+// Time integral of force and moment on each body over an exchange. One workgroup sums one body.
 
-// Twelve numbers a body: force times time, and the sum of f_i r_j at 3 + 3 i + j.
+// Twelve components per body: force, and the sum of f_i r_j at 3 + 3 i + j.
 @group(0) @binding(4) var<storage, read_write> loads: array<f32>;
 
-const NUMBERS = 12u;
+const LOAD_LEN = 12u;
 
 var<workgroup> sums: array<array<f32, 12>, 64>;
 
-// What an invocation has added up so far.
+// Sums of an invocation.
 var<private> force: vec3<f32>;
 var<private> moment: array<vec3<f32>, 3>;
 
@@ -20,11 +20,11 @@ fn add_force(f: vec3<f32>, r: vec3<f32>) {
 }
 
 fn is_loaded(body: u32) -> bool {
-    return body < arrayLength(&loads) / NUMBERS;
+    return body < arrayLength(&loads) / LOAD_LEN;
 }
 
-// Adds what all invocations have found to the load of the body; all of them must come here.
-fn add_up(body: u32, local: u32, step: f32) {
+// Adds the sums of all invocations to the load of the body. All invocations must call it.
+fn reduce_load(body: u32, local: u32, step: f32) {
     sums[local] = array(
         force.x, force.y, force.z,
         moment[0].x, moment[0].y, moment[0].z,
@@ -32,11 +32,11 @@ fn add_up(body: u32, local: u32, step: f32) {
         moment[2].x, moment[2].y, moment[2].z,
     );
     workgroupBarrier();
-    if (is_loaded(body) && local < NUMBERS) {
+    if (is_loaded(body) && local < LOAD_LEN) {
         var sum = 0.0;
         for (var n = 0u; n < 64u; n++) {
             sum += sums[n][local];
         }
-        loads[body * NUMBERS + local] += step * sum;
+        loads[body * LOAD_LEN + local] += step * sum;
     }
 }

@@ -1,40 +1,40 @@
 // The time of the particles within an exchange with the host.
 
 struct Clock {
-    // Length of the coming step; 0: the exchange is over and nothing moves.
+    // Length of the next step; 0 when the exchange is complete.
     step: f32,
-    // Longest step that the last one allowed.
-    limit: f32,
-    // From the start of the exchange.
+    // Longest step that the last step allows for the next.
+    step_limit: f32,
+    // Time since the start of the exchange.
     elapsed: f32,
-    // To its end.
-    left: f32,
+    // Time to the end of the exchange.
+    remaining: f32,
     // Steps since the start of the exchange.
     steps: u32,
-    // 1 and the highest id of a particle that is nowhere, or 0.
-    fault: u32,
-    // Particles that have left since the start.
+    // Highest id of a particle with a non-finite state, plus 1; 0 if there is none.
+    invalid_particle: u32,
+    // Particles that have left the domain since the start.
     escaped: u32,
-    // The longest list of neighbours that had no room; 0 if all had.
-    crowd: u32,
-    // The step that waits for room.
-    held: f32,
-    // The longest list of a shell's particle that had no room; 0 if all had.
-    shell_crowd: u32,
-    // 1: the coming step sorts the particles anew and makes the lists of neighbours.
+    // Length of the longest list of a fluid particle that exceeds its capacity; 0 if none does.
+    overflow: u32,
+    // Step that is postponed until the lists have the capacity.
+    pending_step: f32,
+    // Length of the longest list of a boundary particle that exceeds its capacity; 0 if none does.
+    boundary_overflow: u32,
+    // 1: the next step sorts the particles and rebuilds the neighbour lists.
     stale: u32,
-    // By how much two particles may have come nearer since the lists were made.
-    travel: f32,
-    // The fastest that any body moves.
-    body_speed: f32,
-    // Particles that had left when the lists were looked at last: nobody must meet those any more.
-    missed: u32,
-    // Steps since the start of the exchange that sorted.
+    // Bound on the approach of any two particles since the lists were built.
+    list_displacement: f32,
+    // Largest speed of any boundary particle.
+    max_body_speed: f32,
+    // Escaped particles when the lists were last checked: more of them make the lists stale.
+    escaped_at_sort: u32,
+    // Steps since the start of the exchange that sorted the particles.
     sorts: u32,
-    // The highest speed at the end of any step since the start.
-    fastest: f32,
-    // Work since the start of the exchange of the particles of shells beyond what their bodies did, and of what pushes water
-    // out of bodies.
-    pressed: f32,
-    pushed: f32,
+    // Largest speed at the end of any step since the start.
+    max_speed: f32,
+    // Work since the start of the exchange: of boundary particles beyond the work of their bodies, and of the penalty
+    // force.
+    boundary_work: f32,
+    penalty_work: f32,
 }

@@ -1,4 +1,4 @@
-// No friction on a shell.
+// No viscous force on boundary particles.
 
-fn drag(n: u32, share: f32, water: vec3<f32>) {
+fn drag(n: u32, weight: f32, velocity: vec3<f32>) {
 }

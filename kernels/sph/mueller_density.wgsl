@@ -1,5 +1,5 @@
 // Müller, Charypar & Gross 2003, eq. 3, and Geraili Mikola & Sitar 2014, eq. 12: density as a sum over neighbours.
-// needs invocation, particle_grid, $runs, mueller_kernels, clock, $around
+// needs invocation, cell_grid, $cell_ranges, mueller_kernels, clock, $neighbours
 
 @group(0) @binding(0) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
@@ -7,16 +7,16 @@
 var<private> at: vec3<i32>;
 var<private> density: f32;
 
-fn meet_water(j: u32) {
-    let r = between(at, particles[j].at);
+fn visit_fluid(j: u32) {
+    let r = separation(at, particles[j].at);
     let square = dot(r, r);
     if (square < SUPPORT_SQUARED) {
         density += poly6(square);
     }
 }
 
-// This scheme has no shells.
-fn meet_shell(j: u32) {}
+// This scheme has no boundary particles.
+fn visit_boundary(j: u32) {}
 
 @compute @workgroup_size(64)
 fn mueller_density(
@@ -31,7 +31,7 @@ fn mueller_density(
     at = particles[n].at;
     density = 0.0;
     if (at.x >= 0) {
-        around(n, at);
+        visit_neighbours(n, at);
         particles[n].excess = density - 1.0;
     }
 }

@@ -1,8 +1,8 @@
-// Geraili Mikola & Sitar 2014, eq. 21: places follow the new velocities.
-// needs invocation, arrive
+// Geraili Mikola & Sitar 2014, eq. 21: positions advance with the new velocities.
+// needs invocation, advect
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
-@group(0) @binding(4) var<storage, read> fresh: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> new_velocities: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn mueller_drift(
@@ -19,6 +19,6 @@ fn mueller_drift(
         moved[n] = here;
         return;
     }
-    here.velocity = fresh[n].xyz;
-    arrive(n, here);
+    here.velocity = new_velocities[n].xyz;
+    advect(n, here);
 }

@@ -1,11 +1,11 @@
-// Geraili Mikola & Sitar 2014, section 4: the reaction of all particles in a body.
+// Geraili Mikola & Sitar 2014, section 4: the reaction of the particles inside a body.
 // needs penalty, body_sums
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read> clock: Clock;
-// The first hull of each body, and one more.
+// Index of the first hull of each body, and the number of hulls as the last entry.
 @group(0) @binding(9) var<storage, read> hull_starts: array<u32>;
-// The first of the particles, and one more than the last: all of them may want more turns than an invocation has.
+// Half-open range of particles: a loop over all of them may exceed the iterations of an invocation.
 @group(0) @binding(10) var<uniform> range: vec2<u32>;
 
 @compute @workgroup_size(64)
@@ -27,9 +27,9 @@ fn mueller_load(
             for (var k = hull_starts[body]; k < end; k++) {
                 f -= penalty(hulls[k], here.at, here.velocity, clock.elapsed);
             }
-            let away = between(here.at, wrapped(motion.centre));
-            add_force(f, away - clock.elapsed * motion.velocity);
+            let offset = separation(here.at, wrapped(motion.centre));
+            add_force(f, offset - clock.elapsed * motion.velocity);
         }
     }
-    add_up(body, local, clock.step);
+    reduce_load(body, local, clock.step);
 }

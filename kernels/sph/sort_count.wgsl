@@ -1,10 +1,10 @@
 // Green 2010, Particle simulation using CUDA, first step of a counting sort: the number of particles in each cell.
-// needs invocation, particle_grid, clock
+// needs invocation, cell_grid, clock
 
 @group(0) @binding(0) var<storage, read> unsorted: array<Particle>;
-// One a cell, one for those that have left, and a last one that stays zero.
+// One for each cell, one for escaped particles, and a last one that stays zero.
 @group(0) @binding(1) var<storage, read_write> counts: array<atomic<u32>>;
-// The place of each particle among those of its cell; which of two comes first is left to the device.
+// Arrival order of each particle in its cell, which depends on the device.
 @group(0) @binding(2) var<storage, read_write> arrivals: array<u32>;
 @group(0) @binding(3) var<storage, read> clock: Clock;
 

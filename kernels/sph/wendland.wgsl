@@ -1,9 +1,9 @@
 // Wendland 1995, Adv. Comput. Math. 4:389, the function C2 with support 2h.
 
 // h, spacings.
-override SMOOTHING: f32 = 2.0;
+override SMOOTHING: f32;
 // 21/(16 pi h^3) in space, 7/(4 pi h^2) in a plane.
-override KERNEL_SCALE: f32 = 1.0;
+override KERNEL_SCALE: f32;
 
 // W at the distance r.
 fn weight(r: f32) -> f32 {

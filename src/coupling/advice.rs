@@ -1,20 +1,19 @@
-//! What may disappoint in blocks in a fluid, in numbers.
+//! Warnings about the resolution and stability of blocks in a fluid.
 
-use super::{Coupled, Gap};
+use super::{Coupled, Gap, gaps::narrowest};
 use crate::{
-    block::{Form, Shape},
-    bodies::Motion,
+    geometry::{Form, Shape},
+    rock::Motion,
     scene::{Advice, Scene, Warning},
 };
 use glam::DVec3;
 
-/// Cells across the thinnest block that is resolved: of a cube of so many, 42 % of the cells have no
-/// surface in them.
-const ACROSS: f64 = 8.0;
-/// Cells by which one may miss that, rounded as scenes write their numbers: it shows as 8.0.
-const ROUNDED: f64 = 0.05;
+/// Fewest cells across a resolved block: in a cube of this width, 42 % of the cells contain no surface.
+const MIN_CELLS_ACROSS: f64 = 8.0;
+/// Tolerance of that number, cells: a width that is printed as 8.0 passes.
+const WIDTH_TOLERANCE: f64 = 0.05;
 
-/// Blocks by a number, the one with the smallest first.
+/// The block with the smallest value among those below a limit.
 struct Ranked {
     count: usize,
     name: String,
@@ -22,7 +21,7 @@ struct Ranked {
 }
 
 impl Ranked {
-    /// Those whose value is below `limit`.
+    /// `None` if no value is below `limit`.
     fn below(limit: f64, all: impl Iterator<Item = (String, f64)>) -> Option<Self> {
         let low: Vec<_> = all.filter(|(_, value)| *value < limit).collect();
         let count = low.len();
@@ -36,8 +35,7 @@ impl Ranked {
 }
 
 impl Coupled {
-    /// Warns of blocks that the grid does not resolve, of gaps that it does not, of blocks lighter than the
-    /// fluid, and of those that lie where fluid enters.
+    /// Warnings about unresolved blocks and gaps, blocks lighter than the fluid, and blocks in inflow cells.
     pub fn advise(&self, scene: &Scene) -> Advice {
         let mut advice = Advice::new();
         let mut warn = |place: &str, message: String| {
@@ -52,16 +50,16 @@ impl Coupled {
         let widths = blocks
             .clone()
             .map(|block| (block.name.clone(), width(&block.shape) / cell));
-        if let Some(thin) = Ranked::below(ACROSS - ROUNDED, widths) {
+        if let Some(thin) = Ranked::below(MIN_CELLS_ACROSS - WIDTH_TOLERANCE, widths) {
             warn(
                 "domain.cell",
                 format!(
-                    "{} blocks are fewer than {ACROSS} cells across, {} only {:.1}: what the fluid does to \
-                     them is rough; use cell ≤ {:.3e} m",
+                    "{} blocks are fewer than {MIN_CELLS_ACROSS} cells across, {} only {:.1}: the loads on them \
+                     are inaccurate; use cell ≤ {:.3e} m",
                     thin.count,
                     thin.name,
                     thin.value,
-                    cell * thin.value / ACROSS
+                    cell * thin.value / MIN_CELLS_ACROSS
                 ),
             );
         }
@@ -72,16 +70,16 @@ impl Coupled {
             let density = setup.materials[block.material].density;
             (block.name.clone(), density / fluid)
         });
-        // Found with a cube of eight cells between its own images, where sound stays: 0.3, 0.6 and 1 are steady with 1, 2
-        // and 4 steps between exchanges, 0.5 with 2 and 0.8 with 4 are not.
+        // Measured with a cube of eight cells between its own images, which trap sound: density ratios of 0.3, 0.6 and 1
+        // are stable with 1, 2 and 4 steps between exchanges; 0.5 with 2 and 0.8 with 4 are not.
         let safe = 1.0 - 0.5 / f64::from(scene.coupling.interval);
         if let Some(light) = Ranked::below(1.0, ratios) {
             warn(
                 "materials",
                 format!(
-                    "{} blocks are lighter than the fluid, {} has {:.2} of its density: they float, and the \
-                     water that they drag along outweighs them, so that they gain speed more slowly than they \
-                     should, and below {safe} of its density, with coupling.interval = {}, may swing; use a density above \
+                    "{} blocks are lighter than the fluid, {} has {:.2} of its density: they float, and \
+                     their added mass exceeds their mass, so that they accelerate more slowly than they should, and below \
+                     {safe} of its density, with coupling.interval = {}, may oscillate; use a density above \
                      {fluid} kg/m³, or at least above {}",
                     light.count,
                     light.name,
@@ -95,13 +93,24 @@ impl Coupled {
         advice
     }
 
-    /// Width of the narrowest block in the fluid, m: the smallest distance between two parallel planes that hold it,
-    /// one of them along a face. None where there is no block.
+    /// Width of the narrowest block in the fluid, m: the smallest distance between two parallel planes that enclose it,
+    /// one of them along a face. `None` without blocks.
     pub fn narrowest(&self) -> Option<f64> {
         let blocks = self.setup().setup.blocks[..self.in_fluid()].iter();
         blocks
             .map(|block| width(&block.shape))
             .min_by(f64::total_cmp)
+    }
+
+    /// The narrowest open gap between a block in the fluid and another block, a wall, or a periodic image; `None` if all are
+    /// wider than `within` (m).
+    pub fn narrowest_gap(&self, within: f64) -> Option<Gap> {
+        let cell = self.solid_cells().frame().units.cell;
+        narrowest(
+            &self.setup().setup,
+            self.blocks(),
+            (self.in_fluid(), cell, within),
+        )
     }
 
     fn warn_of_gaps(&self, cell: f64, warn: &mut impl FnMut(&str, String)) {
@@ -115,7 +124,7 @@ impl Coupled {
                 format!(
                     "{} gaps between blocks are narrower than a cell, the narrowest {:.2e} m ({:.2} cells) \
                      between {a} and {b}: the grid does not resolve the flow and the pressure in them; use \
-                     cell ≤ {:.1e} m, or close them. {} pairs touch, and no water stands between these",
+                     cell ≤ {:.1e} m, or close them. {} pairs touch, with no water between them",
                     open.len(),
                     gap.width,
                     gap.width / cell,
@@ -127,11 +136,11 @@ impl Coupled {
     }
 }
 
-/// Smallest distance between two parallel planes that hold a shape, one of them along a face, m.
+/// Smallest distance between two parallel planes that enclose a shape, one of them along a face, m.
 fn width(shape: &Shape) -> f64 {
-    // How far the shape reaches along a direction.
-    let reach = |n: DVec3| {
-        let part = |part: &crate::block::Part| {
+    // The support function of the shape.
+    let support = |n: DVec3| {
+        let part = |part: &crate::geometry::Part| {
             part.offset.dot(n)
                 + match &part.form {
                     Form::Sphere { radius } => *radius,
@@ -152,17 +161,17 @@ fn width(shape: &Shape) -> f64 {
         Form::Convex(shape) => shape.faces().iter().map(|face| face.normal).collect(),
     });
     faces
-        .map(|n| reach(n) + reach(-n))
+        .map(|n| support(n) + support(-n))
         .fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::block::Polyhedron;
+    use crate::geometry::Polyhedron;
 
     #[test]
-    fn a_shape_is_as_wide_as_its_thinnest_side() {
+    fn width_of_a_plate_a_sphere_and_a_tetrahedron() {
         let plate: Shape = Polyhedron::cuboid(DVec3::new(3.0, 0.2, 1.0))
             .unwrap()
             .into();
@@ -174,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn the_smallest_comes_first_and_all_are_counted() {
+    fn the_smallest_value_and_the_count_below_a_limit() {
         let all = [("a", 3.0), ("b", 1.0), ("c", 9.0), ("d", 2.0)];
         let all = all.iter().map(|(name, value)| ((*name).into(), *value));
         let found = Ranked::below(5.0, all.clone()).unwrap();

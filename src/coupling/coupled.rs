@@ -1,46 +1,48 @@
 //! The blocks of a scene in its lattice.
 
-use super::{Company, Felt, Gap, Inside, Rock, Wet, faces::asked, gaps::gaps, inlets::AtInlet};
+use super::{
+    CouplingParams, FluidLoad, Gap, InteriorFluid, LatticeCoupling, Rock, gaps::gaps,
+    inlets::BlockAtInlet, lattice_coupling::ProbeRequest, lubrication::lubrication_film,
+};
 use crate::{
     Result,
-    bodies::{Blocks, Motion},
-    coupling::film::film,
-    immersed::{Immersed, Submerged, Work},
     lattice::Lattice,
-    scene::Scene,
-    simulation::BlockSetup,
+    psm::{CellWork, SolidBlock, SolidCells},
+    rock::{Blocks, Motion},
+    scene::{Scene, build::BlockSetup},
     units::Units,
 };
+use std::f64::consts::PI;
 
-/// How often fluid and blocks met since the start or the last restart.
+/// Work of the coupling since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exchanges {
-    /// Times that the host waited for loads: at the ends of steps after which blocks moved, or were asked for.
+    /// Times that the host waited for loads: once for each exchange.
     pub readings: u64,
-    /// What was computed of the blocks' cells.
-    pub cells: Work,
+    /// Computation of the blocks' cells.
+    pub cells: CellWork,
 }
 
 /// Blocks in a fluid on a lattice.
 #[derive(Debug)]
 pub struct Coupled {
     pub(super) rock: Rock,
-    pub(super) wet: Wet,
-    /// Blocks in the fluid, the first ones; the others are walls and solids, which the lattice has already.
+    pub(super) coupling: LatticeCoupling,
+    /// Number of blocks in the fluid, the first ones; the others are walls and solids, which the lattice resolves itself.
     in_fluid: usize,
-    /// Those narrower than a cell at the start.
+    /// Pairs of blocks closer than a cell at the start.
     gaps: Vec<Gap>,
-    /// Blocks in the fluid about whose faces a probe asks.
-    pub(super) asked: Vec<bool>,
-    /// Blocks that lie where fluid enters at the start.
-    pub(super) began: Vec<AtInlet>,
+    /// Whether a probe requests the loads on the faces of each block in the fluid.
+    pub(super) face_probes: Vec<bool>,
+    /// Blocks in inflow cells at the start.
+    pub(super) initial_inlet_blocks: Vec<BlockAtInlet>,
 }
 
 impl Coupled {
     /// The blocks of a scene, as `setup` has them, in its lattice.
     ///
     /// # Errors
-    /// What the blocks or the device lack.
+    /// Those of an invalid setup of blocks, and limits of the device.
     pub async fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -49,19 +51,22 @@ impl Coupled {
         setup: BlockSetup,
     ) -> Result<Self> {
         let mut setup = setup;
-        setup.setup.film = film(scene, units, &setup.setup.blocks);
+        setup.setup.film = lubrication_film(scene, units, &setup.setup.blocks);
         let in_fluid = setup.in_fluid;
-        let held = (scene.coupling.hold / units.time_step).round();
-        let company = Company {
+        let hold = (scene.coupling.hold / units.time_step).round();
+        let interval = f64::from(scene.coupling.interval) * units.time_step;
+        let params = CouplingParams {
             time_step: units.time_step,
-            // Times of steps are rounded.
-            hold: (held - 0.5) * units.time_step,
-            inside: Some(Inside {
+            // Half a step of margin for the rounding of times.
+            hold: (hold - 0.5) * units.time_step,
+            inside: Some(InteriorFluid {
                 density: scene.fluid.density,
-                layer: units.cell,
+                layer: units
+                    .cell
+                    .max((PI * scene.fluid.viscosity * interval).sqrt()),
             }),
         };
-        let mut rock = Rock::new(device, queue, scene, setup, company).await?;
+        let mut rock = Rock::new(device, queue, scene, setup, params).await?;
         let gaps = gaps(
             &rock.setup.setup,
             &rock.blocks,
@@ -72,31 +77,33 @@ impl Coupled {
         .await?;
         let all = &rock.setup.setup.blocks;
         let blocks = &all[..in_fluid];
-        let probes = blocks.iter().map(|block| asked(scene, &block.name));
-        let probes: Vec<[bool; 2]> = probes.collect();
-        let submerged = blocks.iter().zip(&probes);
-        let submerged = submerged.map(|(block, [followed, faces])| Submerged {
+        let requests = blocks
+            .iter()
+            .map(|block| ProbeRequest::of(scene, &block.name));
+        let requests: Vec<ProbeRequest> = requests.collect();
+        let solids = blocks.iter().zip(&requests);
+        let solids = solids.map(|(block, request)| SolidBlock {
             shape: block.shape.clone(),
-            loaded: block.motion != Motion::Fixed || *followed,
-            faces: *faces,
+            loaded: block.motion != Motion::Fixed || request.load,
+            faces: request.faces,
         });
-        let submerged = submerged.collect();
+        let solids = solids.collect();
         let period = rock.blocks.period();
         let mut coupled = Self {
-            wet: Wet::new(device, lattice, (scene, units), submerged, period)?,
+            coupling: LatticeCoupling::new(device, lattice, (scene, units), solids, period)?,
             rock,
             in_fluid,
             gaps,
-            asked: probes.into_iter().map(|[_, faces]| faces).collect(),
-            began: Vec::new(),
+            face_probes: requests.iter().map(|request| request.faces).collect(),
+            initial_inlet_blocks: Vec::new(),
         };
-        coupled.began = coupled.will_be_at_inlets(scene, units);
+        coupled.initial_inlet_blocks = coupled.blocks_at_inlets(scene, units);
         Ok(coupled)
     }
 
-    /// The rock, and its side of the fluid.
-    pub(crate) fn sides(&mut self) -> (&mut Rock, &mut Wet) {
-        (&mut self.rock, &mut self.wet)
+    /// The rock, and its coupling to the lattice.
+    pub(crate) fn rock_and_coupling(&mut self) -> (&mut Rock, &mut LatticeCoupling) {
+        (&mut self.rock, &mut self.coupling)
     }
 
     /// Whether a block can move at all.
@@ -104,22 +111,22 @@ impl Coupled {
         self.rock.moves()
     }
 
-    /// What the fluid around each block does to it, of the last reading: what moves it beside its weight and its contacts.
-    pub fn around(&self) -> &[Felt] {
-        self.rock.around()
+    /// The load of the exterior fluid on each block at the last exchange: [`Rock::external_load`].
+    pub fn external_load(&self) -> &[FluidLoad] {
+        self.rock.external_load()
     }
 
-    /// What each block feels of the fluid, of the last reading, the inertia of the fluid inside its cells included.
-    pub fn felt(&self) -> &[Felt] {
-        self.rock.felt()
+    /// The load of the fluid on each block at the last exchange, summed over its cells: [`Rock::cell_load`].
+    pub fn cell_load(&self) -> &[FluidLoad] {
+        self.rock.cell_load()
     }
 
-    /// The blocks as they are.
+    /// The blocks in their present state.
     pub fn blocks(&self) -> &Blocks {
         self.rock.blocks()
     }
 
-    /// The blocks as they were made.
+    /// The setup of the blocks.
     pub fn setup(&self) -> &BlockSetup {
         self.rock.setup()
     }
@@ -129,21 +136,21 @@ impl Coupled {
         self.in_fluid
     }
 
-    /// The pairs of blocks, one of them in the fluid, that were less than a cell apart at the start.
+    /// The pairs of blocks, at least one of them in the fluid, that were less than a cell apart at the start.
     pub fn gaps(&self) -> &[Gap] {
         &self.gaps
     }
 
-    /// Their cells.
-    pub fn immersed(&self) -> &Immersed {
-        &self.wet.immersed
+    /// The cells of the blocks.
+    pub fn solid_cells(&self) -> &SolidCells {
+        &self.coupling.cells
     }
 
-    /// How often fluid and blocks met.
+    /// Work of the coupling since the start or the last restart.
     pub fn exchanges(&self) -> Exchanges {
         Exchanges {
-            readings: self.rock.meetings(),
-            cells: self.wet.immersed.work(),
+            readings: self.rock.exchange_count(),
+            cells: self.coupling.cells.work(),
         }
     }
 }

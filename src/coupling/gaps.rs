@@ -2,42 +2,46 @@
 
 use crate::{
     Result,
-    block::HalfSpace,
-    bodies::{Blocks, Setup},
-    broadphase::{Broadphase, Item},
-    contact::Placed,
+    geometry::HalfSpace,
+    rock::{
+        Blocks, Period, Setup,
+        broadphase::{Broadphase, Item},
+        contact::Placed,
+    },
 };
+use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Part of a cell below which a gap is closed: the overlap of contacts and the rounding of scenes are of
-/// this size, and no water stands in it.
-const CLOSED: f64 = 1e-3;
+/// Gap, cells, below which a gap is closed and holds no water: the overlap of contacts and the rounding of scenes are of
+/// this size.
+const CLOSED_GAP: f64 = 1e-3;
 
 /// Two blocks that are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
     /// The blocks, the first one in the fluid.
     pub blocks: [usize; 2],
-    /// Distance between the nearest of their faces and corners, m; for two edges across each other less
-    /// than their distance. Negative where they overlap.
+    /// Distance between their nearest faces and corners, m; a lower bound for two crossing edges. Negative where they
+    /// overlap.
     pub width: f64,
 }
 
 impl Gap {
     /// Whether the blocks touch, in a lattice of cells of `cell` m.
     pub fn is_closed(&self, cell: f64) -> bool {
-        self.width <= CLOSED * cell
+        self.width <= CLOSED_GAP * cell
     }
 }
 
-/// The pairs of blocks, one of them among the first `in_fluid`, that are less than a cell of `cell` m
-/// apart, in their order.
+/// The pairs of blocks, at least one of them among the first `in_fluid`, that are less than a cell (`cell`, m)
+/// apart, in ascending order.
 pub(crate) async fn gaps(
     setup: &Setup,
     blocks: &Blocks,
     in_fluid: usize,
     cell: f64,
-    finder: &mut impl Broadphase,
+    broadphase: &mut impl Broadphase,
 ) -> Result<Vec<Gap>> {
     let mut parts = Vec::new();
     for (block, pose) in blocks.poses().iter().enumerate() {
@@ -56,16 +60,16 @@ pub(crate) async fn gaps(
     let grown = |(item, &block): (Item, &usize)| Item {
         min: item.min.map(|x| x - 0.5 * cell),
         max: item.max.map(|x| x + 0.5 * cell),
-        // Solids and walls are one: what is between them is no joint.
+        // Solids and walls form one group: gaps between them do not count.
         group: block.min(in_fluid) as u32,
     };
     let items: Vec<Item> = blocks.items().into_iter().zip(&owners).map(grown).collect();
     let mut narrowest = BTreeMap::new();
-    for pair in finder.pairs(&items).await? {
+    for pair in broadphase.pairs(&items).await? {
         let [a, b] = pair.map(|part| part as usize);
-        let width = gap(&placed[a], &placed[b]);
+        let width = distance(&placed[a], &placed[b]);
         if width < cell {
-            // Images come after all others.
+            // Images are the last items.
             let mut blocks = [owners[a], owners[b]];
             blocks.sort_unstable();
             let known = narrowest.entry(blocks).or_insert(width);
@@ -76,8 +80,74 @@ pub(crate) async fn gaps(
     Ok(narrowest.into_iter().map(found).collect())
 }
 
-/// How far a part lies beyond the face of `own` that it is farthest from.
-fn beyond(own: &Placed, other: &Placed) -> f64 {
+/// The narrowest open gap between one of the first `in_fluid` blocks and another block, a wall, or a periodic image of
+/// these or of itself, in a lattice of cells of `cell` m; `None` if all are wider than `within` (m).
+pub(crate) fn narrowest(
+    setup: &Setup,
+    blocks: &Blocks,
+    (in_fluid, cell, within): (usize, f64, f64),
+) -> Option<Gap> {
+    let mut parts = Vec::new();
+    for (block, pose) in blocks.poses().iter().enumerate() {
+        let own = setup.blocks[block].shape.parts().iter();
+        parts.extend(own.map(|part| (block, Placed::of(part, pose))));
+    }
+    let offsets = setup.period.as_ref().map_or(vec![DVec3::ZERO], offsets);
+    let of_part = |(block, part): &(usize, Placed)| {
+        let mut least: Option<Gap> = None;
+        for (other, its) in &parts {
+            // Each pair once; a block and itself only as images.
+            if other < block {
+                continue;
+            }
+            for offset in &offsets {
+                let apart = its.centre + *offset - part.centre;
+                let near = part.radius + its.radius + within;
+                if (other == block && *offset == DVec3::ZERO)
+                    || apart.length_squared() > near * near
+                {
+                    continue;
+                }
+                let image = Placed {
+                    centre: its.centre + *offset,
+                    ..its.clone()
+                };
+                let found = Gap {
+                    blocks: [*block, *other],
+                    width: distance(part, &image),
+                };
+                let known = least.map_or(within, |least| least.width);
+                if found.width < known && !found.is_closed(cell) {
+                    least = Some(found);
+                }
+            }
+        }
+        least
+    };
+    let fluid = parts.iter().filter(|(block, _)| *block < in_fluid);
+    let fluid: Vec<_> = fluid.collect();
+    let all: Vec<Option<Gap>> = fluid.into_par_iter().map(of_part).collect();
+    all.into_iter()
+        .flatten()
+        .min_by(|a, b| a.width.total_cmp(&b.width))
+}
+
+/// The offsets of a block and its neighbouring periodic images.
+fn offsets(period: &Period) -> Vec<DVec3> {
+    let mut offsets = vec![DVec3::ZERO];
+    for axis in (0..3).filter(|axis| period.size[*axis].is_finite()) {
+        let length = period.size[axis] * DVec3::AXES[axis];
+        let moved = offsets
+            .iter()
+            .flat_map(|offset| [*offset + length, *offset - length]);
+        let moved: Vec<DVec3> = moved.collect();
+        offsets.extend(moved);
+    }
+    offsets
+}
+
+/// The largest height of a part over the faces of `own`, m.
+fn max_height(own: &Placed, other: &Placed) -> f64 {
     let apart = other.centre - own.centre;
     let face = |face: &HalfSpace| match other.faces.is_empty() {
         true => face.height(apart) - other.radius,
@@ -90,35 +160,33 @@ fn beyond(own: &Placed, other: &Placed) -> f64 {
 }
 
 /// Distance of two parts, m.
-fn gap(a: &Placed, b: &Placed) -> f64 {
+fn distance(a: &Placed, b: &Placed) -> f64 {
     if a.faces.is_empty() && b.faces.is_empty() {
         return a.centre.distance(b.centre) - a.radius - b.radius;
     }
-    beyond(a, b).max(beyond(b, a))
+    max_height(a, b).max(max_height(b, a))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        block::{Polyhedron, Shape},
-        bodies::{Block, Material},
-        broadphase::HostBroadphase,
+        geometry::{Polyhedron, Shape},
+        rock::{Block, Material, broadphase::HostBroadphase},
     };
-    use glam::DVec3;
 
     #[test]
-    fn cubes_in_a_row_and_a_ball_on_them() {
+    fn gaps_of_cubes_in_a_row_and_a_sphere_above() {
         let cube: std::sync::Arc<Shape> =
             std::sync::Arc::new(Polyhedron::cuboid(DVec3::ONE).unwrap().into());
         let at = |name: &str, x: f64| Block::new(name, cube.clone(), DVec3::X * x);
-        let ball = Shape::sphere(0.25).unwrap();
+        let sphere = Shape::sphere(0.25).unwrap();
         let list = vec![
             at("first", 0.0),
             at("second", 1.03),
             at("far", 2.23),
-            Block::new("ball", ball, DVec3::new(0.0, 0.0, 0.8)),
-            // Solids: the gap between them is none.
+            Block::new("sphere", sphere, DVec3::new(0.0, 0.0, 0.8)),
+            // Two solids: the gap between them does not count.
             at("wall", -1.0).fixed(),
             at("other wall", -2.01).fixed(),
         ];
@@ -129,8 +197,8 @@ mod tests {
             ..Setup::default()
         };
         let blocks = Blocks::new(setup.clone()).unwrap();
-        let mut finder = HostBroadphase;
-        let found = gaps(&setup, &blocks, 4, 0.1, &mut finder);
+        let mut broadphase = HostBroadphase;
+        let found = gaps(&setup, &blocks, 4, 0.1, &mut broadphase);
         let found = pollster::block_on(found).unwrap();
         let pairs: Vec<_> = found.iter().map(|gap| gap.blocks).collect();
         assert_eq!(pairs, [[0, 1], [0, 3], [0, 4]]);
@@ -138,5 +206,33 @@ mod tests {
             assert!((gap.width - width).abs() < 1e-12, "{gap:?}");
             assert_eq!(gap.is_closed(0.1), width == 0.0);
         }
+    }
+
+    /// A cube of 1 m in a periodic domain along x, and a wall 0.3 m below it.
+    #[test]
+    fn a_block_is_its_own_neighbour_in_a_periodic_domain() {
+        let cube: std::sync::Arc<Shape> =
+            std::sync::Arc::new(Polyhedron::cuboid(DVec3::ONE).unwrap().into());
+        let at = |name: &str, x: DVec3| Block::new(name, cube.clone(), x);
+        let narrowest = |length: f64, within: f64| {
+            let setup = Setup {
+                blocks: vec![at("cube", DVec3::ZERO), at("wall", -1.3 * DVec3::Z).fixed()],
+                materials: vec![Material::default()],
+                time_step: Some(1e-3),
+                period: Some(Period {
+                    origin: DVec3::splat(-0.7),
+                    size: DVec3::new(length, f64::INFINITY, f64::INFINITY),
+                }),
+                ..Setup::default()
+            };
+            let blocks = Blocks::new(setup.clone()).unwrap();
+            super::narrowest(&setup, &blocks, (1, 0.1, within))
+        };
+        for (length, pair, width) in [(1.2, [0, 0], 0.2), (2.0, [0, 1], 0.3)] {
+            let found = narrowest(length, 0.6).unwrap();
+            assert_eq!(found.blocks, pair);
+            assert!((found.width - width).abs() < 1e-12, "{found:?}");
+        }
+        assert_eq!(narrowest(2.0, 0.25), None);
     }
 }

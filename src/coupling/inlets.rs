@@ -1,32 +1,33 @@
-//! Blocks that lie where fluid enters.
+//! Blocks in inflow cells.
 
 use super::Coupled;
 use crate::scene::{Advice, Boundary, Face, Scene, Warning};
 use crate::units::Units;
 
-/// A block on the centres of cells at a face whose velocity is given.
+/// A block that covers the centres of cells at a velocity face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct AtInlet {
+pub(crate) struct BlockAtInlet {
     pub block: usize,
     pub face: Face,
-    /// How many cells, and the first of them.
+    /// Number of cells.
     pub cells: usize,
+    /// The first of them.
     pub first: [u32; 3],
-    /// Largest velocity through them, in the unit of what was asked.
+    /// Largest normal velocity through them, in the unit of the given velocities.
     pub speed: f64,
 }
 
 impl Coupled {
-    /// The blocks in cells of velocity faces through which something flows; `through` has the velocity of each cell
+    /// The blocks in cells of velocity faces with a velocity other than zero; `through` has the velocity of each cell
     /// of such a face along its normal, lower axis fastest.
-    pub(crate) fn at_inlets(&self, through: &[(Face, Vec<f64>)]) -> Vec<AtInlet> {
-        let mut all: Vec<AtInlet> = Vec::new();
+    pub(crate) fn at_inlets(&self, through: &[(Face, Vec<f64>)]) -> Vec<BlockAtInlet> {
+        let mut all: Vec<BlockAtInlet> = Vec::new();
         if through.is_empty() {
             return all;
         }
-        let (cells, _) = self.immersed().domain();
-        for near in self.near(0.0) {
-            let at = near.near.cell;
+        let (cells, _) = self.solid_cells().domain();
+        for found in self.cells_near_blocks(0.0) {
+            let at = found.cell.index;
             let ijk = [
                 at % cells[0],
                 at / cells[0] % cells[1],
@@ -47,14 +48,14 @@ impl Coupled {
                 if speed == 0.0 {
                     continue;
                 }
-                let known = |found: &&mut AtInlet| found.block == near.block && found.face == *face;
+                let known = |at: &&mut BlockAtInlet| at.block == found.block && at.face == *face;
                 match all.iter_mut().find(known) {
-                    Some(found) => {
-                        found.cells += 1;
-                        found.speed = found.speed.max(speed);
+                    Some(known) => {
+                        known.cells += 1;
+                        known.speed = known.speed.max(speed);
                     }
-                    None => all.push(AtInlet {
-                        block: near.block,
+                    None => all.push(BlockAtInlet {
+                        block: found.block,
                         face: *face,
                         cells: 1,
                         first: ijk,
@@ -66,14 +67,14 @@ impl Coupled {
         all
     }
 
-    /// What is wrong with a block at an inlet, and what to do; `speed` in m/s.
-    pub(crate) fn inlet_trouble(&self, found: &AtInlet, speed: f64) -> [String; 2] {
+    /// Cause and remedy of a block at an inlet; `speed` in m/s.
+    pub(crate) fn inlet_message(&self, found: &BlockAtInlet, speed: f64) -> [String; 2] {
         let [x, y, z] = found.first;
         let (name, face) = (self.blocks().name(found.block), found.face.name());
         [
             format!(
                 "the block {name} lies in {} cells of the velocity face {face}, the first of them cell ({x}, {y}, {z}): \
-                 up to {speed:.3e} m/s enter there and cannot go on",
+                 it blocks an inflow of up to {speed:.3e} m/s",
                 found.cells
             ),
             format!(
@@ -83,26 +84,28 @@ impl Coupled {
         ]
     }
 
-    /// The blocks that now lie where fluid enters at the start, in the middle or at the end of the run.
-    pub(super) fn will_be_at_inlets(&self, scene: &Scene, units: &Units) -> Vec<AtInlet> {
+    /// The blocks in inflow cells at their present poses, with the velocities at the start, in the middle and at the end
+    /// of the run.
+    pub(super) fn blocks_at_inlets(&self, scene: &Scene, units: &Units) -> Vec<BlockAtInlet> {
         let length = scene.run.duration(units);
-        let given = |(face, boundary): (Face, &Boundary)| {
+        let velocity_face = |(face, boundary): (Face, &Boundary)| {
             matches!(boundary, Boundary::Velocity { .. }).then_some(face)
         };
-        // The largest one of each cell; a formula that is not finite later on is refused when its time comes.
+        // The largest speed of each cell. A formula that is not finite at a later time is an error at that time.
         let largest = |face: Face| {
             let mut all: Vec<f64> = Vec::new();
             for time in [0.0, 0.5 * length, length] {
                 let velocity = scene.face_velocity(face, time).unwrap_or_default();
-                let along = velocity.into_iter().map(|u| u[face.axis().index()].abs());
-                match all.is_empty() {
-                    true => all = along.collect(),
-                    false => all.iter_mut().zip(along).for_each(|(a, b)| *a = a.max(b)),
+                let speeds = velocity.into_iter().map(|u| u[face.axis().index()].abs());
+                if all.is_empty() {
+                    all = speeds.collect();
+                } else {
+                    all.iter_mut().zip(speeds).for_each(|(a, b)| *a = a.max(b));
                 }
             }
             (face, all)
         };
-        let faces = scene.boundaries.iter().filter_map(given);
+        let faces = scene.boundaries.iter().filter_map(velocity_face);
         let through: Vec<_> = faces
             .map(largest)
             .filter(|(_, all)| !all.is_empty())
@@ -110,10 +113,10 @@ impl Coupled {
         self.at_inlets(&through)
     }
 
-    /// Warns of blocks that lie where fluid enters.
+    /// Adds warnings about blocks in inflow cells.
     pub(super) fn warn_of_inlets(&self, advice: &mut Advice) {
-        for found in &self.began {
-            let [cause, remedy] = self.inlet_trouble(found, found.speed);
+        for found in &self.initial_inlet_blocks {
+            let [cause, remedy] = self.inlet_message(found, found.speed);
             advice.push(Warning {
                 place: format!("boundaries.{}", found.face.name()),
                 message: format!("{cause}, and the run may diverge; {remedy}"),
@@ -121,10 +124,10 @@ impl Coupled {
         }
     }
 
-    /// The first block that lay where fluid enters at the start.
-    pub(crate) fn began_at_inlet(&self) -> Option<[String; 2]> {
-        let found = self.began.first()?;
-        let [cause, remedy] = self.inlet_trouble(found, found.speed);
+    /// Cause and remedy of the first block in inflow cells at the start.
+    pub(crate) fn initial_inlet_message(&self) -> Option<[String; 2]> {
+        let found = self.initial_inlet_blocks.first()?;
+        let [cause, remedy] = self.inlet_message(found, found.speed);
         Some([format!("at the start {cause}"), remedy])
     }
 }

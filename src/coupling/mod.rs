@@ -1,52 +1,48 @@
 //! Blocks and a fluid together (Gardner & Sitar 2018, section 4): poses in, loads out.
 //!
-//! [`run`] is the loop, for any [`Fluid`]: poses in, loads out. [`Rock`] holds the blocks of a scene, tells the fluid where
-//! they are and how often they want to meet it, and moves them under what they felt, in as many sub-steps as their
-//! contacts want. [`Coupled`] has their cells in a lattice besides, whose fluid runs the bricks that they reach first, and
-//! the rest while their loads are read.
+//! [`run`] is the coupling loop for any [`Fluid`]. [`Rock`] holds the blocks of a scene, requests an exchange interval from
+//! the fluid, and advances the blocks under the loads of each exchange, in as many sub-steps as their contacts need.
+//! [`Coupled`] adds the cells of the blocks in a lattice ([`crate::psm`]). The lattice runs the bricks that contain blocks
+//! first, so that their loads are read while the other bricks run.
 //!
-//! Joints that hold no fluid to compute have files of their own. In the lattice, `joints` tells which faces are in one and
-//! `closed` what its water does, from the wet faces around it. Among particles, `sealed` does both: `rim` finds where a
-//! joint ends, `head` continues the pressure from there, `passed_on` carries it through a mass of blocks, and `across`
-//! is what particles themselves leave to do. `over` serves both: what lies over a face.
+//! Joints that the fluid does not resolve carry uplift. In a lattice, `uplift` fits the pressure in closed joints to the wet
+//! faces at their rims. In SPH water, `joint_seal` does so: `joint_rim` samples the rims, `rim_pressure` fits the pressure
+//! field and propagates it to blocks without a rim, and `kernel_deficit` is the part of the pressure that the particles
+//! miss. `joint_faces` serves both fluids: neighbours over a face, and the area that they cover.
 
-mod across;
+mod added_mass;
 mod advice;
-mod closed;
+mod async_readback;
+mod block_cells;
 mod coupled;
-mod faces;
-mod film;
-mod fluid;
+mod exchange;
+mod fluid_load;
 mod gaps;
-mod gathered;
-mod head;
-mod impedance;
 mod inlets;
-mod inner_fluid;
-mod joints;
-mod loads;
-mod near;
-mod over;
-mod passed_on;
-mod reading;
-mod rim;
+mod joint_faces;
+mod joint_rim;
+mod joint_seal;
+mod kernel_deficit;
+mod lattice_coupling;
+mod load_average;
+mod lubrication;
+mod rim_pressure;
 mod rock;
-mod sealed;
 mod state;
-mod wet;
+mod uplift;
 
-pub use closed::JointLoad;
+pub use added_mass::{AddedMass, InteriorInertia, MassProperties};
+pub use async_readback::{AsyncReadback, Copied};
+pub use block_cells::BlockCell;
 pub use coupled::{Coupled, Exchanges};
-pub use fluid::{Fluid, Pace, run};
+pub(crate) use exchange::longest_exchange;
+pub use exchange::{ExchangeInterval, Fluid, run};
+pub use fluid_load::{Ambient, FluidLoad};
 pub use gaps::Gap;
 pub(crate) use gaps::gaps;
-pub use gathered::Gathered;
-pub(crate) use impedance::longest_exchange;
-pub use inner_fluid::{Around, InnerFluid, Matter};
-pub use loads::Ambient;
-pub use near::BlockCell;
-pub use reading::Reading;
-pub use rock::{Company, Felt, Inside, Rock};
-pub(crate) use sealed::Sealed;
+pub(crate) use joint_seal::JointSeal;
+pub(crate) use lattice_coupling::LatticeCoupling;
+pub use load_average::LoadAverage;
+pub use rock::{CouplingParams, InteriorFluid, Rock};
 pub use state::CoupledState;
-pub(crate) use wet::Wet;
+pub use uplift::JointLoad;

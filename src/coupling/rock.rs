@@ -1,53 +1,46 @@
-//! The blocks of a scene beside its fluid, whichever that is.
+//! The blocks of a scene, coupled to any fluid.
 
-use super::{Around, InnerFluid, Matter, Pace, loads::sum};
+use super::{
+    AddedMass, ExchangeInterval, FluidLoad, InteriorInertia, MassProperties, fluid_load::add_loads,
+};
 use crate::{
     Result,
-    block::Shape,
-    bodies::{Block, Blocks, Load, Motion, Pose, Snapshot, skew},
-    broadphase::AutoBroadphase,
-    scene::Scene,
-    simulation::{self, BlockSetup},
+    geometry::{Load, Pose, Shape, skew},
+    rock::{Block, Blocks, Motion, Snapshot, broadphase::AutoBroadphase},
+    scene::{Scene, build::BlockSetup},
+    simulation,
 };
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
-/// Exchanges that are left out between two looks at the loads while every block rests.
-const REST: u64 = 16;
-/// Share of its weight by which the load on a sleeping block may change and leave it asleep: far above the rounding
-/// of sums over cells and the last swirls in still water, far below what moves a block.
-const STIR: f64 = 1e-3;
+/// Exchange intervals between two exchanges while every block is asleep.
+const ASLEEP_INTERVALS: u64 = 16;
+/// Change of the load on a sleeping block that does not wake it, as a fraction of its weight: far above the rounding
+/// of sums over cells and the last swirls in still water, far below the load that moves a block.
+const SLEEP_TOLERANCE: f64 = 1e-3;
 
-/// What a block feels of the fluid, the mean since the exchange before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Felt {
-    /// What the flow does: zero at rest where buoyancy is apart.
-    pub flow: Load,
-    /// Buoyancy, −ρ g Σε, of a fluid whose pressure is counted from the hydrostatic one.
-    pub buoyancy: Load,
-}
-
-/// What blocks want to know of their fluid.
+/// Parameters of the coupling of blocks to a fluid.
 #[derive(Clone, Copy, Debug)]
-pub struct Company {
-    /// Length of its steps, s: that of blocks that nothing pushes.
+pub struct CouplingParams {
+    /// Step of the fluid, s; also the step of blocks without free ones among them.
     pub time_step: f64,
     /// Blocks are held in all exchanges that begin before this time, s.
     pub hold: f64,
-    /// The fluid that is inside the blocks too; none where they displace it.
-    pub inside: Option<Inside>,
+    /// The fluid inside the blocks; `None` where blocks displace it.
+    pub inside: Option<InteriorFluid>,
 }
 
-/// A fluid that is inside of blocks too.
+/// A fluid that also fills the interior of blocks.
 #[derive(Clone, Copy, Debug)]
-pub struct Inside {
+pub struct InteriorFluid {
     /// Density, kg/m³.
     pub density: f64,
-    /// Thickness of the layer that goes along with a block between two exchanges, m: that of a cell.
+    /// Thickness of the viscous layer that moves with a block between two exchanges, m: at least a cell, or the diffusion
+    /// length in that time.
     pub layer: f64,
 }
 
-/// Blocks that feel a fluid.
+/// Blocks coupled to a fluid.
 #[derive(Debug)]
 pub struct Rock {
     pub(super) setup: BlockSetup,
@@ -55,62 +48,63 @@ pub struct Rock {
     pub(super) finder: AutoBroadphase,
     interval: u64,
     hold: f64,
-    inside: Option<Inside>,
-    /// What the fluid around each block is to it at most.
-    bounds: Vec<Around>,
-    pub(super) felt: Vec<Felt>,
-    around: Vec<Felt>,
-    pub(super) inner: Vec<InnerFluid>,
-    /// What blocks go back to if a step of theirs fails; its memory is used again.
-    good: (Snapshot, Vec<InnerFluid>),
-    met: u64,
-    /// What blocks, free and driven, have given up to the fluid since the start, J.
-    pub(crate) given: f64,
+    inside: Option<InteriorFluid>,
+    /// Upper bounds of the added mass of each block.
+    added_mass: Vec<AddedMass>,
+    pub(super) cell_load: Vec<FluidLoad>,
+    external_load: Vec<FluidLoad>,
+    pub(super) interior: Vec<InteriorInertia>,
+    /// State before an exchange, restored if it fails; kept to reuse its memory.
+    backup: (Snapshot, Vec<InteriorInertia>),
+    exchanges: u64,
+    /// Work of the free and driven blocks on the fluid since the start, J.
+    pub(crate) work_on_fluid: f64,
 }
 
 impl Rock {
     /// The blocks of a scene, as `setup` has them.
     ///
     /// # Errors
-    /// What the blocks lack.
+    /// Those of [`Blocks`] for an invalid setup.
     pub async fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene: &Scene,
         setup: BlockSetup,
-        company: Company,
+        params: CouplingParams,
     ) -> Result<Self> {
         let mut setup = setup;
         let free = |block: &Block| block.motion == Motion::Free;
         if setup.setup.time_step.is_none() && !setup.setup.blocks.iter().any(free) {
-            // No contact limits the step of blocks that nothing pushes.
-            setup.setup.time_step = Some(company.time_step);
+            // Without free blocks no contact limits the step.
+            setup.setup.time_step = Some(params.time_step);
         }
         let mut finder = simulation::finder(device, queue, scene.rock.search);
         let blocks = simulation::begin(scene, &setup, &mut finder).await?;
         Ok(Self {
             interval: scene.coupling.interval.into(),
-            hold: company.hold,
-            inside: company.inside,
-            bounds: company.inside.map_or_else(Vec::new, |inside| {
+            hold: params.hold,
+            inside: params.inside,
+            added_mass: params.inside.map_or_else(Vec::new, |inside| {
                 let shapes = setup.setup.blocks.iter().map(|block| &block.shape);
-                let around =
-                    |shape: &Arc<Shape>| Around::of(shape.volume(), shape.inertia(), inside.layer);
-                shapes.map(around).collect()
+                let bound = |shape: &Arc<Shape>| {
+                    AddedMass::bound(shape.volume(), shape.inertia(), inside.layer)
+                };
+                shapes.map(bound).collect()
             }),
-            felt: vec![Felt::default(); blocks.len()],
-            around: vec![Felt::default(); blocks.len()],
-            inner: vec![InnerFluid::default(); blocks.len()],
-            good: (Snapshot::default(), Vec::new()),
-            met: 0,
-            given: 0.0,
+            cell_load: vec![FluidLoad::default(); blocks.len()],
+            external_load: vec![FluidLoad::default(); blocks.len()],
+            interior: vec![InteriorInertia::default(); blocks.len()],
+            backup: (Snapshot::default(), Vec::new()),
+            exchanges: 0,
+            work_on_fluid: 0.0,
             setup,
             blocks,
             finder,
         })
     }
 
-    /// Where the blocks are and how they move: not at all while they are held.
+    /// Poses of the blocks; their velocities are zero while the blocks are held.
     pub fn poses(&self) -> Vec<Pose> {
         let mut poses = self.blocks.poses();
         if self.is_held() {
@@ -121,7 +115,7 @@ impl Rock {
         poses
     }
 
-    /// Whether they are held in an exchange that begins now.
+    /// Whether the blocks are held in an exchange that begins now.
     fn is_held(&self) -> bool {
         self.blocks.time() < self.hold
     }
@@ -131,64 +125,65 @@ impl Rock {
         (0..self.blocks.len()).any(|block| self.blocks.moves(block))
     }
 
-    /// How often they want to meet the fluid now.
-    pub fn pace(&self) -> Pace {
+    /// The interval until the next exchange.
+    pub fn exchange_interval(&self) -> ExchangeInterval {
         if !self.moves() {
-            return Pace::Still;
+            return ExchangeInterval::Static;
         }
         let mut all = self.blocks.asleep().enumerate();
-        match all.all(|(block, asleep)| asleep || !self.blocks.moves(block)) {
-            true => Pace::Asleep(self.interval * REST),
-            false => Pace::Awake(self.interval),
+        if all.all(|(block, asleep)| asleep || !self.blocks.moves(block)) {
+            ExchangeInterval::Asleep(self.interval * ASLEEP_INTERVALS)
+        } else {
+            ExchangeInterval::Awake(self.interval)
         }
     }
 
-    /// Fluid and blocks meet at the time `until` (s): these move on under what they felt since the last time.
+    /// Advances the blocks to the time `until` (s) under the mean loads since the previous exchange.
     ///
     /// # Errors
-    /// Those of [`Blocks::advance`]. The blocks then are where they were.
-    pub async fn meet(&mut self, felt: &[Felt], until: f64) -> Result<()> {
-        self.met += 1;
-        for (old, new) in self.felt.iter_mut().zip(felt) {
+    /// Those of [`Blocks::advance`]. The blocks then keep their state.
+    pub async fn exchange(&mut self, loads: &[FluidLoad], until: f64) -> Result<()> {
+        self.exchanges += 1;
+        for (old, new) in self.cell_load.iter_mut().zip(loads) {
             *old = *new;
         }
         if !self.moves() || self.is_held() {
-            self.around.clone_from(&self.felt);
+            self.external_load.clone_from(&self.cell_load);
             if self.moves() {
                 self.blocks.wait(until)?;
             }
             return Ok(());
         }
         let dt = until - self.blocks.time();
-        self.blocks.save(&mut self.good.0);
-        self.good.1.clone_from(&self.inner);
+        self.blocks.save(&mut self.backup.0);
+        self.backup.1.clone_from(&self.interior);
         let poses = self.blocks.poses();
         let mut loads: Vec<Load> = (0..poses.len())
             .map(|block| self.load(block, &poses[block], dt))
             .collect();
-        self.calm(&mut loads);
+        self.keep_sleeping_loads(&mut loads);
         let moved = match self.blocks.load(&loads) {
             Ok(()) => self.blocks.advance(&mut self.finder, until).await,
             refused => refused,
         };
         if moved.is_err() {
-            self.inner.clone_from(&self.good.1);
-            self.blocks.restore(&self.good.0)?;
+            self.interior.clone_from(&self.backup.1);
+            self.blocks.restore(&self.backup.0)?;
         } else {
-            let ways = poses.iter().zip(self.blocks.poses());
+            let moves = poses.iter().zip(self.blocks.poses());
             let work = |(load, (from, to)): (&Load, (&Pose, Pose))| load.work(from, &to);
-            self.given -= loads.iter().zip(ways).map(work).sum::<f64>();
-            self.look_around();
+            self.work_on_fluid -= loads.iter().zip(moves).map(work).sum::<f64>();
+            self.update_external_load();
         }
         moved
     }
 
-    /// Leaves sleeping blocks the loads that they have, unless theirs have changed so much that it matters.
-    fn calm(&self, loads: &mut [Load]) {
+    /// Leaves the previous loads on sleeping blocks unless the change exceeds [`SLEEP_TOLERANCE`].
+    fn keep_sleeping_loads(&self, loads: &mut [Load]) {
         let asleep = self.blocks.asleep().zip(self.blocks.loads());
         for (block, (load, (asleep, [force, torque]))) in loads.iter_mut().zip(asleep).enumerate() {
             let weight = self.blocks.mass(block) * self.blocks.gravity().length();
-            let scale = STIR * if weight > 0.0 { weight } else { force.length() };
+            let scale = SLEEP_TOLERANCE * if weight > 0.0 { weight } else { force.length() };
             let radius = self.setup.setup.blocks[block].shape.radius();
             if asleep
                 && (load.force - force).length() <= scale
@@ -199,82 +194,83 @@ impl Rock {
         }
     }
 
-    /// The whole load on a block, from the fluid around it and any inside it, over the last `dt` (s).
+    /// The total load on a block, of the fluid around it and of any inside it, over the last `dt` (s).
     fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
-        let felt = &self.felt[block];
+        let cell_load = &self.cell_load[block];
         let made = &self.setup.setup.blocks[block];
-        let Some(Inside { density, .. }) = self.inside else {
-            return sum(felt.flow, felt.buoyancy);
+        let Some(InteriorFluid { density, .. }) = self.inside else {
+            return add_loads(cell_load.flow, cell_load.buoyancy);
         };
         if made.motion != Motion::Free {
-            self.inner[block].follow(pose, dt);
-            return sum(felt.flow, felt.buoyancy);
+            self.interior[block].prescribe_motion(pose, dt);
+            return add_loads(cell_load.flow, cell_load.buoyancy);
         }
-        let matter = Matter {
+        let properties = MassProperties {
             mass: self.blocks.mass(block),
             volume: made.shape.volume(),
-            inertia: turned(pose, made.shape.inertia()),
+            inertia: rotated_inertia(pose, made.shape.inertia()),
             gravity: self.blocks.gravity(),
-            around: self.bounds[block],
+            added: self.added_mass[block],
         };
-        self.inner[block].load(felt, pose, &matter, density, dt)
+        self.interior[block].load(cell_load, pose, &properties, density, dt)
     }
 
-    /// Tells what the fluid outside does from what moved the blocks.
-    pub(super) fn look_around(&mut self) {
+    /// Separates the load of the exterior fluid from the load that moved the blocks.
+    pub(super) fn update_external_load(&mut self) {
         let held = self.is_held();
         let (loads, poses): (Vec<_>, _) = (self.blocks.loads().collect(), self.blocks.poses());
-        self.around.clone_from(&self.felt);
-        let Some(Inside { density, .. }) = self.inside.filter(|_| !held) else {
+        self.external_load.clone_from(&self.cell_load);
+        let Some(InteriorFluid { density, .. }) = self.inside.filter(|_| !held) else {
             return;
         };
-        for (block, felt) in self.around.iter_mut().enumerate() {
-            let (made, inner) = (&self.setup.setup.blocks[block], &self.inner[block]);
+        for (block, external) in self.external_load.iter_mut().enumerate() {
+            let (made, interior) = (&self.setup.setup.blocks[block], &self.interior[block]);
             match &made.motion {
-                Motion::Free if inner.knows() => {
+                Motion::Free if interior.is_initialised() => {
                     let [force, torque] = loads[block];
-                    let turn = torque - felt.buoyancy.torque() - felt.flow.torque();
-                    felt.flow.force = force - felt.buoyancy.force;
-                    felt.flow.moment += 0.5 * skew(turn);
+                    let torque = torque - external.buoyancy.torque() - external.flow.torque();
+                    external.flow.force = force - external.buoyancy.force;
+                    external.flow.moment += 0.5 * skew(torque);
                 }
                 Motion::Driven { .. } => {
                     let shape = &made.shape;
-                    let inertia = turned(&poses[block], shape.inertia());
-                    felt.flow = inner.around(felt, inertia, shape.volume(), density);
+                    let inertia = rotated_inertia(&poses[block], shape.inertia());
+                    external.flow =
+                        interior.external_load(external, inertia, shape.volume(), density);
                 }
                 _ => {}
             }
         }
     }
 
-    /// What the fluid around each block does to it, of the last exchange: what moves it beside its weight and its contacts,
-    /// without the inertia of the fluid inside its cells, which [`Rock::felt`] has.
-    pub fn around(&self) -> &[Felt] {
-        &self.around
+    /// The load of the exterior fluid on each block at the last exchange: the load that moves it besides weight and
+    /// contacts. It excludes the inertia of the fluid inside the cells of the block, which [`Rock::cell_load`] includes.
+    pub fn external_load(&self) -> &[FluidLoad] {
+        &self.external_load
     }
 
-    /// What each block feels of the fluid, of the last exchange: what its cells take up, the inertia of the fluid inside
-    /// them included.
-    pub fn felt(&self) -> &[Felt] {
-        &self.felt
+    /// The load of the fluid on each block at the last exchange, summed over its cells; it includes the inertia of the
+    /// fluid inside them.
+    pub fn cell_load(&self) -> &[FluidLoad] {
+        &self.cell_load
     }
 
-    /// The blocks as they are.
+    /// The blocks in their present state.
     pub fn blocks(&self) -> &Blocks {
         &self.blocks
     }
 
-    /// The blocks as they were made.
+    /// The setup of the blocks.
     pub fn setup(&self) -> &BlockSetup {
         &self.setup
     }
 
-    /// How often fluid and blocks met, or were asked for.
-    pub fn meetings(&self) -> u64 {
-        self.met
+    /// Number of exchanges since the start or the last restart.
+    pub fn exchange_count(&self) -> u64 {
+        self.exchanges
     }
 
-    /// Goes back, or on, to a state of the same blocks.
+    /// Sets the state of the blocks to a snapshot of the same blocks.
     ///
     /// # Errors
     /// [`crate::Error::Scene`] if it is of other blocks.
@@ -285,7 +281,7 @@ impl Rock {
     }
 }
 
-/// A tensor of inertia as a body was made, as it lies.
-fn turned(pose: &Pose, inertia: DMat3) -> DMat3 {
+/// The inertia tensor of a body in its present orientation.
+fn rotated_inertia(pose: &Pose, inertia: DMat3) -> DMat3 {
     pose.deformation * inertia * pose.deformation.transpose()
 }

@@ -1,22 +1,23 @@
-//! The blocks in a fluid between two steps, whole.
+//! The state of coupled blocks between two steps.
 
-use super::{Coupled, Felt, Gathered, InnerFluid};
+use super::{Coupled, FluidLoad, InteriorInertia, LoadAverage};
 use crate::{
     Error, Result,
-    bodies::{Load, Pose, Snapshot},
+    geometry::{Load, Pose},
+    rock::Snapshot,
 };
 use glam::{DMat3, DVec3};
 
 /// Numbers of a load.
 const LOAD: usize = 20;
-/// Numbers of a pose at rest, with one that says whether there is one.
+/// Numbers of an optional pose without velocities: a flag, position and deformation.
 const POSE: usize = 13;
-/// Numbers of a block: its inner fluid, four loads, a pose.
+/// Numbers of a block: its interior inertia, four loads, a pose.
 const BLOCK: usize = 13 + 4 * LOAD + POSE;
-/// Bytes before the blocks: the last step that was read, the steps since the last exchange, the blocks.
+/// Bytes of the header: the last step that was read, the steps since the last exchange, the number of blocks.
 const HEADER: usize = 24;
 
-/// Everything that the next steps of blocks in a fluid depend on beside the fluid.
+/// The state of blocks in a fluid, without the fluid: everything on which their next steps depend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoupledState {
     /// The blocks.
@@ -30,17 +31,18 @@ pub struct CoupledState {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct BlockState {
-    inner: InnerFluid,
-    /// Of the last step that was read, and the sum since the last exchange.
+    interior: InteriorInertia,
+    /// Load of the last step that was read.
     last: Load,
+    /// Sum of the loads since the last exchange.
     sum: Load,
-    felt: Felt,
-    /// Where its tiles were found: sums of loads are rounded tile by tile.
+    cell_load: FluidLoad,
+    /// Pose of its last tile search: the tiles determine the order of summation, and so the rounding of loads.
     tiled: Option<Pose>,
 }
 
 impl CoupledState {
-    /// As bytes, the same on every machine.
+    /// The state as bytes, independent of the machine.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         for word in [self.last, self.steps, self.blocks.len() as u64] {
@@ -53,12 +55,17 @@ impl CoupledState {
         bytes
     }
 
-    /// From what [`CoupledState::to_bytes`] gave.
+    /// The inverse of [`CoupledState::to_bytes`].
     ///
     /// # Errors
-    /// [`Error::Scene`] if the bytes are none, or are cut short.
+    /// [`Error::Scene`] if the bytes are invalid or truncated.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let cut = || Error::scene("blocks", "the state of the blocks is cut short");
+        let cut = || {
+            Error::scene(
+                "blocks",
+                "the state of the blocks is truncated; use a complete checkpoint",
+            )
+        };
         let word = |at: usize| -> Result<u64> {
             let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
             part.map(u64::from_le_bytes).ok_or_else(cut)
@@ -86,17 +93,17 @@ impl CoupledState {
 impl BlockState {
     fn to_numbers(self) -> [f64; BLOCK] {
         let Self {
-            inner,
+            interior,
             last,
             sum,
-            felt,
+            cell_load,
             tiled,
         } = self;
         let mut all = [0.0; BLOCK];
         let (head, rest) = all.split_at_mut(13);
-        head.copy_from_slice(&inner.to_numbers());
+        head.copy_from_slice(&interior.to_numbers());
         let (loads, pose) = rest.split_at_mut(4 * LOAD);
-        let each = [last, sum, felt.flow, felt.buoyancy];
+        let each = [last, sum, cell_load.flow, cell_load.buoyancy];
         for (place, load) in loads.chunks_exact_mut(LOAD).zip(each) {
             place.copy_from_slice(&load_numbers(&load));
         }
@@ -112,10 +119,10 @@ impl BlockState {
         let load = |n: usize| load_from(&all[13 + n * LOAD..][..LOAD]);
         let pose = &all[13 + 4 * LOAD..];
         Self {
-            inner: InnerFluid::from_numbers(&std::array::from_fn(|k| all[k])),
+            interior: InteriorInertia::from_numbers(&std::array::from_fn(|k| all[k])),
             last: load(0),
             sum: load(1),
-            felt: Felt {
+            cell_load: FluidLoad {
                 flow: load(2),
                 buoyancy: load(3),
             },
@@ -130,22 +137,22 @@ impl BlockState {
 }
 
 impl Coupled {
-    /// The present state, for a later [`Coupled::restore`]; waits for the loads that are on their way.
+    /// The present state, for a later [`Coupled::restore`]; waits for the loads in flight.
     ///
     /// # Errors
     /// If the device is lost.
     pub async fn state(&mut self) -> Result<CoupledState> {
-        let (rock, wet) = self.sides();
-        wet.read_loads().await?;
-        let Gathered { last, sum, steps } = &wet.gathered;
-        let known = last.as_ref().map_or(&[][..], |(_, loads)| loads);
+        let (rock, coupling) = self.rock_and_coupling();
+        coupling.read_loads().await?;
+        let LoadAverage { last, sum, steps } = &coupling.load_average;
+        let last_loads = last.as_ref().map_or(&[][..], |(_, loads)| loads);
         let of = |loads: &[Load], block: usize| loads.get(block).copied().unwrap_or_default();
-        let tiled = wet.immersed.tiled();
+        let tiled = coupling.cells.tiled();
         let block = |block: usize| BlockState {
-            inner: rock.inner[block],
-            last: of(known, block),
+            interior: rock.interior[block],
+            last: of(last_loads, block),
             sum: of(sum, block),
-            felt: rock.felt[block],
+            cell_load: rock.cell_load[block],
             tiled: tiled.get(block).copied().flatten(),
         };
         Ok(CoupledState {
@@ -156,38 +163,38 @@ impl Coupled {
         })
     }
 
-    /// Goes back, or on, to a state of the same blocks: the next steps give the same bits.
+    /// Restores a state of the same blocks: the next steps yield the same bits.
     ///
     /// # Errors
     /// [`Error::Scene`] if it is of other blocks.
     pub fn restore(&mut self, state: &CoupledState) -> Result<()> {
         let in_fluid = self.in_fluid();
-        let (rock, wet) = self.sides();
+        let (rock, coupling) = self.rock_and_coupling();
         if state.blocks.len() != rock.blocks.len() {
             let message = format!(
-                "it holds {} blocks, these are {} of another scene",
+                "the state holds {} blocks, but the scene has {}; use a checkpoint of this scene",
                 state.blocks.len(),
                 rock.blocks.len()
             );
             return Err(Error::scene("restart", message));
         }
         rock.restore(&state.snapshot)?;
-        wet.reading.forget();
-        wet.face_reading.forget();
-        wet.faces.clear();
+        coupling.load_readback.discard();
+        coupling.face_readback.discard();
+        coupling.face_loads.clear();
         let blocks = &state.blocks[..in_fluid];
         let last = || blocks.iter().map(|block| block.last).collect();
-        wet.gathered = Gathered {
+        coupling.load_average = LoadAverage {
             last: (state.last > 0).then(|| (state.last, last())),
             sum: blocks.iter().map(|block| block.sum).collect(),
             steps: state.steps,
         };
-        rock.inner = state.blocks.iter().map(|block| block.inner).collect();
-        rock.felt = state.blocks.iter().map(|block| block.felt).collect();
-        rock.look_around();
+        rock.interior = state.blocks.iter().map(|block| block.interior).collect();
+        rock.cell_load = state.blocks.iter().map(|block| block.cell_load).collect();
+        rock.update_external_load();
         let tiled: Vec<_> = blocks.iter().map(|block| block.tiled).collect();
-        wet.immersed.tile(&tiled);
-        wet.placed = None;
+        coupling.cells.tile(&tiled);
+        coupling.placed = None;
         Ok(())
     }
 }

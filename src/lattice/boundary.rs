@@ -1,7 +1,8 @@
 //! The passes that complete the populations of cells at walls and open faces.
 
 use super::{
-    Face, Lattice, Link,
+    CellPass, Face, Lattice, Link, OpenFace,
+    cell_kernels::{CellDispatch, uniform},
     fluid::{Dispatch, storage},
     stages::LAST_STAGE,
 };
@@ -9,22 +10,24 @@ use crate::Result;
 use std::ops::Range;
 
 impl Lattice {
-    /// All of a step, in their order: see [`super::stages::Stages`].
-    pub(super) fn boundary_passes(
-        &self,
-        device: &wgpu::Device,
-        odd: bool,
-    ) -> Result<Vec<Dispatch>> {
+    /// All of a step of the given parity, in their order: see [`super::stages::Stages`].
+    pub(super) fn boundary_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = Vec::new();
         let limit = device.limits().max_storage_buffer_binding_size as usize;
         let geometry = &self.geometry;
         let program = self.cell_program("links");
         for links in geometry.links.chunks(limit / size_of::<Link>()) {
             let list = storage(device, "links", bytemuck::cast_slice(links));
-            for &half in self.halves() {
-                let extra: (&[_], &[_]) = (&[("links", &list)], &[("HALF", half)]);
-                let n = links.len() as u32;
-                passes.push(self.cell_dispatch(device, &program, "reflect", odd, extra, n)?);
+            for half in self.halves() {
+                let dispatch = CellDispatch {
+                    program: &program,
+                    entry: "reflect",
+                    pass: cell_pass(odd, half, &(0..links.len())),
+                    buffers: &[("links", &list)],
+                    constants: &[],
+                    invocations: links.len() as u32,
+                };
+                passes.push(self.cell_dispatch(device, &dispatch)?);
             }
         }
         let moving = storage(
@@ -35,13 +38,15 @@ impl Lattice {
         for stage in 0..=LAST_STAGE {
             for (face, (_, _, cells)) in geometry.open.iter().enumerate() {
                 let range = geometry.stages.range(cells, stage);
-                for &half in self.halves() {
-                    passes.extend(self.open_pass(device, odd, face, Pass::Apply(half), &range)?);
+                for half in self.halves() {
+                    let pass = cell_pass(odd, half, &range);
+                    passes.extend(self.open_pass(device, face, Action::Apply, pass)?);
                 }
             }
             let range = geometry.stages.range(&geometry.moving, stage);
-            for &half in self.halves() {
-                passes.extend(self.moving_pass(device, odd, &moving, half, &range)?);
+            for half in self.halves() {
+                let pass = cell_pass(odd, half, &range);
+                passes.extend(self.moving_pass(device, &moving, pass)?);
             }
         }
         passes.extend(self.remember_passes(device, odd)?);
@@ -49,16 +54,12 @@ impl Lattice {
     }
 
     /// What outflow faces carry from the present state, which is complete, to the next step.
-    pub(super) fn remember_passes(
-        &self,
-        device: &wgpu::Device,
-        odd: bool,
-    ) -> Result<Vec<Dispatch>> {
+    pub(super) fn remember_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = Vec::new();
         for (face, (axis, side, cells)) in self.geometry.open.iter().enumerate() {
             if let Face::Outflow { .. } = self.setup.faces[*axis][*side] {
-                let all = 0..cells.len();
-                passes.extend(self.open_pass(device, odd, face, Pass::Remember, &all)?);
+                let pass = cell_pass(odd, 0, &(0..cells.len()));
+                passes.extend(self.open_pass(device, face, Action::Remember, pass)?);
             }
         }
         Ok(passes)
@@ -68,34 +69,30 @@ impl Lattice {
     fn moving_pass(
         &self,
         device: &wgpu::Device,
-        odd: bool,
         list: &wgpu::Buffer,
-        half: f64,
-        range: &Range<usize>,
+        pass: CellPass,
     ) -> Result<Option<Dispatch>> {
-        if range.is_empty() {
+        if pass.first >= pass.end {
             return Ok(None);
         }
-        let program = self.cell_program("moving_wall");
-        let numbers = [
-            ("HALF", half),
-            ("FROM", range.start as f64),
-            ("TO", range.end as f64),
-        ];
-        let extra: (&[_], &[_]) = (&[("moving_cells", list)], &numbers);
-        let n = range.len() as u32;
-        let pass = self.cell_dispatch(device, &program, "move_wall", odd, extra, n)?;
-        Ok(Some(pass))
+        let dispatch = CellDispatch {
+            program: &self.cell_program("moving_wall"),
+            entry: "move_wall",
+            pass,
+            buffers: &[("moving_cells", list)],
+            constants: &[],
+            invocations: pass.end - pass.first,
+        };
+        Ok(Some(self.cell_dispatch(device, &dispatch)?))
     }
 
     /// One pass over cells of a pressure or outflow face.
     fn open_pass(
         &self,
         device: &wgpu::Device,
-        odd: bool,
         face: usize,
-        pass: Pass,
-        range: &Range<usize>,
+        action: Action,
+        pass: CellPass,
     ) -> Result<Option<Dispatch>> {
         let (axis, side, _) = self.geometry.open[face];
         let (file, apply, density) = match self.setup.faces[axis][side] {
@@ -103,46 +100,58 @@ impl Lattice {
             Face::Outflow { density } => ("outflow", "flow_out", density),
             _ => return Ok(None),
         };
-        if range.is_empty() {
+        if pass.first >= pass.end {
             return Ok(None);
         }
-        let (entry, half) = match pass {
-            Pass::Apply(half) => (apply, half),
-            Pass::Remember => ("remember", 0.0),
-        };
         // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
         // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
         // twenty passages of sound, slow enough not to ring.
         let length = f64::from(self.grid.cells[axis]);
         let hold = 0.4 / length;
-        let integral = 0.05 * hold / length;
         let mut normal = [0.0; 3];
         normal[axis] = if side == 0 { -1.0 } else { 1.0 };
-        let numbers = [
-            ("HALF", half),
-            ("FROM", range.start as f64),
-            ("TO", range.end as f64),
-            ("FACE_DENSITY", density),
-            ("HOLD", hold),
-            ("INTEGRAL", integral),
-            ("NORMAL_X", normal[0]),
-            ("NORMAL_Y", normal[1]),
-            ("NORMAL_Z", normal[2]),
-        ];
+        let open_face = OpenFace {
+            normal,
+            density: density as f32,
+            hold: hold as f32,
+            integral: (0.05 * hold / length) as f32,
+            ..OpenFace::default()
+        };
         let (list, carried) = &self.buffers.open_faces[face];
-        let buffers = [("face_cells", list), ("carried", carried)];
-        let (extra, n) = ((&buffers[..], &numbers[..]), range.len() as u32);
-        let program = self.cell_program(file);
-        let dispatch = self.cell_dispatch(device, &program, entry, odd, extra, n)?;
-        Ok(Some(dispatch))
+        let dispatch = CellDispatch {
+            program: &self.cell_program(file),
+            entry: match action {
+                Action::Apply => apply,
+                Action::Remember => "remember",
+            },
+            pass,
+            buffers: &[
+                ("face_cells", list),
+                ("carried", carried),
+                ("open_face", &uniform(device, "open face", &open_face)),
+            ],
+            constants: &[],
+            invocations: pass.end - pass.first,
+        };
+        Ok(Some(self.cell_dispatch(device, &dispatch)?))
+    }
+}
+
+/// The pass over a range of cells, which writes one half of the words of 16-bit storage.
+fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
+    CellPass {
+        odd,
+        half,
+        first: range.start as u32,
+        end: range.end as u32,
     }
 }
 
 /// What a pass over an open face does.
 #[derive(Clone, Copy)]
-enum Pass {
-    /// Writes what enters, with 16-bit storage one half of each word.
-    Apply(f64),
+enum Action {
+    /// Writes what enters.
+    Apply,
     /// Keeps what the next step needs.
     Remember,
 }

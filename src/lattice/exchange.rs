@@ -1,7 +1,11 @@
 //! Populations in canonical order: what a checkpoint holds.
 
-use super::{Lattice, constants, fluid, fluid::GUARD_START};
-use crate::{Error, Result, kernel::Kernel, readback::Readback};
+use super::{CellPass, Lattice, cell_kernels::uniform, fluid, fluid::GUARD_START};
+use crate::{
+    Error, Result,
+    gpu::{kernel::Kernel, readback::Readback},
+};
+use std::sync::Arc;
 
 /// The full state of a fluid: no parity, no padding, no lanes, shifted by the weights, so that it
 /// restarts under any storage, lane or binding count.
@@ -33,7 +37,7 @@ impl Lattice {
         let buffer = fluid::result_buffer(device, "canonical", 4 * cells as u64);
         let mut readback = Readback::default();
         let mut values = Vec::with_capacity(27 * cells);
-        let out = self.exchange(device, "take_out", 0.0)?;
+        let out = self.exchange(device, "take_out", 0)?;
         for q in 0..27u32 {
             let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
             let mut encoder = device.create_command_encoder(&Default::default());
@@ -120,9 +124,9 @@ impl Lattice {
         if let [x, y, z] = state.velocity.chunks(cells.max(1)).collect::<Vec<_>>()[..] {
             self.set_velocity_before(queue, &[x.to_vec(), y.to_vec(), z.to_vec()]);
         }
-        let halves = self.halves().iter();
-        let into: Vec<_> = halves
-            .map(|&half| self.exchange(device, "bring_in", half))
+        let into: Vec<_> = self
+            .halves()
+            .map(|half| self.exchange(device, "bring_in", half))
             .collect::<Result<_>>()?;
         for (q, values) in (0..27u32).zip(state.values.chunks(cells)) {
             let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
@@ -130,8 +134,8 @@ impl Lattice {
             let mut encoder = device.create_command_encoder(&Default::default());
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
-                for kernel in &into {
-                    self.record_exchange(device, kernel, &mut pass, &direction, &buffer)?;
+                for exchange in &into {
+                    self.record_exchange(device, exchange, &mut pass, &direction, &buffer)?;
                 }
             }
             queue.submit([encoder.finish()]);
@@ -145,29 +149,44 @@ impl Lattice {
         Ok(())
     }
 
-    fn exchange(&self, device: &wgpu::Device, entry: &str, half: f64) -> Result<Kernel> {
-        let mut constants = constants(&self.setup, &self.grid, self.parity() == 1);
-        constants.push(("HALF", half));
-        Kernel::new(
-            device,
-            &self.cell_program("exchange").link()?,
-            entry,
-            &constants,
-        )
+    fn exchange(&self, device: &wgpu::Device, entry: &'static str, half: u32) -> Result<Exchange> {
+        let odd = self.parity() as u32;
+        let pass = CellPass {
+            odd,
+            half,
+            ..CellPass::default()
+        };
+        Ok(Exchange {
+            kernel: self.cell_kernel(device, &self.cell_program("exchange"), entry, &[])?,
+            pass: uniform(device, "cell pass", &pass),
+        })
     }
 
     fn record_exchange(
         &self,
         device: &wgpu::Device,
-        kernel: &Kernel,
+        Exchange {
+            kernel,
+            pass: cell_pass,
+        }: &Exchange,
         pass: &mut wgpu::ComputePass<'_>,
         direction: &wgpu::Buffer,
         canonical: &wgpu::Buffer,
     ) -> Result<()> {
-        let mut buffers = vec![("direction", direction), ("canonical", canonical)];
+        let mut buffers = vec![
+            ("direction", direction),
+            ("canonical", canonical),
+            ("cell_pass", cell_pass),
+        ];
         buffers.extend(self.buffers.named(self.parity() == 1));
         let bind = kernel.bind(device, &buffers)?;
         kernel.record(pass, &bind, (self.grid.cell_count() as u32).div_ceil(64));
         Ok(())
     }
+}
+
+/// A kernel that copies one direction, for one half of the words.
+struct Exchange {
+    kernel: Arc<Kernel>,
+    pass: wgpu::Buffer,
 }

@@ -1,26 +1,30 @@
 //! The fluid on a device: its buffers, its kernels, and what a step records.
 
 use super::{
-    Face, Force, Geometry, Grid, Setup, Storage,
+    Face, Force, Geometry, Grid, Setup,
+    cell_kernels::CellKernels,
     check::finite,
     geometry::{FaceCell, MovingCell},
-    populations, program,
+    populations,
     streams::Streams,
 };
-use crate::{Error, Result, filled::filled, kernel::Kernel, link::Program};
-use std::collections::HashSet;
+use crate::{
+    Error, Result,
+    gpu::{filled::filled, kernel::Kernel},
+};
+use std::{collections::HashSet, sync::Arc};
 
 /// A dispatch that is ready to be recorded.
 #[derive(Debug)]
 pub(super) struct Dispatch {
-    kernel: Kernel,
+    kernel: Arc<Kernel>,
     bind: wgpu::BindGroup,
     groups: u32,
 }
 
 impl Dispatch {
     /// `groups` workgroups of a kernel with its buffers.
-    pub(super) fn new(kernel: Kernel, bind: wgpu::BindGroup, groups: u32) -> Self {
+    pub(super) fn new(kernel: Arc<Kernel>, bind: wgpu::BindGroup, groups: u32) -> Self {
         Self {
             kernel,
             bind,
@@ -47,6 +51,8 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
+    /// Kernels for single cells.
+    pub(super) cells: CellKernels,
     /// Collision and streaming.
     pub(super) streams: Streams,
     /// Steps recorded.
@@ -94,9 +100,6 @@ impl Buffers {
     }
 }
 
-/// Buffers and numbers of a kernel beside those of the fluid, by their names in WGSL.
-pub(super) type Extra<'a> = (&'a [(&'a str, &'a wgpu::Buffer)], &'a [(&'static str, f64)]);
-
 /// The guard's memory before the first step: no step counted, no cell at fault.
 pub(super) const GUARD_START: [u32; 4] = [0, 0, u32::MAX, u32::MAX];
 
@@ -124,6 +127,7 @@ impl Lattice {
         let mut lattice = Self {
             bindings: memory.bindings,
             boundary: [Vec::new(), Vec::new()],
+            cells: CellKernels::default(),
             streams,
             setup,
             grid,
@@ -132,8 +136,8 @@ impl Lattice {
             step: 0,
             closed: false,
         };
-        for odd in [false, true] {
-            lattice.boundary[usize::from(odd)] = lattice.boundary_passes(device, odd)?;
+        for odd in [0, 1] {
+            lattice.boundary[odd as usize] = lattice.boundary_passes(device, odd)?;
         }
         Ok(lattice)
     }
@@ -169,7 +173,7 @@ impl Lattice {
         let parity = usize::from(odd);
         let boundary = self.boundary[parity].iter();
         boundary
-            .map(|dispatch| (&dispatch.kernel, dispatch.groups))
+            .map(|dispatch| (&*dispatch.kernel, dispatch.groups))
             .chain(self.streams.kernels(parity))
     }
 
@@ -212,7 +216,6 @@ impl Lattice {
         let Self {
             streams,
             setup,
-            grid,
             geometry,
             buffers,
             ..
@@ -227,11 +230,11 @@ impl Lattice {
             let message = format!("brick {bad} is listed twice; list each brick once");
             return Err(Error::scene("bricks", message));
         }
-        streams.set(device, queue, (setup, grid, geometry, buffers), bricks)
+        streams.set(device, queue, (setup, geometry, buffers), bricks)
     }
 
     /// What blocks leave of the cells of the bricks that they reach, in the order of
-    /// [`Lattice::set_saturated`], laid out as `kernels/lattice/saturation_cells.wgsl` says. Another
+    /// [`Lattice::set_saturated`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
     /// buffer after that call, if it had to grow.
     pub fn saturation(&self) -> Option<&wgpu::Buffer> {
         self.streams.saturation()
@@ -290,38 +293,6 @@ impl Lattice {
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&table));
         }
         Ok(())
-    }
-
-    /// A program for single cells, with the slots that the setup decides.
-    pub(super) fn cell_program(&self, entry: &str) -> Program {
-        program::single_cells(&self.setup, self.bindings, entry)
-    }
-
-    /// A dispatch of a kernel for single cells; `extra` adds buffers and numbers.
-    pub(super) fn cell_dispatch(
-        &self,
-        device: &wgpu::Device,
-        program: &Program,
-        entry: &str,
-        odd: bool,
-        extra: Extra<'_>,
-        invocations: u32,
-    ) -> Result<Dispatch> {
-        let mut constants = program::constants(&self.setup, &self.grid, odd);
-        constants.extend(extra.1);
-        let kernel = Kernel::new(device, &program.link()?, entry, &constants)?;
-        let mut buffers = extra.0.to_vec();
-        buffers.extend(self.buffers.named(odd));
-        let bind = kernel.bind(device, &buffers)?;
-        Ok(Dispatch::new(kernel, bind, invocations.div_ceil(64)))
-    }
-
-    /// For each half of the words that 16-bit storage shares between cells, or once.
-    pub(super) fn halves(&self) -> &'static [f64] {
-        match self.setup.storage {
-            Storage::F32 => &[0.0],
-            Storage::F16 => &[0.0, 1.0],
-        }
     }
 }
 

@@ -1,17 +1,25 @@
 //! Reading fields where somebody looks, and nowhere else.
 
 use super::{Lattice, fluid};
-use crate::{Error, Result, kernel::Kernel, readback::Readback};
+use crate::{
+    Error, Result,
+    gpu::{kernel::Kernel, readback::Readback},
+};
+use std::sync::Arc;
 
 /// Copies values of listed cells together before they leave the device.
 #[derive(Debug)]
-pub(super) struct Gather(Kernel);
+pub(super) struct Gather(Arc<Kernel>);
 
 impl Gather {
     pub(super) fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
-        let linked = lattice.cell_program("gather").link()?;
-        let constants = super::constants(&lattice.setup, &lattice.grid, false);
-        Ok(Self(Kernel::new(device, &linked, "gather", &constants)?))
+        let program = lattice.cell_program("gather");
+        Ok(Self(lattice.cell_kernel(
+            device,
+            &program,
+            "gather",
+            &[],
+        )?))
     }
 
     /// `field` on `cells`, which are places in it.

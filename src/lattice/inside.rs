@@ -1,7 +1,8 @@
 //! Velocities in cells with solid, from one run to the next.
 
-use super::{Grid, Lattice, Observer, constants, fluid::storage, observe::VELOCITY_OUT};
-use crate::{Error, Result, kernel::Kernel};
+use super::{Grid, Lattice, Observer, fluid::storage, observe::VELOCITY_OUT};
+use crate::{Error, Result, gpu::kernel::Kernel};
+use std::sync::Arc;
 
 /// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,7 +36,7 @@ impl Inside {
 pub(super) struct Kept {
     step: u64,
     /// None without cells.
-    dispatch: Option<(Kernel, wgpu::BindGroup, u32)>,
+    dispatch: Option<(Arc<Kernel>, wgpu::BindGroup, u32)>,
 }
 
 impl Kept {
@@ -100,9 +101,8 @@ impl Observer {
         let dispatch = match inside.cells.len() as u32 {
             0 => None,
             count => {
-                let program = lattice.cell_program("inside_kept").link()?;
-                let constants = constants(&lattice.setup, &lattice.grid, false);
-                let kernel = Kernel::new(device, &program, "inside_kept", &constants)?;
+                let program = lattice.cell_program("inside_kept");
+                let kernel = lattice.cell_kernel(device, &program, "inside_kept", &[])?;
                 let cells = storage(device, "kept cells", bytemuck::cast_slice(&inside.cells));
                 let velocity = bytemuck::cast_slice(&inside.velocity);
                 let velocity = storage(device, "kept velocity", velocity);

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod bytes;
+mod cell_kernels;
 mod check;
 mod exchange;
 mod fluid;
@@ -20,6 +21,7 @@ mod stream_only;
 mod streams;
 mod traffic;
 
+pub use cell_kernels::{CellPass, OpenFace};
 pub use exchange::Populations;
 pub use fluid::{Lattice, face_name, in_plane};
 pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};

@@ -1,13 +1,17 @@
 //! Density, velocity and what follows from them: fields, sums, the guard.
 
 use super::{
-    Lattice, State,
-    fluid::{Dispatch, Extra, result_buffer},
+    CellPass, Lattice, State,
+    cell_kernels::CellDispatch,
+    fluid::{Dispatch, result_buffer},
     gather::Gather,
     inside::Kept,
-    program,
 };
-use crate::{Error, Result, kernel::Kernel, readback::Readback};
+use crate::{
+    Error, Result,
+    gpu::{kernel::Kernel, readback::Readback},
+};
+use std::sync::Arc;
 
 /// A number that follows from the velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +81,7 @@ pub struct Observer {
     sums: Option<(wgpu::Buffer, Dispatch)>,
     macroscopic: [Dispatch; 2],
     /// Where blocks may be.
-    inside_solids: Option<(wgpu::Device, Kernel)>,
+    inside_solids: Option<(wgpu::Device, Arc<Kernel>)>,
     /// Since a restart.
     pub(super) kept: Option<Kept>,
     gather: Gather,
@@ -101,15 +105,24 @@ impl Observer {
         buffers.extend(VELOCITY_OUT.into_iter().zip(&velocity));
         let program = lattice.cell_program("macroscopic");
         let make = |odd| {
-            let extra: Extra<'_> = (&buffers, &[("HALF", 0.0)]);
-            lattice.cell_dispatch(device, &program, "macroscopic", odd, extra, cells as u32)
+            let dispatch = CellDispatch {
+                program: &program,
+                entry: "macroscopic",
+                pass: CellPass {
+                    odd,
+                    ..CellPass::default()
+                },
+                buffers: &buffers,
+                constants: &[],
+                invocations: cells as u32,
+            };
+            lattice.cell_dispatch(device, &dispatch)
         };
-        let macroscopic = [make(false)?, make(true)?];
+        let macroscopic = [make(0)?, make(1)?];
         let inside_solids = match lattice.saturation() {
             Some(_) => {
-                let program = lattice.cell_program("inside_solids").link()?;
-                let constants = program::constants(&lattice.setup, &lattice.grid, false);
-                let kernel = Kernel::new(device, &program, "inside_solids", &constants)?;
+                let program = lattice.cell_program("inside_solids");
+                let kernel = lattice.cell_kernel(device, &program, "inside_solids", &[])?;
                 Some((device.clone(), kernel))
             }
             None => None,
@@ -336,23 +349,23 @@ impl Observer {
         buffer: &wgpu::Buffer,
     ) -> Result<Dispatch> {
         let (file, axis) = match quantity {
-            Derived::QCriterion => ("quantity_q_criterion", 0),
-            Derived::EddyViscosity => ("quantity_eddy_viscosity", 0),
-            Derived::Vorticity(axis) => ("quantity_vorticity", axis),
+            Derived::QCriterion => ("quantity_q_criterion", None),
+            Derived::EddyViscosity => ("quantity_eddy_viscosity", None),
+            Derived::Vorticity(axis) => ("quantity_vorticity", Some(axis)),
         };
         let mut buffers = vec![("derived", buffer)];
         buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
         let program = lattice.cell_program("derive").slot("quantity", file);
-        let numbers = [("AXIS", f64::from(axis))];
-        let cells = lattice.grid.cell_count() as u32;
-        lattice.cell_dispatch(
-            device,
-            &program,
-            "derive",
-            false,
-            (&buffers, &numbers),
-            cells,
-        )
+        let axis = axis.map(|axis| ("AXIS", f64::from(axis)));
+        let dispatch = CellDispatch {
+            program: &program,
+            entry: "derive",
+            pass: CellPass::default(),
+            buffers: &buffers,
+            constants: axis.as_slice(),
+            invocations: lattice.grid.cell_count() as u32,
+        };
+        lattice.cell_dispatch(device, &dispatch)
     }
 
     /// Reads the sums over the fluid cells, of what is in them: in cells with solid a body force has put half of itself into
@@ -375,10 +388,15 @@ impl Observer {
                 let mut buffers = vec![("partial_sums", &buffer), ("density", &self.density)];
                 buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
                 let program = lattice.cell_program("sums");
-                let extra: Extra<'_> = (&buffers, &[]);
-                let n = turns as u32;
-                let dispatch =
-                    lattice.cell_dispatch(device, &program, "sum_cells", false, extra, n)?;
+                let dispatch = CellDispatch {
+                    program: &program,
+                    entry: "sum_cells",
+                    pass: CellPass::default(),
+                    buffers: &buffers,
+                    constants: &[],
+                    invocations: turns as u32,
+                };
+                let dispatch = lattice.cell_dispatch(device, &dispatch)?;
                 (buffer, dispatch)
             }
         };

@@ -45,7 +45,7 @@ pub fn accessors(bindings: u32, setup: &Setup) -> String {
 /// scalar index `n`, in the same buffers.
 ///
 /// In 16-bit storage two cells share a word: a dispatch writes only the scalars whose index has the
-/// parity `HALF`, and whoever writes is dispatched once for each, so that no two invocations
+/// parity `half` of the pass, and whoever writes is dispatched once for each, so that no two invocations
 /// write one word.
 pub fn scalars(bindings: u32, storage: Storage) -> String {
     let each = Q.div_ceil(bindings);
@@ -83,15 +83,14 @@ fn write_scalar(s: u32, n: u32, value: f32) { write_word(s, n, value); }
 "
         }
         Storage::F16 => {
-            "override HALF: u32;
-fn read_scalar(s: u32, n: u32) -> f32 {
+            "fn read_scalar(s: u32, n: u32) -> f32 {
     return unpack2x16float(read_word(s, n))[n & 1u] / 32768.0;
 }
 fn write_scalar(s: u32, n: u32, value: f32) {
-    if ((n & 1u) != HALF) { return; }
+    if ((n & 1u) != cell_pass.half) { return; }
     let half = pack2x16float(vec2(value * 32768.0, 0.0)) & 0xffffu;
-    let kept = read_word(s, n) & (0xffff0000u >> (16u * HALF));
-    write_word(s, n, kept | (half << (16u * HALF)));
+    let kept = read_word(s, n) & (0xffff0000u >> (16u * cell_pass.half));
+    write_word(s, n, kept | (half << (16u * cell_pass.half)));
 }
 "
         }

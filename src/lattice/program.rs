@@ -3,7 +3,7 @@
 use super::{
     Collision, Equilibrium, Face, Force, Grid, Setup, SolidOperator, Storage, populations,
 };
-use crate::link::Program;
+use crate::gpu::link::Program;
 
 /// Which cells a collide–stream kernel is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,6 @@
 //! The first state of a fluid.
 
-use super::{
-    Lattice, fluid,
-    fluid::{Extra, GUARD_START},
-};
+use super::{CellPass, Lattice, cell_kernels::CellDispatch, fluid, fluid::GUARD_START};
 use crate::{Error, Result};
 
 /// Density and velocity on the domain cells, lattice units, x fastest.
@@ -75,12 +72,20 @@ impl Lattice {
         ];
         let program = self.cell_program("initialise");
         let mut encoder = device.create_command_encoder(&Default::default());
-        for &half in self.halves() {
-            let share = f64::from(u8::from(non_equilibrium));
-            let numbers = [("HALF", half), ("NON_EQUILIBRIUM", share)];
-            let extra: Extra<'_> = (&buffers, &numbers);
-            let dispatch =
-                self.cell_dispatch(device, &program, "initialise", false, extra, cells as u32)?;
+        let share = f64::from(u8::from(non_equilibrium));
+        for half in self.halves() {
+            let dispatch = CellDispatch {
+                program: &program,
+                entry: "initialise",
+                pass: CellPass {
+                    half,
+                    ..CellPass::default()
+                },
+                buffers: &buffers,
+                constants: &[("NON_EQUILIBRIUM", share)],
+                invocations: cells as u32,
+            };
+            let dispatch = self.cell_dispatch(device, &dispatch)?;
             let mut pass = encoder.begin_compute_pass(&Default::default());
             dispatch.record(&mut pass);
         }
@@ -93,7 +98,7 @@ impl Lattice {
         for (_, carried) in &self.buffers.open_faces {
             queue.write_buffer(carried, 0, &vec![0; carried.size() as usize]);
         }
-        let passes = self.remember_passes(device, self.parity() == 1)?;
+        let passes = self.remember_passes(device, self.parity() as u32)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

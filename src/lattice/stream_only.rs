@@ -1,7 +1,8 @@
 //! Streaming without collision: what a step of a layout costs at the least.
 
 use super::{Lattice, fluid::Dispatch, program};
-use crate::{Error, Result, kernel::Kernel};
+use crate::{Error, Result, gpu::kernel::Shader};
+use std::sync::Arc;
 
 /// A lattice that streams and never collides, for measuring.
 #[derive(Debug)]
@@ -21,13 +22,15 @@ impl StreamOnly {
             return Err(Error::scene("boundaries", message));
         }
         let linked = program::stream_only(&lattice.setup, lattice.bindings).link()?;
+        let shader = Shader::new(device, linked);
         let groups = lattice.grid.bricks().iter().product();
         let pass = |odd| {
-            let mut constants = program::constants(&lattice.setup, &lattice.grid, odd);
+            let setup = program::constants(&lattice.setup, &lattice.grid, odd);
+            let mut constants = shader.linked().constants_of(&setup);
             constants.push(("BRICKS", f64::from(groups)));
-            let kernel = Kernel::new(device, &linked, "stream_only", &constants)?;
+            let kernel = shader.kernel(device, "stream_only", &constants)?;
             let bind = kernel.bind(device, &lattice.buffers.named(odd))?;
-            Ok::<_, Error>(Dispatch::new(kernel, bind, groups))
+            Ok::<_, Error>(Dispatch::new(Arc::new(kernel), bind, groups))
         };
         let passes = [pass(false)?, pass(true)?];
         Ok(Self { lattice, passes })

@@ -5,11 +5,11 @@ use super::{
     fluid::{Buffers, result_buffer, storage},
     program::{self, Reach},
 };
-use crate::{Error, Result, kernel::Kernel};
+use crate::{
+    Error, Result,
+    gpu::kernel::{Kernel, Shader},
+};
 use std::collections::HashSet;
-
-/// Planes of values that a brick with blocks has: see `kernels/lattice/saturation_cells.wgsl`.
-const PLANES: u64 = 9;
 
 /// The dispatches of one kind of brick.
 #[derive(Debug)]
@@ -29,6 +29,8 @@ pub(super) struct Streams {
     streams: Vec<Stream>,
     /// What blocks leave of the cells of the bricks that they reach.
     saturation: Option<wgpu::Buffer>,
+    /// Bytes of that for one brick.
+    brick_bytes: u64,
 }
 
 impl Streams {
@@ -41,18 +43,35 @@ impl Streams {
         buffers: &Buffers,
     ) -> Result<Self> {
         let all: u32 = grid.bricks().iter().product();
+        let kinds = sorted(setup, geometry, &[]);
+        let linked = |(reach, _): &(Reach, _)| {
+            let program = program::collide_stream(setup, bindings, *reach);
+            Ok(Shader::new(device, program.link()?))
+        };
+        let shaders = kinds.iter().map(linked).collect::<Result<Vec<_>>>()?;
+        // Only kernels for bricks with blocks have planes.
+        let planes = shaders
+            .iter()
+            .find_map(|shader| shader.linked().constant("PLANES"));
+        let brick: u32 = grid.brick.iter().product();
+        let brick_bytes = 4 * u64::from(planes.unwrap_or_default() * brick * grid.lanes);
         let saturation = setup
             .solid_operator
-            .map(|_| saturation_buffer(device, grid, 1));
+            .map(|_| result_buffer(device, "saturation", brick_bytes));
         let mut streams = Vec::new();
-        for (n, (reach, bricks)) in sorted(setup, geometry, &[]).into_iter().enumerate() {
-            let linked = program::collide_stream(setup, bindings, reach).link()?;
+        for (n, ((reach, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
             let kernel = |odd| {
-                let mut constants = program::constants(setup, grid, odd);
+                let of_setup = program::constants(setup, grid, odd);
+                let mut constants = shader.linked().constants_of(&of_setup);
                 // One dispatch of a step counts it for the guard: the first, which always runs.
                 let counts = f64::from(u8::from(n == 0));
-                constants.extend([("BRICKS", f64::from(all)), ("GUARD_COUNTS", counts)]);
-                Kernel::new(device, &linked, "collide_stream", &constants)
+                if setup.max_speed > 0.0 {
+                    constants.push(("GUARD_COUNTS", counts));
+                }
+                if reach == Reach::All {
+                    constants.push(("BRICKS", f64::from(all)));
+                }
+                shader.kernel(device, "collide_stream", &constants)
             };
             let kernels = [kernel(false)?, kernel(true)?];
             let groups = bricks.len() as u32;
@@ -76,6 +95,7 @@ impl Streams {
         Ok(Self {
             streams,
             saturation,
+            brick_bytes,
         })
     }
 
@@ -97,22 +117,23 @@ impl Streams {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        (setup, grid, geometry, buffers): (&Setup, &Grid, &Geometry, &Buffers),
+        (setup, geometry, buffers): (&Setup, &Geometry, &Buffers),
         saturated: &[u32],
     ) -> Result<()> {
-        let slots = saturated.len().max(1);
+        let slots = saturated.len().max(1) as u64;
         if let Some(kept) = &mut self.saturation {
-            if kept.size() < saturation_bytes(grid, slots) {
+            if kept.size() < slots * self.brick_bytes {
                 // Half as much again, so that a block that turns does not ask again and again.
-                let most = most_slots(device, grid, slots)?;
-                *kept = saturation_buffer(device, grid, most.min(slots + slots / 2));
+                let most = most_slots(device, self.brick_bytes, slots)?;
+                let bytes = most.min(slots + slots / 2) * self.brick_bytes;
+                *kept = result_buffer(device, "saturation", bytes);
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
                     stream.binds = bind(device, &stream.kernels, buffers, list, Some(kept))?;
                 }
             }
             if saturated.is_empty() {
-                queue.write_buffer(kept, 0, &vec![0; saturation_bytes(grid, 1) as usize]);
+                queue.write_buffer(kept, 0, &vec![0; self.brick_bytes as usize]);
             }
         }
         for (stream, (_, bricks)) in self
@@ -211,30 +232,21 @@ fn bind(
     Ok([bind(0)?, bind(1)?])
 }
 
-fn saturation_bytes(grid: &Grid, slots: usize) -> u64 {
-    let brick: u64 = grid.brick.iter().map(|&n| u64::from(n)).product();
-    4 * PLANES * brick * u64::from(grid.lanes) * slots as u64
-}
-
 /// Slots that a binding holds.
-fn most_slots(device: &wgpu::Device, grid: &Grid, wanted: usize) -> Result<usize> {
+fn most_slots(device: &wgpu::Device, brick_bytes: u64, wanted: u64) -> Result<u64> {
     let limits = device.limits();
     let has = limits
         .max_storage_buffer_binding_size
         .min(limits.max_buffer_size);
-    let most = has / saturation_bytes(grid, 1);
-    if wanted as u64 <= most {
-        return Ok(most as usize);
+    let most = has / brick_bytes;
+    if wanted <= most {
+        return Ok(most);
     }
     Err(Error::Limit {
         name: "bytes of one storage binding (cells that blocks reach)".into(),
-        wants: saturation_bytes(grid, wanted),
+        wants: wanted * brick_bytes,
         has,
         remedy: "use fewer or smaller blocks in the fluid, a larger cell, or another adapter"
             .into(),
     })
-}
-
-fn saturation_buffer(device: &wgpu::Device, grid: &Grid, slots: usize) -> wgpu::Buffer {
-    result_buffer(device, "saturation", saturation_bytes(grid, slots))
 }

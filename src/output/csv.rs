@@ -1,4 +1,4 @@
-//! CSV: what a probe saw, a row a step.
+//! CSV: what a probe saw, a row a step. A value that does not exist, such as the level of a dry gauge, is `NaN`.
 
 use super::replace::{failure, replace};
 use crate::{Error, Result};

@@ -2,7 +2,7 @@
 //!
 //! A factor is what resists over what drives, from the weight W of the block, the force F of its point loads, of its
 //! acceleration, and of the fluid on it with its buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
-//! [`crate::coupling::Coupled::with_closed_joints`]), and the contacts that it has: it stands while all are
+//! [`crate::coupling::Coupled::wrench_with_uplift`]), and the contacts that it has: it stands while all are
 //! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
 //! Where nothing drives, up to a share of 1e-7, the rounding of loads that a device adds up, a factor is infinite; where there is no contact, none is known: NaN. Contacts
 //! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a
@@ -16,7 +16,12 @@
 //! | sliding on one plane | (c A + N′ tan φ)/T, N′ = −R·n, T = \|R + N′ n\| | Wyllie & Mah 2004, chapter 6 |
 //! | sliding on two planes | Σ (c A + N′ tan φ)/T along their line of intersection s, T = R·s, the N′ from R = T s − Σ N′ n | Wyllie & Mah 2004, chapter 7; Goodman & Shi 1985, chapter 9 |
 //! | uplift | W/(F·e), e against gravity | limit equilibrium of a body that floats |
-//! | toppling | resisting over driving moments of N′, T and the torque of fluid and loads about an edge of the base | Wyllie & Mah 2004, chapter 9; Goodman & Bray 1976 |
+//! | toppling | ΣM⁺/ΣM⁻ about an edge of the base: moments that hold the block over those that turn it over, of the parts of W along and across n, of the fluid, and of the point loads and the acceleration | Novak et al. 2007, Hydraulic Structures, §3.2; of W alone Wyllie & Mah 2004, chapter 9, Goodman & Bray 1976 |
+//!
+//! The fluid counts with its moment about the edge by its true line of action: thrust and uplift turn the block over, and
+//! uplift, buoyancy included, is not taken from W, as in the practice of gravity dams. Both ways reach one together, where
+//! the resultant goes through the edge; USACE (EM 1110-2-2200, 1995) judges by the place of that resultant alone. The fluid
+//! is one load: water that presses down on a slope is netted with its thrust.
 //!
 //! Which planes a block slides on follows from the direction of R alone: it may move into no neighbour that it touches (Goodman &
 //! Shi 1985, chapter 9).
@@ -30,7 +35,7 @@ mod uplift;
 
 pub use sliding::{Mode, Plane, Sliding, sliding};
 pub use standing::Standing;
-pub use toppling::{Base, toppling};
+pub use toppling::{Base, Wrench, toppling};
 pub use uplift::uplift;
 
 /// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.

@@ -1,7 +1,7 @@
 //! The safety of a block among its neighbours.
 
-use super::{Base, Plane, Sliding, TILT, sliding, toppling, touching::touching, uplift};
-use crate::bodies::{Blocks, Setup};
+use super::{Base, Plane, Sliding, TILT, Wrench, sliding, toppling, touching::touching, uplift};
+use crate::rock::{Blocks, Setup};
 use glam::DVec3;
 
 /// Cosine of the angle between the normals of contacts of one plane, 5°: contacts of plane faces differ by less.
@@ -49,8 +49,13 @@ impl Standing {
         let weight = blocks.mass(block) * blocks.gravity();
         let supports = supports(setup, blocks, block);
         let planes: Vec<Plane> = supports.iter().map(|support| support.plane).collect();
+        let fluid = Wrench { force, torque };
         let [push, turn] = blocks.acting(block);
-        let (force, torque) = (force + push, torque + turn);
+        let acting = Wrench {
+            force: push,
+            torque: turn,
+        };
+        let force = fluid.force + acting.force;
         let resultant = weight + force;
         let pressed = |support: &&Support| -resultant.dot(support.plane.normal);
         let most = supports
@@ -69,7 +74,7 @@ impl Standing {
         Self {
             sliding: sliding(resultant, &planes),
             uplift: uplift(weight, force),
-            toppling: toppling(resultant, torque, pose.centre, &base, open),
+            toppling: toppling(weight, &[fluid, acting], pose.centre, &base, open),
         }
     }
 }

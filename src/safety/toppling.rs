@@ -12,14 +12,35 @@ pub struct Base {
     pub corners: Vec<DVec3>,
 }
 
-/// Safety against toppling over an edge of the base: of the resultant `force` (N) of weight, loads and fluid at the
-/// `centroid` (m), its part along the normal and the one across it, and the `torque` of fluid and loads about the centroid
-/// (N m), the sum of the moments about the edge that hold the block down over that of those that turn it over; the
-/// least of those of all edges that are `open`, which says whether a block may turn about an axis (unit vector)
-/// through a point (m). Infinite where nothing turns it, 0 on a point, NaN on nothing.
+/// A load on a block, reduced to the centroid of the block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// Force, N.
+    pub force: DVec3,
+    /// Torque about the centroid, N m.
+    pub torque: DVec3,
+}
+
+impl Wrench {
+    /// Moment about an axis (unit vector) from which the centroid is `arm` (m) away, N m: that of the true line of action.
+    fn moment(&self, arm: DVec3, axis: DVec3) -> f64 {
+        (arm.cross(self.force) + self.torque).dot(axis)
+    }
+}
+
+/// Safety against toppling over an edge of the base: ΣM⁺/ΣM⁻, the moments about the edge that hold the block down over
+/// those that turn it over (Novak, Moffat, Nalluri & Narayanan 2007, Hydraulic Structures, §3.2); the least of those of
+/// all edges that are `open`, which says whether a block may turn about an axis (unit vector) through a point (m).
+///
+/// The `weight` (N) acts at the `centroid` (m): its part along the normal of the base and the one across it count apart,
+/// each on the side of its sign. Each of the `loads` counts with its moment about the edge, whatever point it is reduced
+/// to, on the side of its sign: the thrust and the uplift of a fluid turn over, and uplift is not taken from the weight.
+/// What one load has on both sides, such as water on the slope of a face, is netted.
+///
+/// Infinite where nothing turns it, 0 on a point, NaN on nothing.
 pub fn toppling(
-    force: DVec3,
-    torque: DVec3,
+    weight: DVec3,
+    loads: &[Wrench],
     centroid: DVec3,
     base: &Base,
     open: impl Fn(DVec3, DVec3) -> bool,
@@ -31,7 +52,12 @@ pub fn toppling(
         1 => return 0.0,
         _ => {}
     }
-    let along = force.dot(n) * n;
+    let along = weight.dot(n) * n;
+    let parts = [along, weight - along].map(|force| Wrench {
+        force,
+        ..Wrench::default()
+    });
+    let all: Vec<Wrench> = parts.iter().chain(loads).copied().collect();
     let mut least = f64::INFINITY;
     for (k, a) in hull.iter().enumerate() {
         let b = hull[(k + 1) % hull.len()];
@@ -41,14 +67,14 @@ pub fn toppling(
             continue;
         }
         let arm = centroid - a;
-        let moments = [
-            arm.cross(along).dot(axis),
-            arm.cross(force - along).dot(axis),
-            torque.dot(axis),
-        ];
-        let sum = |sign: f64| moments.iter().map(|m| (sign * m).max(0.0)).sum::<f64>();
-        let whole = force.length() * arm.length() + torque.length();
-        least = least.min(factor(sum(-1.0), sum(1.0), whole));
+        let sum = |sign: f64| -> f64 {
+            let moments = all.iter().map(|load| sign * load.moment(arm, axis));
+            moments.map(|m| m.max(0.0)).sum()
+        };
+        let sizes = all
+            .iter()
+            .map(|load| load.force.length() * arm.length() + load.torque.length());
+        least = least.min(factor(sum(-1.0), sum(1.0), sizes.sum()));
     }
     least
 }
@@ -117,8 +143,60 @@ mod tests {
         (turn * DVec3::Z * h / 2.0, base)
     }
 
-    fn factor(force: DVec3, torque: DVec3, (centroid, base): &(DVec3, Base)) -> f64 {
-        toppling(force, torque, *centroid, base, |_, _| true)
+    fn factor(weight: DVec3, torque: DVec3, (centroid, base): &(DVec3, Base)) -> f64 {
+        let load = Wrench {
+            torque,
+            ..Wrench::default()
+        };
+        toppling(weight, &[load], *centroid, base, |_, _| true)
+    }
+
+    /// A force (N) at a point (m), reduced to the centroid (m).
+    fn at(point: DVec3, force: DVec3, centroid: DVec3) -> Wrench {
+        Wrench {
+            force,
+            torque: (point - centroid).cross(force),
+        }
+    }
+
+    /// A dam b = 8 m wide and H = 10 m high of 2400 kg/m³, 1 m of it, with water to its crest: W = 1883.52 kN at b/2,
+    /// thrust ½ρgH² = 490.5 kN at H/3, uplift of a triangle from ρgH at the heel, ½ρgHb = 392.4 kN, at 2b/3 from the toe.
+    /// By hand 7534.08/(1635 + 2092.8) = 2.02105.
+    #[test]
+    fn a_gravity_dam_with_uplift() {
+        let (b, h, gravity) = (8.0, 10.0, 9.81);
+        let corner = |(x, y)| DVec3::new(x, y, 0.0);
+        let base = Base {
+            normal: DVec3::Z,
+            corners: [(0.0, 0.0), (b, 0.0), (b, 1.0), (0.0, 1.0)]
+                .map(corner)
+                .into(),
+        };
+        let centroid = DVec3::new(b / 2.0, 0.5, h / 2.0);
+        let weight = -2400.0 * gravity * b * h * DVec3::Z;
+        let thrust = 0.5 * 1000.0 * gravity * h * h * DVec3::X;
+        let uplift = 0.5 * 1000.0 * gravity * h * b * DVec3::Z;
+        let thrust = at(DVec3::new(0.0, 0.5, h / 3.0), thrust, centroid);
+        let uplift = at(DVec3::new(b / 3.0, 0.5, 0.0), uplift, centroid);
+        let whole = Wrench {
+            force: thrust.force + uplift.force,
+            torque: thrust.torque + uplift.torque,
+        };
+        let exact = 7534.08 / (1635.0 + 2092.8);
+        for loads in [vec![thrust, uplift], vec![whole]] {
+            let found = toppling(weight, &loads, centroid, &base, |_, _| true);
+            assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
+        }
+    }
+
+    /// The moment of a load does not depend on the height at which it acts by way of a torque that would hold: a thrust P at
+    /// a quarter of the height h, W b/2 over P h/4.
+    #[test]
+    fn a_low_thrust_counts_with_its_own_arm() {
+        let (centroid, base) = incline(2.0, 3.0, 0.0);
+        let thrust = at(DVec3::Z * 0.75, 0.5 * DVec3::X, centroid);
+        let found = toppling(-DVec3::Z, &[thrust], centroid, &base, |_, _| true);
+        assert!((found - 1.0 / 0.375).abs() < 1e-14, "{found}");
     }
 
     #[test]
@@ -128,7 +206,7 @@ mod tests {
             let exact = b / h / beta.to_radians().tan();
             let found = factor(-5.0 * DVec3::Z, DVec3::ZERO, &on);
             assert!((found - exact).abs() < 1e-13, "{found} {exact}");
-            // Still water takes from what holds and what drives alike.
+            // Less gravity takes from what holds and what drives alike.
             let wet = factor(-3.0 * DVec3::Z, DVec3::ZERO, &on);
             assert!((wet - exact).abs() < 1e-13);
         }
@@ -156,7 +234,7 @@ mod tests {
         let (centroid, base) = incline(2.0, 3.0, 0.0);
         let force = DVec3::new(0.25, 0.1, -1.0);
         let along_x = |axis: DVec3, _| axis.y.abs() < 0.5;
-        let found = toppling(force, DVec3::ZERO, centroid, &base, along_x);
+        let found = toppling(force, &[], centroid, &base, along_x);
         assert!((found - 0.7 / 0.15).abs() < 1e-14, "{found}");
     }
 
@@ -167,13 +245,9 @@ mod tests {
                 normal: DVec3::Z,
                 corners: corners.into(),
             };
-            toppling(
-                DVec3::new(0.1, 0.0, -1.0),
-                DVec3::ZERO,
-                DVec3::Z,
-                &base,
-                |_, _| true,
-            )
+            toppling(DVec3::new(0.1, 0.0, -1.0), &[], DVec3::Z, &base, |_, _| {
+                true
+            })
         };
         assert_eq!(standing(&[DVec3::Y, -DVec3::Y]), 0.0);
         assert_eq!(standing(&[DVec3::ZERO]), 0.0);

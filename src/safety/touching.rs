@@ -2,10 +2,9 @@
 
 use super::patch::patch;
 use crate::{
-    block::{Form, Part, Shape},
-    bodies::{Blocks, ContactPoint, Motion, Pose, Setup},
-    contact::Placed,
-    immersed::{area_of, corners},
+    geometry::{Form, Part, Pose, Shape},
+    psm::{area_of, corners},
+    rock::{Blocks, ContactPoint, Motion, Setup, contact::Placed},
 };
 use glam::DVec3;
 

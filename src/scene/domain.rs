@@ -5,6 +5,9 @@ use serde::Deserialize;
 
 use super::{Axis, Face};
 
+/// Part of the largest coordinate of a domain by which points may lie outside: some thousand times the rounding of f64.
+const ROUNDING: f64 = 1e-12;
+
 /// The box of space that is computed, cut into cubic cells where there is a fluid. The default has no
 /// extent: there is none.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
@@ -87,10 +90,13 @@ impl Domain {
         })
     }
 
-    /// Whether `point` (m) lies in the domain, to a millionth of a cell.
+    /// Whether `point` (m) lies in the domain, to a millionth of a cell or the rounding of decimal numbers: a domain of
+    /// 7.6 m from −1.2 m ends at 6.3999… m.
     pub fn contains(&self, point: [f64; 3]) -> bool {
         let end = self.end();
-        let slack = 1e-6 * self.cell;
+        let largest = [self.origin, end].concat();
+        let largest = largest.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let slack = (1e-6 * self.cell).max(ROUNDING * largest);
         (0..3).all(|a| point[a] >= self.origin[a] - slack && point[a] <= end[a] + slack)
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::law::Elastic;
+use crate::rock::law::Elastic;
 
 /// A rock, and how its joints push, slide and break.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]

@@ -186,16 +186,21 @@ pub enum Quantity {
     BlockPotentialEnergy,
     /// Strain energy of the deformable blocks, J.
     StrainEnergy,
-    /// Elastic energy in the contacts of the blocks, J.
+    /// Energy in the springs of the present contacts of the blocks, J: the work done on them since they began. Negative where
+    /// the area of a contact grew while it was pressed, so that its springs gave back more than they took: see `contact_loss`.
     ContactEnergy,
     /// What friction has turned into heat, J.
     FrictionWork,
     /// What damping, of contacts and of mass, and films of fluid have turned into heat, J.
     DampingWork,
+    /// What the springs of contacts held when these ended, J: energy that contacts took out, or put in where it is negative. The
+    /// springs conserve energy only while the area of their contact stays the same; this is the error of the contact law.
+    ContactLoss,
     /// What driven blocks and loads have added, J.
     OutsideWork,
-    /// Energy that the sum of all of these has gained, as a part of what has been turned over: the
-    /// error of the computation, no unit.
+    /// Energy that the blocks have gained, as a part of what has been turned over, no unit: `block_kinetic_energy`,
+    /// `block_potential_energy`, `strain_energy`, `contact_energy`, `friction_work`, `damping_work` and `contact_loss`, less
+    /// `outside_work`. It is the error of the time integration; that of the contact law is `contact_loss`.
     EnergyError,
     /// Number of contacts of blocks.
     Contacts,
@@ -233,6 +238,7 @@ impl Quantity {
             Self::ContactEnergy => "contact_energy",
             Self::FrictionWork => "friction_work",
             Self::DampingWork => "damping_work",
+            Self::ContactLoss => "contact_loss",
             Self::OutsideWork => "outside_work",
             Self::EnergyError => "energy_error",
             Self::Contacts => "contacts",

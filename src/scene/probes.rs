@@ -30,12 +30,12 @@ pub struct Probe {
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(tag = "kind", rename_all = "snake_case")]
 pub enum ProbePlace {
-    /// One point, interpolated; among particles their mean, weighted by the kernel.
+    /// One point, interpolated; among particles their mean, weighted by the kernel, and `NaN` where there is no water.
     Point {
         /// The point, m.
         at: [f64; 3],
     },
-    /// Equally spaced points of a line, both ends included, interpolated, or by the kernel.
+    /// Equally spaced points of a line, both ends included, interpolated, or by the kernel; `NaN` as for a point.
     Line {
         /// First point, m.
         from: [f64; 3],
@@ -52,7 +52,7 @@ pub enum ProbePlace {
         position: f64,
     },
     /// Mean, least and largest value over the fluid cells whose centres lie in a box, or over the particles in it,
-    /// of these the volume too (m³).
+    /// of these the volume too (m³); `NaN` where no particle is in it, and a volume of 0.
     Box {
         /// Lower corner, m.
         min: [f64; 3],
@@ -96,7 +96,7 @@ pub enum ProbePlace {
         #[schemars(default)]
         safety: bool,
     },
-    /// The free surface of particles above a point: its height, m.
+    /// The free surface of particles above a point: its height, m; `NaN` where no water is above the point.
     Gauge {
         /// The point, x and y, m.
         at: [f64; 2],
@@ -113,7 +113,7 @@ pub enum ProbePlace {
         #[schemars(default)]
         size: Option<f64>,
     },
-    /// The farthest of the particles in a box along a direction, drops aside: its place, m.
+    /// The farthest of the particles in a box along a direction, drops aside: its place, m; `NaN` where there is none.
     RunUp {
         /// Lower corner of the box, m.
         min: [f64; 3],

@@ -1,8 +1,9 @@
 //! What computes, but is probably not what was meant.
 
-use super::{Advice, Motion, Scene, Warning};
+use super::{Advice, Block, BlockShape, Motion, Scene, Warning};
 use crate::formula::Formula;
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// Sine of the angle from which two directions differ, and share of a time that counts as none: the rounding of what
 /// scenes write.
@@ -12,6 +13,9 @@ const GRAVITY: f64 = 0.5;
 /// Angle of friction, degrees, below which the number is rather its tangent: that of 56°. Nothing between dry rocks is
 /// as slippery.
 const TANGENT: f64 = 1.5;
+/// Depth to which a block may sink at rest, as a share of its least distance from centroid to face or of its radius: as much
+/// as blocks may overlap at the start.
+const SINKS: f64 = 0.01;
 
 impl Scene {
     /// Warns of keys that contradict each other, or are probably in another unit than they should be, in a run in steps
@@ -60,6 +64,24 @@ impl Scene {
                 );
             }
         }
+        for (number, block) in self.blocks.iter().enumerate() {
+            if let Some((depth, stiffness)) = self.sinks(block) {
+                let first = self.materials.first().map(|one| one.name.as_str());
+                let material = block.material.as_deref().or(first).unwrap_or_default();
+                warn(
+                    format!("materials.{material}.normal_stiffness"),
+                    format!(
+                        "blocks[{number}] sinks into a plane of its material by {:.1} % of {} under its own weight: its \
+                         contacts are too soft; use normal_stiffness ≥ {stiffness:.2e} Pa/m",
+                        100.0 * depth,
+                        match block.shape {
+                            BlockShape::Sphere { .. } => "its radius",
+                            _ => "half its least edge",
+                        }
+                    ),
+                );
+            }
+        }
         for probe in &self.probes {
             let short = |every: &f64| *every < time_step * (1.0 - ROUNDED);
             if let Some(every) = probe.every.filter(short) {
@@ -90,6 +112,57 @@ impl Scene {
             }
         }
         advice
+    }
+
+    /// How deep a free box or sphere at rest sinks into a plane of its own material, as a share of half its least edge or of
+    /// its radius, and the stiffness of the contact that keeps it to [`SINKS`], Pa/m; None where it does not sink deeper.
+    ///
+    /// The contact presses with k_n A(u) u at the depth u (Hart, Cundall & Lemos 1988). A is the face of a box, at most the
+    /// largest one, and of a sphere the circle that the plane cuts out, π u (2R − u), but not less than
+    /// `rock.corner_area` (2R)². Where there is a fluid the weight is that under water.
+    fn sinks(&self, block: &Block) -> Option<(f64, f64)> {
+        let material = match &block.material {
+            Some(name) => self.materials.iter().find(|one| one.name == *name),
+            None => self.materials.first(),
+        }?;
+        if block.motion != Motion::Free {
+            return None;
+        }
+        let (volume, size) = match &block.shape {
+            BlockShape::Sphere { radius } => (4.0 / 3.0 * PI * radius.powi(3), *radius),
+            BlockShape::Box { size: [a, b, c] } => (a * b * c, 0.5 * a.min(*b).min(*c)),
+            _ => return None,
+        };
+        let area = |depth: f64| match &block.shape {
+            BlockShape::Sphere { radius } => {
+                let circle = PI * depth * (2.0 * radius - depth);
+                circle.max(self.rock.corner_area * (2.0 * radius).powi(2))
+            }
+            _ => 0.5 * volume / size,
+        };
+        let fluid = if self.has_fluid() {
+            self.fluid.density
+        } else {
+            0.0
+        };
+        let gravity = DVec3::from_array(self.rock.gravity).length();
+        let weight = (material.density - fluid).max(0.0) * volume * gravity;
+        let limit = SINKS * size;
+        let needed = weight / (area(limit) * limit);
+        if needed <= material.normal_stiffness * (1.0 + ROUNDED) {
+            return None;
+        }
+        // k A(u) u grows with u: by bisection to its radius, beyond which it falls through.
+        let presses = |depth: f64| material.normal_stiffness * area(depth) * depth;
+        let (mut low, mut high) = (limit, size);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            match presses(middle) < weight {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        Some((high / size, needed))
     }
 
     /// Accelerations of the fluid and of blocks, m/s², if they lead to different sides.

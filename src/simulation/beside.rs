@@ -21,15 +21,18 @@ pub(super) struct BesideWall {
 impl Simulation {
     /// All of them; a cell beside two walls is there for each, but only once for all blocks.
     pub(super) fn cells_beside(&self) -> Vec<BesideWall> {
-        let near = self.coupled.as_ref().map(|coupled| coupled.near(1.5));
+        let near = self
+            .coupled
+            .as_ref()
+            .map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
         // Where a block is close, its cells are those of the block.
-        let taken: Vec<u32> = near.iter().map(|found| found.near.cell).collect();
+        let taken: Vec<u32> = near.iter().map(|found| found.cell.index).collect();
         let mut all = self.beside_walls();
         all.retain(|beside| taken.binary_search(&beside.cell).is_err());
         let solid = self.solid();
         for found in &near {
-            let (at, distance) = (found.near.cell, found.near.distance);
+            let (at, distance) = (found.cell.index, found.cell.distance);
             if distance < 0.5 || solid.get(at as usize).is_some_and(|solid| *solid) {
                 continue;
             }
@@ -38,7 +41,7 @@ impl Simulation {
             let velocity = velocity.map(|coupled| coupled.solid_velocity(found.block, centre));
             all.push(BesideWall {
                 cell: at,
-                normal: found.near.normal,
+                normal: found.cell.normal,
                 distance,
                 wall_velocity: velocity.unwrap_or_default(),
                 block: Some(found.block),

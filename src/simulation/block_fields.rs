@@ -1,10 +1,10 @@
 //! What blocks show, for ParaView.
 
 use crate::{
-    block::Form,
-    bodies::{Block, Blocks, Motion},
-    coupling::Felt,
+    coupling::FluidLoad,
+    geometry::Form,
     output::{Array, Cloud, Polyhedra},
+    rock::{Block, Blocks, Motion},
 };
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -19,9 +19,9 @@ const AROUND: u32 = 24;
 /// Where blocks deform, also their Cauchy stress along the axes of the world (Pa; xx, yy, zz, xy, yz, xz,
 /// tension positive), von Mises stress (Pa) and strain energy (J); NaN for rigid ones.
 ///
-/// In a fluid, where the first blocks have a [`Felt`] each, also what its flow does to them and their
-/// buoyancy (N); NaN for blocks that nobody asks about, the fixed ones without a probe, and for solids.
-pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, felt: &[Felt]) -> Polyhedra {
+/// In a fluid, where the first blocks have a [`FluidLoad`] each, also the force of the flow on them and their
+/// buoyancy (N); NaN for fixed blocks without a probe, and for solids.
+pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, loads: &[FluidLoad]) -> Polyhedra {
     let mut made = Polyhedra::default();
     let mut owners = Vec::new();
     let poses = blocks.poses();
@@ -84,17 +84,18 @@ pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, felt: &[Felt]) -> Polyh
             }),
         ]);
     }
-    if !felt.is_empty() {
+    if !loads.is_empty() {
         let known = |owner: usize| {
-            let known =
-                |felt: &&Felt| shown[owner].motion != Motion::Fixed || felt.flow.entrained > 0.0;
-            felt.get(owner).filter(known)
+            let known = |load: &&FluidLoad| {
+                shown[owner].motion != Motion::Fixed || load.flow.entrained > 0.0
+            };
+            loads.get(owner).filter(known)
         };
-        let force = |owner, of: fn(&Felt) -> DVec3| known(owner).map_or(DVec3::NAN, of);
+        let force = |owner, of: fn(&FluidLoad) -> DVec3| known(owner).map_or(DVec3::NAN, of);
         made.arrays.extend([
-            vector("fluid_force", &|owner| force(owner, |felt| felt.flow.force)),
+            vector("fluid_force", &|owner| force(owner, |load| load.flow.force)),
             vector("buoyancy", &|owner| {
-                force(owner, |felt| felt.buoyancy.force)
+                force(owner, |load| load.buoyancy.force)
             }),
         ]);
     }

@@ -1,6 +1,6 @@
 //! Whether the sub-steps of contacts in a step can be computed at all.
 
-use crate::{Error, Result, bodies::Blocks};
+use crate::{Error, Result, rock::Blocks};
 
 /// Most sub-steps of a step: at a thousandth of a second each, as large scenes take, a step then lasts a quarter of an
 /// hour.

@@ -78,10 +78,10 @@ impl Simulation {
         let through: Vec<_> = Face::ALL.into_iter().filter_map(through).collect();
         let Some(found) = coupled.at_inlets(&through).first().copied() else {
             // One that has been pushed away since has left what pushed it.
-            return coupled.began_at_inlet();
+            return coupled.initial_inlet_message();
         };
         let speed = self.units.velocity_from_lattice(found.speed);
-        Some(coupled.inlet_trouble(&found, speed))
+        Some(coupled.inlet_message(&found, speed))
     }
 
     /// The fastest block, if no flow can follow it.
@@ -90,7 +90,7 @@ impl Simulation {
         let made = coupled.setup().setup.blocks[..coupled.in_fluid()].iter();
         let moving = coupled.blocks().poses().into_iter();
         let speeds = made.zip(moving).map(|(block, pose)| {
-            let spin = crate::immersed::spin(&pose).length();
+            let spin = crate::psm::spin(&pose).length();
             (
                 &block.name,
                 pose.velocity.length() + spin * block.shape.radius(),

@@ -1,13 +1,17 @@
 //! Blocks alone: the loop of a scene without fluid.
 
 use super::countable::countable;
-use super::{BlockSetup, LeftOut, block_setup};
 use crate::{
     Error, Result,
-    bodies::{self, Blocks, Snapshot},
-    broadphase::{AutoBroadphase, Broadphase},
-    checkpoint::BlockCheckpoint,
-    scene::{Scene, Search},
+    rock::{
+        self, Blocks, Snapshot,
+        broadphase::{AutoBroadphase, Broadphase},
+    },
+    scene::{
+        Scene, Search,
+        build::{BlockSetup, LeftOut, block_setup},
+    },
+    simulation::checkpoint::BlockCheckpoint,
 };
 
 /// Sub-steps of a step where the scene gives no time step: a step keeps its length when contacts
@@ -157,7 +161,7 @@ impl<F: Broadphase> Dry<F> {
     }
 
     /// The blocks as they were made: names, shapes, materials.
-    pub fn setup(&self) -> &bodies::Setup {
+    pub fn setup(&self) -> &rock::Setup {
         &self.setup.setup
     }
 

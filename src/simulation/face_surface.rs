@@ -1,11 +1,11 @@
 //! What the faces of blocks show, for ParaView.
 
 use crate::{
-    block::Form,
-    bodies::{Block, Pose},
     coupling::Coupled,
-    immersed::{FaceLoad, corners},
+    geometry::{Form, Pose},
     output::{Array, Surface},
+    psm::{FaceLoad, corners},
+    rock::Block,
 };
 
 /// The faces of the blocks whose loads somebody asks for, with the number of their block, pressure and shear stress
@@ -16,7 +16,7 @@ pub fn face_surface(coupled: &Coupled) -> Surface {
     let poses = coupled.blocks().poses();
     let blocks = &coupled.setup().setup.blocks;
     for (number, (block, pose)) in blocks.iter().zip(&poses).enumerate() {
-        for load in coupled.faces(number) {
+        for load in coupled.face_loads(number) {
             made.polygons.push(polygon(block, load, pose));
             shown.push((number, load));
         }

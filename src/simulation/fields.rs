@@ -126,9 +126,9 @@ impl Simulation {
     fn solid_values(&self, cells: Option<&[u32]>) -> Vec<f32> {
         let solid = self.solid();
         let blocks = self.coupled.as_ref();
-        let blocks = blocks.map_or_else(Vec::new, |coupled| coupled.near(0.0));
+        let blocks = blocks.map_or_else(Vec::new, |coupled| coupled.cells_near_blocks(0.0));
         let value = |cell: usize| {
-            let in_block = || blocks.binary_search_by_key(&cell, |found| found.near.cell as usize);
+            let in_block = || blocks.binary_search_by_key(&cell, |found| found.cell.index as usize);
             let is_solid = solid.get(cell).is_some_and(|solid| *solid) || in_block().is_ok();
             f32::from(u8::from(is_solid))
         };

@@ -1,12 +1,11 @@
 //! A fluid on a lattice, with the cells of the blocks that are in it.
 
-use super::face_velocity;
 use crate::{
     Result,
-    bodies::Pose,
-    coupling::{Felt, Fluid, Pace, Wet},
+    coupling::{ExchangeInterval, Fluid, FluidLoad, LatticeCoupling},
+    geometry::Pose,
     lattice::{self, Lattice},
-    scene::{Face, Scene},
+    scene::{Face, Scene, build::face_velocity},
     units::Units,
 };
 
@@ -19,8 +18,8 @@ pub(super) struct Flow<'a> {
     pub lattice: &'a mut Lattice,
     /// Velocity faces whose formulas contain the time.
     pub changing: &'a [Face],
-    /// Where it meets blocks, if there are any.
-    pub wet: Option<&'a mut Wet>,
+    /// The coupling to the blocks in it, if there are any.
+    pub coupling: Option<&'a mut LatticeCoupling>,
 }
 
 impl Fluid for Flow<'_> {
@@ -28,27 +27,37 @@ impl Fluid for Flow<'_> {
         self.lattice.step() as f64 * self.units.time_step
     }
 
-    async fn advance(&mut self, poses: &[Pose], pace: Pace, end: f64) -> Result<Option<Vec<Felt>>> {
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
         let last = (end / self.units.time_step).round() as u64;
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        if let Some(wet) = &mut self.wet {
+        if let Some(coupling) = &mut self.coupling {
             let (device, queue) = (self.device, self.queue);
-            wet.place(device, queue, self.lattice, &mut encoder, poses)
+            coupling
+                .place(device, queue, self.lattice, &mut encoder, poses)
                 .await?;
         }
         loop {
             let next = self.lattice.step() + 1;
             if self
-                .wet
+                .coupling
                 .as_ref()
-                .is_some_and(|wet| wet.meets(pace, next, last))
+                .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
             {
                 return self.exchange(encoder).await;
             }
             self.lattice
                 .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-            if let Some(wet) = self.wet.as_mut().filter(|wet| wet.wants(pace, next, last)) {
-                wet.record_loads(self.device, &mut encoder, next);
+            if let Some(coupling) = self
+                .coupling
+                .as_mut()
+                .filter(|coupling| coupling.needs_loads(interval, next, last))
+            {
+                coupling.record_loads(self.device, &mut encoder, next);
             }
             self.lattice
                 .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
@@ -72,33 +81,36 @@ impl Flow<'_> {
     /// Those of formulas of faces.
     pub async fn run(&mut self, end: f64) -> Result<()> {
         while self.time() < end {
-            self.advance(&[], Pace::Still, end).await?;
+            self.advance(&[], ExchangeInterval::Static, end).await?;
         }
         Ok(())
     }
 
     /// The last step of a stretch, at whose end blocks and fluid meet: the fluid around them runs first, and the rest
     /// of it while their loads are read.
-    async fn exchange(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<Option<Vec<Felt>>> {
+    async fn exchange(
+        &mut self,
+        mut encoder: wgpu::CommandEncoder,
+    ) -> Result<Option<Vec<FluidLoad>>> {
         let (device, queue, step) = (self.device, self.queue, self.lattice.step() + 1);
         self.lattice
             .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
-        if let Some(wet) = &mut self.wet {
-            wet.record_loads(device, &mut encoder, step);
-            wet.record_faces(device, &mut encoder, step);
+        if let Some(coupling) = &mut self.coupling {
+            coupling.record_loads(device, &mut encoder, step);
+            coupling.record_faces(device, &mut encoder, step);
         }
         queue.submit([encoder.finish()]);
         let mut encoder = device.create_command_encoder(&Default::default());
         self.lattice
             .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
-        let Some(wet) = &mut self.wet else {
+        let Some(coupling) = &mut self.coupling else {
             return Ok(None);
         };
-        wet.read_loads().await?;
-        let felt = wet.exchange();
+        coupling.read_loads().await?;
+        let loads = coupling.exchange();
         self.set_faces()?;
-        Ok(Some(felt))
+        Ok(Some(loads))
     }
 
     /// The velocity faces whose values at the present time are not those that they have.

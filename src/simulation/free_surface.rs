@@ -1,21 +1,23 @@
-//! Free water and the blocks in it.
+//! Simulation of free-surface water and blocks.
 
-use super::countable::countable;
-use super::{BlockSetup, Reading, WaterLedger, block_setup, pool::Pool, scene_step::scene_step};
+use super::{Reading, WaterLedger, countable::countable, pool::Pool, scene_step::scene_step};
 use crate::{
     Error, Result,
-    bodies::Blocks,
-    checkpoint::WaterCheckpoint,
-    coupling::{self, Company, Felt, Rock},
+    coupling::{self, CouplingParams, FluidLoad, Rock},
     error::told,
-    particles::{Neighbours, Particles, Totals, Water, particle_setup},
-    scene::Scene,
+    rock::Blocks,
+    scene::{
+        Scene,
+        build::{BlockSetup, block_setup, particle_setup},
+    },
+    simulation::checkpoint::WaterCheckpoint,
+    sph::{NeighbourSearch, SphSolver, Totals, Water},
 };
 use glam::DVec3;
 
-/// A scene of water with a free surface, by particles, and of the blocks in it.
+/// Simulation of a scene of free-surface water (SPH) and blocks.
 ///
-/// Nothing here blocks: somebody must poll the device while a future is awaited.
+/// No method blocks: the caller must poll the device while it awaits a future.
 #[derive(Debug)]
 pub struct FreeSurface {
     scene: Scene,
@@ -26,28 +28,28 @@ pub struct FreeSurface {
 }
 
 impl FreeSurface {
-    /// Puts the water of a scene beside its walls and blocks.
+    /// The simulation of a scene at its start.
     ///
     /// # Errors
-    /// What the scene lacks, or what the device cannot hold.
+    /// [`Error::Scene`] if the scene is invalid; [`Error::Limit`] or [`Error::Device`] if the device cannot hold it.
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         let setup = block_setup(scene)?;
         let (mut water, start) = particle_setup(scene, &setup)?;
         if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
-            water.neighbours = Neighbours::Lists;
+            water.neighbours = NeighbourSearch::Lists;
         }
         let time_step = scene_step(scene, water.acoustic_step());
-        let company = Company {
+        let params = CouplingParams {
             time_step,
-            // Times of exchanges are rounded.
+            // The tolerance covers the rounding of exchange times.
             hold: scene.coupling.hold * (1.0 - 1e-12),
             inside: None,
         };
-        let rock = Rock::new(device, queue, scene, setup, company).await?;
+        let rock = Rock::new(device, queue, scene, setup, params).await?;
         countable(time_step, rock.blocks())?;
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let particles = Particles::new(
+        let particles = SphSolver::new(
             device,
             queue,
             water,
@@ -55,14 +57,14 @@ impl FreeSurface {
             &start.velocities,
             &start.pressures,
         );
-        // What a buffer that is none is bound to is not valid either: memory is the cause.
+        // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
         let [validity, memory] = [validity.pop(), memory.pop()];
         let refused = (validity.await, memory.await);
         let particles = particles?;
         if let Some(error) = refused.1.or(refused.0) {
             return Err(Error::Device(format!(
                 "it does not hold {} particles ({}); use a larger spacing",
-                particles.numbers().water,
+                particles.counts().fluid,
                 told(&error)
             )));
         }
@@ -78,12 +80,12 @@ impl FreeSurface {
     /// Takes `steps` steps.
     ///
     /// # Errors
-    /// [`Error::ParticleLost`] if the water left the range of the method; those of [`Blocks::advance`], and the blocks then
-    /// are where they were at the last exchange; a lost device. A checkpoint leads back to a state from which all can go on.
+    /// [`Error::ParticleLost`] if the water left the range of the method; those of [`Blocks::advance`], after which the blocks
+    /// are at the last exchange; [`Error::DeviceLost`]. Restore a checkpoint to continue.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         for _ in 0..steps {
             let end = (self.step + 1) as f64 * self.time_step;
-            // Checkpoints are taken between steps.
+            // Checkpoints lie between steps.
             self.pool.begin(self.time());
             coupling::run(&mut self.pool, &mut self.rock, end).await?;
             self.step += 1;
@@ -96,7 +98,7 @@ impl FreeSurface {
         self.rock.moves()
     }
 
-    /// The water as it is.
+    /// The present state of the water.
     ///
     /// # Errors
     /// If the device is lost.
@@ -104,7 +106,7 @@ impl FreeSurface {
         self.pool.water().await
     }
 
-    /// What the sensor `name` has felt; none if there is no such probe.
+    /// Measurement of the sensor `name`; `None` if there is no such probe.
     pub fn sensor(&self, name: &str) -> Option<Reading> {
         self.pool.sensors.reading(name)
     }
@@ -129,50 +131,50 @@ impl FreeSurface {
         &self.scene
     }
 
-    /// The blocks as they were made.
+    /// The setup of the blocks.
     pub fn setup(&self) -> &BlockSetup {
         self.rock.setup()
     }
 
-    /// The blocks as they are.
+    /// The present state of the blocks.
     pub fn blocks(&self) -> &Blocks {
         self.rock.blocks()
     }
 
-    /// What each block feels of the water, of the last exchange: all of it as `flow`, buoyancy included.
-    pub fn felt(&self) -> &[Felt] {
-        self.rock.felt()
+    /// Load of the water on each block in the last exchange; `flow` is all of it, buoyancy included.
+    pub fn external_load(&self) -> &[FluidLoad] {
+        self.rock.external_load()
     }
 
-    /// Where the energy of `water` is, as it is now, and what was done to it.
+    /// Energy ledger of `water`, the present state.
     pub fn ledger(&self, water: &Water) -> WaterLedger {
         let particles = &self.pool.particles;
         let totals = Totals::of(particles.setup(), water);
-        let works = particles.works();
+        let work = particles.work();
         WaterLedger {
             kinetic: totals.kinetic_energy,
             potential: totals.potential_energy,
             compression: totals.compression_energy,
-            left: water.left.energy(),
-            bodies: works.bodies,
-            pushed: works.pushed,
-            pressed: works.pressed,
+            escaped: water.escaped.energy(),
+            bodies: work.bodies,
+            penalty: work.penalty,
+            boundary: work.boundary,
             joints: self.pool.joints,
-            blocks: self.rock.given,
+            blocks: self.rock.work_on_fluid,
         }
     }
 
-    /// The particles.
-    pub fn particles(&self) -> &Particles {
+    /// The particle solver.
+    pub fn particles(&self) -> &SphSolver {
         &self.pool.particles
     }
 
-    /// How often water and blocks met.
+    /// Exchanges between water and blocks.
     pub fn exchanges(&self) -> u64 {
         self.pool.exchanges
     }
 
-    /// Steps of the water that sorted its particles, and made lists of neighbours if there are any.
+    /// Steps of the water that sorted the particles and rebuilt the neighbour lists, if there are any.
     pub fn sorts(&self) -> u64 {
         self.pool.sorts
     }
@@ -192,28 +194,28 @@ impl FreeSurface {
             state: self.pool.particles.state(),
             loads: self.pool.last.clone(),
             joints: self.pool.joints,
-            given: self.rock.given,
+            given: self.rock.work_on_fluid,
             sensors: self.pool.sensors.readings.clone(),
             blocks: self.rock.blocks().snapshot(),
         })
     }
 
-    /// Goes on from a checkpoint of the same scene, to the same bits.
+    /// Restores a checkpoint of the same scene bit-identically.
     ///
     /// # Errors
-    /// If it is of other particles or blocks, or of another time step.
+    /// [`Error::Scene`] if its particles, blocks or time step differ.
     pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
         let domain = &self.scene.domain;
         let spacing = self.pool.particles.setup().spacing;
-        let mine = [domain.origin, domain.size].map(DVec3::from);
-        let its = [checkpoint.origin, checkpoint.size];
-        if its != mine || checkpoint.spacing != spacing {
+        let own = [domain.origin, domain.size].map(DVec3::from);
+        let other = [checkpoint.origin, checkpoint.size];
+        if other != own || checkpoint.spacing != spacing {
             return Err(Error::scene(
                 "restart",
                 format!(
                     "the checkpoint is of a domain from {} m, {} m wide, with particles every {} m, the scene from {} m, \
                      {} m wide, with particles every {spacing} m; restart with the scene that wrote it",
-                    its[0], its[1], checkpoint.spacing, mine[0], mine[1]
+                    other[0], other[1], checkpoint.spacing, own[0], own[1]
                 ),
             ));
         }
@@ -226,10 +228,10 @@ impl FreeSurface {
                 ),
             ));
         }
-        // All is looked at before anything is changed.
+        // All checks come before the first change.
         self.pool.check(checkpoint)?;
         self.rock.restore(&checkpoint.blocks)?;
-        self.rock.given = checkpoint.given;
+        self.rock.work_on_fluid = checkpoint.given;
         self.pool.restore(checkpoint)?;
         self.step = checkpoint.step;
         Ok(())

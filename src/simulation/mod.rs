@@ -2,7 +2,7 @@
 
 mod beside;
 mod block_fields;
-mod block_setup;
+pub mod checkpoint;
 mod countable;
 mod diverged;
 mod dry;
@@ -10,23 +10,20 @@ mod face_surface;
 mod fields;
 mod flow;
 mod free_surface;
-mod lattice_setup;
 mod needs;
 mod pool;
+pub mod probe;
 mod scene_step;
 mod sensors;
 mod wall_units;
 mod water_ledger;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};
-pub use block_setup::{BlockSetup, LeftOut, block_setup};
-pub(crate) use block_setup::{rotation, shape};
 pub use dry::Dry;
 pub(crate) use dry::{begin, finder};
 pub use face_surface::face_surface;
 pub use fields::Totals;
 pub use free_surface::FreeSurface;
-pub use lattice_setup::{face_velocity, lattice_setup};
 pub use needs::Needs;
 pub(crate) use scene_step::scene_step;
 pub use sensors::Reading;
@@ -36,11 +33,14 @@ pub use water_ledger::WaterLedger;
 use self::countable::countable;
 use crate::{
     Error, Result,
-    checkpoint::Checkpoint,
     coupling::{self, Coupled, Rock},
     error::told,
     lattice::{Collision, Derived, Lattice, Observer, State},
-    scene::{Advice, Boundary, Face, SUGA_EXCESS, Scene},
+    scene::{
+        Advice, Boundary, Face, SUGA_EXCESS, Scene,
+        build::{block_setup, lattice_setup},
+    },
+    simulation::checkpoint::Checkpoint,
     units::Units,
 };
 use flow::Flow;
@@ -97,7 +97,7 @@ impl Simulation {
             };
             if let Some(coupled) = &coupled {
                 advice.extend(coupled.advise(scene));
-                coupled.fill(&scene.domain, &mut start);
+                coupled.set_interior_velocity(&scene.domain, &mut start);
             }
             lattice.start(device, queue, &start, true)?;
             Ok((lattice, observer, coupled))
@@ -136,7 +136,7 @@ impl Simulation {
     /// step; a checkpoint leads back to a state from which all can go on.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         let end = (self.step() + steps) as f64 * self.units.time_step;
-        let (mut flow, rock) = self.sides();
+        let (mut flow, rock) = self.flow_and_rock();
         let done = match rock {
             Some(rock) => coupling::run(&mut flow, rock, end).await,
             None => flow.run(end).await,
@@ -154,8 +154,12 @@ impl Simulation {
     }
 
     /// The fluid, and the blocks in it.
-    fn sides(&mut self) -> (Flow<'_>, Option<&mut Rock>) {
-        let (rock, wet) = self.coupled.as_mut().map(Coupled::sides).unzip();
+    fn flow_and_rock(&mut self) -> (Flow<'_>, Option<&mut Rock>) {
+        let (rock, coupling) = self
+            .coupled
+            .as_mut()
+            .map(Coupled::rock_and_coupling)
+            .unzip();
         let flow = Flow {
             device: &self.device,
             queue: &self.queue,
@@ -163,7 +167,7 @@ impl Simulation {
             units: &self.units,
             lattice: &mut self.lattice,
             changing: &self.changing,
-            wet,
+            coupling,
         };
         (flow, rock)
     }
@@ -298,7 +302,7 @@ impl Simulation {
             .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
         self.observer
             .keep_inside(&self.device, &self.lattice, &checkpoint.inside)?;
-        self.sides().0.set_faces()
+        self.flow_and_rock().0.set_faces()
     }
 }
 

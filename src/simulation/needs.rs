@@ -1,10 +1,10 @@
 //! What a scene asks of a device.
 
-use super::lattice_setup;
 use crate::{
-    Result, immersed,
+    Result,
     lattice::{Grid, Memory, Setup, memory},
-    scene::Scene,
+    psm,
+    scene::{Scene, build::lattice_setup},
     units::Units,
 };
 
@@ -43,7 +43,7 @@ impl Needs {
             .most_bindings
             .max(limits.max_storage_buffers_per_shader_stage);
         if scene.has_blocks() {
-            bindings = bindings.max(immersed::MOST_BINDINGS);
+            bindings = bindings.max(psm::MOST_BINDINGS);
             // What they take is known once they are placed, and changes as they move.
             limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
             limits.max_buffer_size = has.max_buffer_size;

@@ -1,35 +1,36 @@
-//! Free water with blocks in it.
+//! Coupling of free water with blocks.
 
 use super::sensors::Sensors;
 use crate::{
     Error, Result,
-    bodies::{Load, Motion, Pose},
-    checkpoint::WaterCheckpoint,
-    coupling::{Felt, Fluid, Pace, Rock, Sealed, longest_exchange},
-    particles::{Particle, Particles, Water},
+    coupling::{ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange},
+    geometry::{Load, Pose},
+    rock::Motion,
     scene::Scene,
+    simulation::checkpoint::WaterCheckpoint,
+    sph::{Particle, SphSolver, Water},
 };
 use glam::{DMat3, DVec3};
 
-/// The water of a scene.
+/// The water of a scene and its exchanges with the blocks.
 #[derive(Debug)]
 pub(super) struct Pool {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    pub particles: Particles,
-    sealed: Sealed,
-    /// Blocks that felt water in the last exchange of a step, and all at its start: only their joints may have some.
+    pub particles: SphSolver,
+    joint_seal: JointSeal,
+    /// Blocks with a load in the last exchange of the step, and all blocks at its start: only their joints can have water.
     wet: Vec<bool>,
     /// Longest time between two exchanges while blocks may move, s.
     longest: f64,
     time: f64,
     average: bool,
-    /// Mean loads of the last exchange, none before the first one.
+    /// Mean loads of the last exchange; empty before the first one.
     pub last: Vec<Load>,
     pub exchanges: u64,
-    /// What blocks gave up since the start in joints that have no water, J.
+    /// Work of blocks since the start in joints that have no particles, J.
     pub joints: f64,
-    /// Steps of the water that sorted its particles.
+    /// Steps that sorted the particles.
     pub sorts: u64,
     pub sensors: Sensors,
 }
@@ -39,22 +40,27 @@ impl Fluid for Pool {
         self.time
     }
 
-    async fn advance(&mut self, poses: &[Pose], pace: Pace, end: f64) -> Result<Option<Vec<Felt>>> {
-        let until = self.next(pace, end);
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        let until = self.next(interval, end);
         let (device, queue, time) = (&self.device, &self.queue, until - self.time);
-        let closed = self.sealed.closed(poses, &self.wet);
-        let rims = closed.places();
+        let sealed = self.joint_seal.find_joints(poses, &self.wet);
+        let rims = sealed.rim_places();
         self.particles
-            .ask(device, queue, &rims, self.sensors.places())?;
+            .set_probes(device, queue, &rims, self.sensors.probes())?;
         let mut done = self.particles.advance(device, queue, poses, time).await?;
         let own = done.loads.clone();
         let loads = &mut done.loads;
         let (rims, walls) = done.pressures.split_at(rims.len());
-        self.sealed.push(closed, rims, poses, loads);
+        self.joint_seal.add_loads(sealed, rims, poses, loads);
         if self.particles.setup().plane {
             loads.iter_mut().for_each(|load| *load = load.in_plane());
         }
-        self.sensors.feel(walls, time);
+        self.sensors.record(walls, time);
         self.joints += joints_work(&own, loads, poses, time);
         let wet = |load: &Load| load.force != DVec3::ZERO;
         self.wet = done.loads.iter().map(wet).collect();
@@ -64,7 +70,7 @@ impl Fluid for Pool {
         if !self.average || self.last.is_empty() {
             self.last.clone_from(&done.loads);
         }
-        let mean = |(last, new): (&Load, &Load)| Felt {
+        let mean = |(last, new): (&Load, &Load)| FluidLoad {
             flow: Load {
                 force: 0.5 * (last.force + new.force),
                 moment: 0.5 * (last.moment + new.moment),
@@ -72,9 +78,9 @@ impl Fluid for Pool {
             },
             buoyancy: Load::default(),
         };
-        let felt = self.last.iter().zip(&done.loads).map(mean).collect();
+        let loads = self.last.iter().zip(&done.loads).map(mean).collect();
         self.last = done.loads;
-        Ok(Some(felt))
+        Ok(Some(loads))
     }
 }
 
@@ -83,7 +89,7 @@ impl Pool {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         (scene, rock): (&Scene, &Rock),
-        particles: Particles,
+        particles: SphSolver,
     ) -> Self {
         let blocks = &rock.setup().setup.blocks;
         let shapes = blocks.iter().map(|block| block.shape.clone()).collect();
@@ -97,7 +103,7 @@ impl Pool {
             wet: vec![true; setup.bodies.len()],
             device: device.clone(),
             queue: queue.clone(),
-            sealed: Sealed::new(shapes, rock.blocks().period(), setup, &asked),
+            joint_seal: JointSeal::new(shapes, rock.blocks().period(), setup, &asked),
             longest: longest_exchange(rock, setup.density * setup.sound_speed),
             particles,
             time: 0.0,
@@ -110,20 +116,22 @@ impl Pool {
         }
     }
 
-    /// Begins a step at the time `time` (s), from nothing that a checkpoint does not hold.
+    /// Begins a step at `time` (s). The step depends only on state that a checkpoint contains.
     pub fn begin(&mut self, time: f64) {
         self.time = time;
         self.wet.fill(true);
         self.sensors.begin();
-        self.particles.renew();
+        self.particles.force_sort();
     }
 
-    /// When water and blocks meet next: in parts of equal length until `end`.
-    fn next(&self, pace: Pace, end: f64) -> f64 {
-        let interval = match pace {
-            Pace::Still => return end,
-            Pace::Asleep(steps) => steps as f64 * self.particles.limit(),
-            Pace::Awake(steps) => (steps as f64 * self.particles.limit()).min(self.longest),
+    /// Time of the next exchange. The exchanges until `end` are of equal length.
+    fn next(&self, interval: ExchangeInterval, end: f64) -> f64 {
+        let interval = match interval {
+            ExchangeInterval::Static => return end,
+            ExchangeInterval::Asleep(steps) => steps as f64 * self.particles.step_limit(),
+            ExchangeInterval::Awake(steps) => {
+                (steps as f64 * self.particles.step_limit()).min(self.longest)
+            }
         };
         let parts = ((end - self.time) / interval * (1.0 - 1e-6))
             .ceil()
@@ -135,7 +143,7 @@ impl Pool {
         }
     }
 
-    /// The water as it is.
+    /// The present state of the water.
     ///
     /// # Errors
     /// If the device is lost.
@@ -143,7 +151,7 @@ impl Pool {
         self.particles.water(&self.device, &self.queue).await
     }
 
-    /// Its particles, in the units of the device.
+    /// The particles in the units of the device.
     ///
     /// # Errors
     /// If the device is lost.
@@ -151,10 +159,10 @@ impl Pool {
         self.particles.particles(&self.device, &self.queue).await
     }
 
-    /// Whether a checkpoint is of such water.
+    /// Checks that a checkpoint fits this water.
     ///
     /// # Errors
-    /// If it is of other particles or sensors.
+    /// If its particles or sensors differ in number.
     pub fn check(&self, checkpoint: &WaterCheckpoint) -> Result<()> {
         let (its, mine) = (checkpoint.sensors.len(), self.sensors.readings.len());
         if its != mine {
@@ -168,10 +176,10 @@ impl Pool {
         self.particles.check(&checkpoint.particles)
     }
 
-    /// Goes on from a checkpoint.
+    /// Restores a checkpoint.
     ///
     /// # Errors
-    /// If it is of other particles or sensors.
+    /// If its particles or sensors differ in number.
     pub fn restore(&mut self, checkpoint: &WaterCheckpoint) -> Result<()> {
         self.sensors.readings.clone_from(&checkpoint.sensors);
         self.particles
@@ -182,7 +190,7 @@ impl Pool {
     }
 }
 
-/// What blocks at `poses` give up (J) in `time` (s) to what they feel beside their `own` loads.
+/// Work (J) of blocks at `poses` in `time` (s) against the loads beyond their `own`, those in joints.
 fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
     let each = own.iter().zip(all).zip(poses);
     let moving = each.filter(|((own, all), pose)| {

@@ -1,10 +1,10 @@
-//! Where the energy of free water is and where it went.
+//! Energy ledger of free water.
 
-/// Energies of free water and of what works on it (Cercos-Pita, Antuono, Colagrossi & Souto-Iglesias 2017, Comput. Methods
-/// Appl. Mech. Eng. 317:771), J. Works count from the start.
+/// Energies of free water and work on it (Cercos-Pita, Antuono, Colagrossi & Souto-Iglesias 2017, Comput. Methods Appl.
+/// Mech. Eng. 317:771), J. Work counts from the start.
 ///
-/// What bodies do to the water is what they feel times how they moved in the steps of the water. Blocks move under the mean of
-/// two loads, and after the water has: what they give up differs by that, and by what is in joints.
+/// The work of bodies on the water is minus the load on them along their motion in the steps of the water. Blocks move under
+/// the mean of two loads and after the water, so the work of the blocks differs from it, and it includes the work in joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaterLedger {
     /// Σ ½mv².
@@ -13,49 +13,49 @@ pub struct WaterLedger {
     pub potential: f64,
     /// Σ m ∫ p/ρ² dρ.
     pub compression: f64,
-    /// All three of those that have left, when they did.
-    pub left: f64,
-    /// Done on the water by free and driven blocks.
+    /// Sum of the three energies of the escaped particles, each at the time of its escape.
+    pub escaped: f64,
+    /// Work of free and driven blocks on the water.
     pub bodies: f64,
-    /// Done on the water by the springs that push it out of what does not move.
-    pub pushed: f64,
-    /// Done on the water by dummy particles beyond the work of their walls and bodies: the error of this boundary condition,
-    /// in proportion to the spacing and mostly that of corners beside bodies that move.
-    pub pressed: f64,
-    /// Given up by blocks in joints that have no water, and gone.
+    /// Work of the penalty force of fixed bodies on the water.
+    pub penalty: f64,
+    /// Work of boundary particles on the water beyond the work of their walls and bodies: the error of this boundary
+    /// condition, proportional to the spacing. Most of it comes from corners next to moving bodies.
+    pub boundary: f64,
+    /// Work of blocks in joints that have no particles; it does not reach the water.
     pub joints: f64,
-    /// Given up by free and driven blocks to the water and in joints, as they have moved.
+    /// Work of free and driven blocks on the water and in joints along their own motion.
     pub blocks: f64,
 }
 
 impl WaterLedger {
-    /// The same since `start`.
+    /// Differences from the ledger at the `start`.
     pub fn since(&self, start: &Self) -> Self {
         Self {
             kinetic: self.kinetic - start.kinetic,
             potential: self.potential - start.potential,
             compression: self.compression - start.compression,
-            left: self.left - start.left,
+            escaped: self.escaped - start.escaped,
             bodies: self.bodies - start.bodies,
-            pushed: self.pushed - start.pushed,
-            pressed: self.pressed - start.pressed,
+            penalty: self.penalty - start.penalty,
+            boundary: self.boundary - start.boundary,
             joints: self.joints - start.joints,
             blocks: self.blocks - start.blocks,
         }
     }
 
-    /// What the water holds, and what has left.
-    pub fn held(&self) -> f64 {
-        self.kinetic + self.potential + self.compression + self.left
+    /// Total energy of the water, escaped particles included.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential + self.compression + self.escaped
     }
 
-    /// What was done on the water and is not there, of a ledger since a start: taken by viscosity and by the diffusion of
-    /// density, with the error of the time integration.
+    /// Dissipated energy, of a ledger since a start: by viscosity and density diffusion, with the error of the time
+    /// integration.
     pub fn dissipated(&self) -> f64 {
-        self.bodies + self.pushed + self.pressed - self.held()
+        self.bodies + self.penalty + self.boundary - self.total()
     }
 
-    /// What blocks gave up and the water did not get, joints apart: the error of the exchange, with which both go on by turns.
+    /// Work of blocks that the water did not receive, without joints: the error of the staggered exchange.
     pub fn unmatched(&self) -> f64 {
         self.blocks - self.joints - self.bodies
     }

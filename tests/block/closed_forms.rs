@@ -2,7 +2,7 @@
 
 use crate::measure::{assert_sound, difference};
 use glam::{DMat3, DVec3};
-use riprap::block::{Form, Part, Polyhedron, Shape};
+use riprap::geometry::{Form, Part, Polyhedron, Shape};
 use std::f64::consts::PI;
 
 /// Sums of a few dozen terms in f64.

@@ -1,7 +1,7 @@
 //! Independent measures of polyhedra.
 
 use glam::{DMat3, DVec3};
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 
 /// Largest difference of two matrices' entries.
 pub fn difference(a: DMat3, b: DMat3) -> f64 {

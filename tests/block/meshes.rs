@@ -2,8 +2,8 @@
 
 use crate::measure::{assert_sound, difference};
 use glam::{DMat3, DQuat, DVec3};
-use riprap::block::{Form, Polyhedron, Shape};
-use riprap::solid::TriangleMesh;
+use riprap::geometry::TriangleMesh;
+use riprap::geometry::{Form, Polyhedron, Shape};
 use std::fmt::Write;
 use std::path::PathBuf;
 

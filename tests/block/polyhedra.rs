@@ -3,7 +3,7 @@
 use crate::measure::{assert_sound, difference};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use riprap::block::{HalfSpace, Polyhedron};
+use riprap::geometry::{HalfSpace, Polyhedron};
 
 fn direction() -> impl Strategy<Value = DVec3> {
     // Uniform on the sphere (Archimedes).

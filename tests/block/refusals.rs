@@ -1,10 +1,7 @@
 //! What is no block is refused, and the message says which face and what to do.
 
 use glam::DVec3;
-use riprap::{
-    block::{Form, HalfSpace, Part, Polyhedron, RockMass, Shape},
-    solid::TriangleMesh,
-};
+use riprap::geometry::{Form, HalfSpace, Part, Polyhedron, RockMass, Shape, TriangleMesh};
 
 fn cube() -> Vec<HalfSpace> {
     Polyhedron::cuboid(DVec3::ONE).unwrap().faces().to_vec()

@@ -3,7 +3,7 @@
 use crate::measure::{assert_sound, assert_sound_to};
 use glam::DVec3;
 use proptest::prelude::*;
-use riprap::block::{
+use riprap::geometry::{
     Compass, Fragments, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter,
 };
 use std::collections::BTreeMap;

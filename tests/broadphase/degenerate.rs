@@ -4,7 +4,7 @@ use crate::{
     finders::Finders,
     scenes::{Random, brute_force, item},
 };
-use riprap::broadphase::Item;
+use riprap::rock::broadphase::Item;
 
 fn agree(items: &[Item]) -> usize {
     let found = Finders::new().pairs(items);

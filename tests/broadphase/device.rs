@@ -7,7 +7,7 @@ use crate::{
 };
 use riprap::{
     Error,
-    broadphase::{AutoBroadphase, Broadphase},
+    rock::broadphase::{AutoBroadphase, Broadphase},
     wgpu,
 };
 

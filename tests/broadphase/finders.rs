@@ -3,7 +3,7 @@
 use crate::rig::Rig;
 use riprap::{
     Result,
-    broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
     wgpu,
 };
 

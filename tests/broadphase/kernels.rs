@@ -5,9 +5,11 @@ use crate::{
     workbench::{POISON, Workbench},
 };
 use riprap::{
-    broadphase::{Boxes, Header, Item, Search},
-    link::Program,
-    search::{DeviceBox, Level},
+    gpu::{
+        bins::{DeviceBox, Level},
+        link::Program,
+    },
+    rock::broadphase::{Boxes, Header, Item, Search},
     wgpu,
 };
 use std::collections::BTreeMap;

@@ -1,10 +1,12 @@
 //! What the host writes and reads lies as the kernels have it.
 
 use riprap::{
-    broadphase::{Header, Search},
-    layout::check,
-    link::{Linked, Program},
-    search::{DeviceBox, Level},
+    gpu::{
+        bins::{DeviceBox, Level},
+        layout::check,
+        link::{Linked, Program},
+    },
+    rock::broadphase::{Header, Search},
 };
 use std::mem::offset_of;
 

@@ -4,7 +4,7 @@ use crate::{
     finders::{Finders, on_host},
     scenes::scattered,
 };
-use riprap::broadphase::{Broadphase, Item};
+use riprap::rock::broadphase::{Broadphase, Item};
 
 fn refused(finders: &mut Finders, spoil: impl Fn(&mut Item)) -> String {
     let mut messages = Vec::new();

@@ -1,7 +1,7 @@
 //! The scan: each value becomes the sum of all before it.
 
 use crate::{scenes::Random, workbench::Workbench};
-use riprap::{link::Program, search::Scan};
+use riprap::gpu::{bins::Scan, link::Program};
 
 /// In integers that cannot pass their end.
 fn twin(values: &[u32]) -> (Vec<u32>, u32) {

@@ -1,6 +1,6 @@
 //! Boxes to search: scattered, crowded, of one size and of many.
 
-use riprap::broadphase::Item;
+use riprap::rock::broadphase::Item;
 
 /// Knuth's MMIX generator: the same scenes everywhere.
 pub struct Random(pub u64);

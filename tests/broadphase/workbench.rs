@@ -1,7 +1,10 @@
 //! A kernel by itself on buffers that are full of rubbish.
 
 use crate::rig::Rig;
-use riprap::{kernel::Kernel, link::Program, readback::Readback, wgpu};
+use riprap::{
+    gpu::{kernel::Kernel, link::Program, readback::Readback},
+    wgpu,
+};
 
 /// What memory holds before a kernel writes it.
 pub const POISON: u32 = 0xdead_beef;
@@ -40,7 +43,8 @@ impl Workbench {
         self.buffer(&vec![POISON; words])
     }
 
-    /// Runs the entry point of a program, of the same name as its file, for `invocations`.
+    /// Runs the entry point of a program, of the same name as its file, for `invocations`; `constants` are those of its
+    /// family.
     pub fn run(
         &self,
         program: &Program,
@@ -50,7 +54,9 @@ impl Workbench {
         invocations: usize,
     ) {
         let device = &self.rig.device;
-        let kernel = Kernel::new(device, &program.link().unwrap(), entry, constants).unwrap();
+        let linked = program.link().unwrap();
+        let constants = linked.constants_of(constants);
+        let kernel = Kernel::new(device, &linked, entry, &constants).unwrap();
         let bind = kernel.bind(device, buffers).unwrap();
         let mut encoder = device.create_command_encoder(&Default::default());
         {

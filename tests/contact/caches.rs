@@ -2,7 +2,7 @@
 
 use crate::{pairs::Couple, rig::Random};
 use glam::DQuat;
-use riprap::contact::{Cache, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 
 /// Pairs that move through contact and out of it, each step with the cache and without.
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::{pairs::Couple, rig::Random};
 use glam::{DMat3, DVec3};
-use riprap::contact::{Cache, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
 /// Newton's decrement λ² of −Σ log(slack) at `x`, and the smallest slack, from the blocks as they are.
 fn decrement(blocks: [&Placed; 2], x: DVec3) -> (f64, f64) {

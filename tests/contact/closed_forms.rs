@@ -2,7 +2,7 @@
 
 use crate::rig::{Random, Solid};
 use glam::{DQuat, DVec3};
-use riprap::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, SQRT_2};
 
 fn resolve(a: &Placed, b: &Placed) -> Contact {

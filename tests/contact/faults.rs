@@ -2,7 +2,7 @@
 
 use crate::rig::{Random, Solid, ball};
 use glam::{DQuat, DVec3};
-use riprap::contact::{Cache, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
 fn resolve(a: &Placed, b: &Placed) -> riprap::Result<Verdict> {
     Resolver::new(Options::default()).resolve(a, b, &mut Cache::default())
@@ -106,7 +106,7 @@ fn a_pose_that_is_not_finite_is_an_error() {
     let far = cube.at(DVec3::new(0.0, f64::INFINITY, 0.9), DQuat::IDENTITY);
     let no_size = ball(f64::NAN, DVec3::Z);
     let mut turned = Placed::default();
-    let pose = riprap::bodies::Pose::rigid(
+    let pose = riprap::geometry::Pose::rigid(
         DVec3::Z,
         DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0),
         DVec3::ZERO,

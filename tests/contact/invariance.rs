@@ -2,7 +2,7 @@
 
 use crate::{pairs::Couple, rig::Random};
 use glam::{DQuat, DVec3};
-use riprap::contact::{Cache, Contact, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Contact, Options, Resolver, Verdict};
 
 fn contact(couple: &Couple) -> Contact {
     let [a, b] = couple.placed();

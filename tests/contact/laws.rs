@@ -6,7 +6,7 @@
 use crate::rig::Solid;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use riprap::contact::{Cache, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
 /// A hull of points of a stretched ball.
 fn hull() -> impl Strategy<Value = Solid> {

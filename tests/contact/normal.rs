@@ -9,7 +9,7 @@ use clarabel::{
     solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT},
 };
 use glam::{DQuat, DVec3};
-use riprap::contact::{Cache, Contact, Normal, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Contact, Normal, Options, Placed, Resolver, Verdict};
 
 /// Multipliers of the linear program, the first block's first, and their normal Σ z a over it.
 fn dual(a: &Placed, b: &Placed, length: f64) -> (Vec<f64>, DVec3) {

@@ -3,7 +3,7 @@
 use super::rig::{Random, Solid};
 use glam::{DQuat, DVec3};
 use parry3d_f64::{math::Pose, query};
-use riprap::contact::Placed;
+use riprap::rock::contact::Placed;
 
 /// A pair and where it is.
 pub struct Couple {

@@ -6,8 +6,8 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::HalfSpace,
-    contact::{Cache, Contact, Options, Placed, Resolver, Verdict},
+    geometry::HalfSpace,
+    rock::contact::{Cache, Contact, Options, Placed, Resolver, Verdict},
 };
 
 fn resolve(a: &Placed, b: &Placed) -> Option<Contact> {

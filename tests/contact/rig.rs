@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use parry3d_f64::shape::ConvexPolyhedron;
-use riprap::{block::HalfSpace, contact::Placed};
+use riprap::{geometry::HalfSpace, rock::contact::Placed};
 
 /// A convex block in its own frame, in the library's terms and in parry's.
 #[derive(Clone, Debug)]

@@ -2,9 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{HalfSpace, JointSet, RockMass, Scatter},
-    bodies::Pose,
-    contact::{Cache, Options, Placed, Resolver, Verdict},
+    geometry::{HalfSpace, JointSet, Pose, RockMass, Scatter},
+    rock::contact::{Cache, Options, Placed, Resolver, Verdict},
 };
 
 /// A box of 12 m, far from the origin, cut by three oblique joint sets.

@@ -2,7 +2,7 @@
 
 use crate::{pairs::Couple, rig::Random};
 use glam::DVec3;
-use riprap::contact::{Cache, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 
 #[test]
 fn the_cached_plane_has_each_block_on_its_own_side() {

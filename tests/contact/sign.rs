@@ -5,7 +5,7 @@ use crate::{
     rig::{Random, Solid},
 };
 use glam::DVec3;
-use riprap::contact::{Cache, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 
 /// Gaps and overlaps from here on have a sign, in L.
 const LEAST: f64 = 1e-9;

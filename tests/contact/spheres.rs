@@ -3,7 +3,7 @@
 use crate::rig::{Random, Solid, ball};
 use glam::DVec3;
 use parry3d_f64::{math::Pose, query, shape::Ball};
-use riprap::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
 use std::f64::consts::PI;
 
 fn resolve(a: &Placed, b: &Placed) -> Verdict {

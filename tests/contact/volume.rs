@@ -2,7 +2,7 @@
 
 use crate::rig::{Random, Solid};
 use glam::{DQuat, DVec3};
-use riprap::contact::{Cache, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
 /// Length in both blocks of the vertical through (x, y).
 fn chord(blocks: [&Placed; 2], x: f64, y: f64) -> f64 {

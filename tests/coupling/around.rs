@@ -2,11 +2,11 @@
 
 use crate::world::{DENSITY, STEP, World, fluid, material};
 use glam::DVec3;
-use riprap::coupling::Felt;
+use riprap::coupling::FluidLoad;
 use std::f64::consts::PI;
 
-fn around(world: &World, block: usize) -> Felt {
-    world.sim.coupled().unwrap().around()[block]
+fn around(world: &World, block: usize) -> FluidLoad {
+    world.sim.coupled().unwrap().external_load()[block]
 }
 
 /// m dv/dt is what the fluid does and the weight, nothing else: also in the steps after a restart.
@@ -36,13 +36,13 @@ fn a_free_block_moves_as_what_it_is_told_to_feel() {
         let before = world.velocity(0);
         world.advance(1);
         let gained = mass * (world.velocity(0) - before);
-        let Felt { flow, buoyancy } = around(&world, 0);
+        let FluidLoad { flow, buoyancy } = around(&world, 0);
         let given = STEP * (flow.force + buoyancy.force - 0.01 * mass * DVec3::Z);
         assert!(
             (gained - given).length() < 1e-6 * given.length().max(1.0),
             "step {step}: {gained}, not {given}"
         );
-        moved = moved.max((flow.force - world.felt(0).flow.force).length());
+        moved = moved.max((flow.force - world.cell_load(0).flow.force).length());
     }
     assert!(moved > 1.0, "the fluid inside has no inertia: {moved} N");
 }
@@ -71,7 +71,7 @@ fn a_block_that_is_driven_along_with_the_fluid_feels_what_fluid_would() {
         );
         let mut world = World::new(&scene);
         world.advance(40);
-        let Felt { flow, buoyancy } = around(&world, 0);
+        let FluidLoad { flow, buoyancy } = around(&world, 0);
         let off = flow.force + buoyancy.force - feels * DVec3::X;
         assert!(off.length() < 2e-3 * weight, "{off} of {weight} N");
     }

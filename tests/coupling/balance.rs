@@ -54,7 +54,7 @@ fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
     for step in 1..=30 {
         world.advance(1);
         let (after, now) = world.fluid();
-        let given: DVec3 = (0..2).map(|block| world.felt(block).flow.force).sum();
+        let given: DVec3 = (0..2).map(|block| world.cell_load(block).flow.force).sum();
         let off = after - before + STEP * given;
         assert!(
             off.length() < rounding(after),
@@ -116,7 +116,7 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     for step in 1..=40 {
         world.advance(1);
         let after = world.fluid().0;
-        let felt = [world.felt(0).flow, world.felt(1).flow];
+        let felt = [world.cell_load(0).flow, world.cell_load(1).flow];
         let off = after - fluid + STEP * (felt[0].force + felt[1].force);
         assert!(
             off.length() < rounding(after),

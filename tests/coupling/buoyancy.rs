@@ -74,7 +74,7 @@ fn a_pebble_of_many_faces_displaces_its_volume() {
         world.advance(1);
         let coupled = world.sim.coupled().unwrap();
         let volume = coupled.blocks().mass(0) / 2650.0;
-        let found = world.felt(0).buoyancy.force.z / (DENSITY * 0.01);
+        let found = world.cell_load(0).buoyancy.force.z / (DENSITY * 0.01);
         println!("{faces} faces: {found} of {volume} m³");
         assert!((found / volume - 1.0).abs() < 2e-3, "{found} of {volume}");
     }
@@ -87,7 +87,7 @@ fn buoyancy_is_the_weight_of_the_water_at_any_viscosity() {
     for (nu, water) in [(0.01, true), (0.1, true), (0.5, true), (0.1, false)] {
         let mut world = closed(nu, water);
         world.advance(60);
-        let felt = world.felt(0);
+        let felt = world.cell_load(0);
         let (force, torque) = (
             felt.flow.force + felt.buoyancy.force,
             felt.flow.torque() + felt.buoyancy.torque(),

@@ -1,4 +1,4 @@
-//! Closed joints: what a block feels there is the water of their rim, once what the lattice held inside has seeped out.
+//! SealedJoints joints: what a block feels there is the water of their rim, once what the lattice held inside has seeped out.
 
 use crate::world::{DENSITY, World, fluid, material};
 use glam::DVec3;
@@ -73,9 +73,9 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
             // Until what was inside has seeped out.
             world.advance(if stale > 0.0 { 800 } else { 0 });
             let coupled = world.sim.coupled().unwrap();
-            let [force, torque] = coupled.with_closed_joints(0).unwrap();
+            let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
             let exact = -DENSITY * volume * DVec3::from(gravity);
-            let felt = world.felt(0);
+            let felt = world.cell_load(0);
             let whole = felt.flow.force + felt.buoyancy.force;
             println!("{acceleration:?}, {stale}: {force}, {torque}; {exact}; {whole}");
             assert!((force - exact).length() < 1e-4 * exact.length());
@@ -100,7 +100,7 @@ fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
     for size in sizes {
         let world = tank(heavy, heavy, 0.0, &stone(size, "fixed"));
         let coupled = world.sim.coupled().unwrap();
-        let [force, torque] = coupled.with_closed_joints(0).unwrap();
+        let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
         let exact = DENSITY * 0.01 * size.element_product();
         // The head over the block, times its base.
         let head = DENSITY * 0.01 * 12.0 * size.x * size.y;
@@ -125,7 +125,7 @@ fn seams_of_a_compound_carry_nothing() {
         ]"#;
     let world = tank(heavy, heavy, 0.0, compound);
     let coupled = world.sim.coupled().unwrap();
-    let [force, torque] = coupled.with_closed_joints(0).unwrap();
+    let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
     let volume = 48.0 + 24.0;
     let exact = DVec3::Z * DENSITY * 0.01 * volume;
     println!("{force}, {torque}; {exact}");
@@ -173,7 +173,7 @@ fn a_block_that_lands_has_the_push_of_archimedes() {
         );
         let mut world = tank(heavy, heavy, 0.0, &blocks);
         world.advance(400);
-        let felt = world.felt(0);
+        let felt = world.cell_load(0);
         let force = felt.flow.force + felt.buoyancy.force;
         let exact = DENSITY * 0.01 * size.element_product();
         println!("{bed}: {force}, {exact}");
@@ -221,7 +221,7 @@ fn each_joint_has_the_pressure_of_its_own_rim() {
     // Later on water has seeped from one side to the other.
     world.advance(200);
     let coupled = world.sim.coupled().unwrap();
-    let (faces, joints) = (coupled.faces(0), coupled.closed_joints(0));
+    let (faces, joints) = (coupled.face_loads(0), coupled.joint_loads(0));
     let face = |normal: DVec3| {
         let mut all = faces.iter().zip(&joints);
         all.find(|(load, _)| load.face.normal.dot(normal) > 0.9)
@@ -269,6 +269,6 @@ fn a_block_without_closed_joints_has_none() {
     let mut world = World::new(&text);
     world.advance(2);
     let coupled = world.sim.coupled().unwrap();
-    assert_eq!(coupled.faces(0).len(), 6);
-    assert_eq!(coupled.with_closed_joints(0), None);
+    assert_eq!(coupled.face_loads(0).len(), 6);
+    assert_eq!(coupled.wrench_with_uplift(0), None);
 }

@@ -49,7 +49,7 @@ fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     let mass = world.fluid().1;
     let speed_then = speed(&world);
     world.advance(40);
-    let bytes = world.sim.coupled().unwrap().immersed().bytes();
+    let bytes = world.sim.coupled().unwrap().solid_cells().bytes();
     world.advance(160);
     let end = all(&mut world);
     println!("{start} {end}, speed {speed_then} to {}", speed(&world));
@@ -60,6 +60,6 @@ fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     );
     assert!((world.fluid().1 / mass - 1.0).abs() < 1e-5);
     assert!(speed(&world) < 0.8 * speed_then);
-    let grown = world.sim.coupled().unwrap().immersed().bytes();
+    let grown = world.sim.coupled().unwrap().solid_cells().bytes();
     assert!(grown <= bytes + bytes / 2, "{bytes} B grew to {grown} B");
 }

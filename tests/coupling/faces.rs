@@ -2,7 +2,7 @@
 
 use crate::world::{DENSITY, World, fluid, material};
 use glam::DVec3;
-use riprap::immersed::FaceLoad;
+use riprap::psm::FaceLoad;
 
 const GRAVITY: f64 = 0.01;
 
@@ -50,7 +50,7 @@ fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
 }
 
 fn faces(world: &World) -> &[FaceLoad] {
-    world.sim.coupled().unwrap().faces(0)
+    world.sim.coupled().unwrap().face_loads(0)
 }
 
 /// Pressure is linear in still water, so that its mean over a face is that at the centroid: with rounding where faces
@@ -75,7 +75,7 @@ fn still_water_presses_by_its_depth() {
             force += load.force;
             moment += load.moment;
         }
-        let felt = world.felt(0);
+        let felt = world.cell_load(0);
         let whole = felt.flow.force + felt.buoyancy.force;
         let exact = DENSITY * GRAVITY * 240.0;
         let error = (force - whole) / exact;
@@ -125,7 +125,7 @@ fn compounds_in_still_water_feel_archimedes_push_on_their_faces() {
                 }
             }
             assert_eq!(covered, 2, "both sides of the seam");
-            let felt = world.felt(0);
+            let felt = world.cell_load(0);
             let whole = felt.flow.force + felt.buoyancy.force;
             let [off, apart] = [force - DVec3::Z * push, force - whole].map(|f| f.length() / push);
             let turn = moment.length() / (push * 6.5);
@@ -170,9 +170,12 @@ fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
     for step in 1..=40 {
         world.advance(1);
         let coupled = world.sim.coupled().unwrap();
-        assert!(coupled.faces(0).is_empty(), "nobody asks about the ball");
-        assert_eq!(coupled.faces(1).len(), 6);
-        for load in coupled.faces(1) {
+        assert!(
+            coupled.face_loads(0).is_empty(),
+            "nobody asks about the ball"
+        );
+        assert_eq!(coupled.face_loads(1).len(), 6);
+        for load in coupled.face_loads(1) {
             // 8 × 6 × 5 cells; of those along x one more in sight where both ends fall on centres of cells.
             let area = 4.0 * load.face.area;
             let cells = f64::from(load.cells);
@@ -243,7 +246,7 @@ fn a_moving_lid_shears_the_face_below() {
     let exact = DENSITY * nu * speed / 4.0;
     let top = faces(&world).iter().find(|load| load.face.normal.z > 0.5);
     let top = top.unwrap();
-    let felt = world.felt(0).flow.force;
+    let felt = world.cell_load(0).flow.force;
     println!("{} of {exact}, {felt}", top.shear());
     assert!((top.shear() - DVec3::X * exact).length() < 1e-2 * exact);
     // What the cells of the slab lose is the same force.
@@ -275,7 +278,7 @@ fn who_does_not_ask_has_no_loads_on_faces() {
         material("rock", 2650.0)
     );
     let world = World::new(&text);
-    let immersed = world.sim.coupled().unwrap().immersed();
+    let immersed = world.sim.coupled().unwrap().solid_cells();
     assert!(immersed.face_sums().is_none());
     assert!(
         immersed
@@ -327,7 +330,7 @@ fn turned_bar(length: f64, z: f64, angle: f64) -> World {
 fn faces_longer_than_a_period_feel_one_period() {
     for (length, z) in [(4.0, 2.0), (14.0, 1.3), (22.0, 2.0)] {
         let world = bar(length, z);
-        let felt = world.felt(0).flow.force.x;
+        let felt = world.cell_load(0).flow.force.x;
         let sum: f64 = faces(&world).iter().map(|load| load.force.x).sum();
         println!("{length}: {sum} {felt}");
         assert!((sum / felt - 1.0).abs() < 0.1, "{length}: {sum}, {felt} N");
@@ -342,7 +345,7 @@ fn faces_longer_than_a_period_feel_one_period() {
 /// Cells that its faces cut are not more solid where the bar goes on beyond the domain.
 #[test]
 fn what_is_longer_than_a_period_is_there_once() {
-    let feels = |length, z| turned_bar(length, z, 20.0).felt(0);
+    let feels = |length, z| turned_bar(length, z, 20.0).cell_load(0);
     let (short, long) = (feels(4.0, 2.0), feels(14.0, 1.3));
     println!("{short:?} {long:?}");
     let apart = (short.flow.force - long.flow.force).length();

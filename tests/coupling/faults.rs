@@ -7,10 +7,9 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     Error,
-    block::Shape,
-    bodies::Pose,
-    immersed::{Frame, Immersed, Submerged},
+    geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator, State},
+    psm::{Frame, SolidBlock, SolidCells},
     scene::Scene,
     simulation::{Needs, Simulation},
     units::Units,
@@ -24,8 +23,8 @@ const UNITS: Units = Units {
     density: 1.0,
 };
 
-fn ball(radius: f64) -> Submerged {
-    Submerged {
+fn ball(radius: f64) -> SolidBlock {
+    SolidBlock {
         shape: Arc::new(Shape::sphere(radius).unwrap()),
         loaded: true,
         faces: false,
@@ -55,7 +54,7 @@ fn poses_that_are_nowhere_are_refused_and_the_next_ones_are_not() {
     let rig = Rig::new();
     let mut lattice = lattice(&rig, [16, 8, 8], Some(SolidOperator::Holdych));
     let blocks = vec![ball(2.0), ball(1.5)];
-    let mut immersed = Immersed::new(&rig.device, &lattice, frame(), blocks).unwrap();
+    let mut immersed = SolidCells::new(&rig.device, &lattice, frame(), blocks).unwrap();
     let good = [at(DVec3::splat(4.0)), at(DVec3::new(11.0, 4.0, 4.0))];
     let mut place = |poses: &[Pose]| {
         let placed = immersed.place(&rig.device, &rig.queue, &mut lattice, poses);
@@ -89,7 +88,7 @@ fn poses_that_are_nowhere_are_refused_and_the_next_ones_are_not() {
 fn a_lattice_without_a_solid_operator_takes_no_blocks() {
     let rig = Rig::new();
     let lattice = lattice(&rig, [8, 8, 8], None);
-    let error = Immersed::new(&rig.device, &lattice, frame(), vec![ball(2.0)]).unwrap_err();
+    let error = SolidCells::new(&rig.device, &lattice, frame(), vec![ball(2.0)]).unwrap_err();
     assert!(error.to_string().contains("solid operator"), "{error}");
 }
 
@@ -105,7 +104,7 @@ fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
         ..limits
     });
     let mut lattice = lattice(&rig, cells, Some(SolidOperator::Holdych));
-    let mut immersed = Immersed::new(&rig.device, &lattice, frame(), vec![ball(40.0)]).unwrap();
+    let mut immersed = SolidCells::new(&rig.device, &lattice, frame(), vec![ball(40.0)]).unwrap();
     let mut place =
         |centre: DVec3| immersed.place(&rig.device, &rig.queue, &mut lattice, &[at(centre)]);
     for _ in 0..2 {
@@ -114,7 +113,7 @@ fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
         assert!(error.to_string().contains("larger cell"), "{error}");
     }
     // The same lattice with a block that fits.
-    let mut small = Immersed::new(&rig.device, &lattice, frame(), vec![ball(3.0)]).unwrap();
+    let mut small = SolidCells::new(&rig.device, &lattice, frame(), vec![ball(3.0)]).unwrap();
     let pose = [at(DVec3::splat(20.0))];
     small
         .place(&rig.device, &rig.queue, &mut lattice, &pose)
@@ -254,7 +253,7 @@ fn a_frame_without_units_and_a_pose_without_volume_are_refused() {
     let mut put = |change: &dyn Fn(&mut Frame, &mut Pose)| {
         let (mut frame, mut pose) = (frame(), at(DVec3::splat(4.0)));
         change(&mut frame, &mut pose);
-        let immersed = Immersed::new(&rig.device, &lattice, frame, vec![ball(2.0)]);
+        let immersed = SolidCells::new(&rig.device, &lattice, frame, vec![ball(2.0)]);
         let placed =
             immersed.and_then(|mut all| all.place(&rig.device, &rig.queue, &mut lattice, &[pose]));
         placed.map_err(|error| error.to_string()).err()

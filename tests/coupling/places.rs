@@ -34,7 +34,7 @@ fn borders_that_are_periodic_are_none() {
     for step in 1..=25 {
         middle.advance(1);
         border.advance(1);
-        let (a, b) = (middle.felt(0).flow, border.felt(0).flow);
+        let (a, b) = (middle.cell_load(0).flow, border.cell_load(0).flow);
         // Sums in another order.
         let off = (a.force - b.force).length() / a.force.length().max(1.0);
         assert!(off < 1e-4, "step {step}: {} and {}", a.force, b.force);
@@ -106,7 +106,7 @@ fn blocks_anywhere_leave_the_flow_whole() {
     for _ in 0..12 {
         world.advance(10);
         for block in 0..5 {
-            let felt = world.felt(block);
+            let felt = world.cell_load(block);
             assert!(
                 felt.flow.force.is_finite() && felt.flow.moment.is_finite(),
                 "{block}"
@@ -115,9 +115,9 @@ fn blocks_anywhere_leave_the_flow_whole() {
     }
     // In 30 s it has gone 7.5 m.
     assert!(world.centre(1).x > 18.0);
-    assert_eq!(world.felt(1).flow, riprap::bodies::Load::default());
+    assert_eq!(world.cell_load(1).flow, riprap::geometry::Load::default());
     // Only what lies in the domain counts of the slab.
-    let slab = world.felt(0).flow;
+    let slab = world.cell_load(0).flow;
     let inside = slab.entrained + slab.missing;
     assert!((inside - 11.0 * 0.9 * 5.0).abs() < 0.1, "{inside}");
 }
@@ -151,5 +151,5 @@ fn blocks_that_have_left_feel_nothing() {
     assert_eq!(world.velocity(0), velocity);
     let way = world.centre(0) - centre - 40.0 * STEP * velocity;
     assert!(way.length() < 1e-9);
-    assert_eq!(world.sim.coupled().unwrap().immersed().tiles(), 0);
+    assert_eq!(world.sim.coupled().unwrap().solid_cells().tiles(), 0);
 }

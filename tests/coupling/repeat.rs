@@ -1,7 +1,7 @@
 //! The same bits twice, and from wherever a run was cut.
 
 use crate::world::{World, fluid, material};
-use riprap::{checkpoint::Checkpoint, scene::Field};
+use riprap::{scene::Field, simulation::checkpoint::Checkpoint};
 
 /// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.
 fn scene(interval: u32, average: bool) -> String {

@@ -93,7 +93,7 @@ fn fixed_blocks_are_read_where_somebody_asks() {
     world.advance(20);
     assert_eq!(exchanges(&world).readings, 2);
     assert_eq!(exchanges(&world).cells, once.cells);
-    assert!(world.felt(0).flow.force.x > 0.0);
+    assert!(world.cell_load(0).flow.force.x > 0.0);
 }
 
 /// Poses that stand still for four steps move the drag by as little as the block moves meanwhile.

@@ -52,7 +52,7 @@ fn a_block_that_lifts_off_its_bed_comes_to_rest() {
         let mut swing = [f64::INFINITY, f64::NEG_INFINITY];
         for _ in 0..50 {
             world.advance(1);
-            let force = world.felt(0).flow.force.z;
+            let force = world.cell_load(0).flow.force.z;
             swing = [swing[0].min(force), swing[1].max(force)];
         }
         let swing = (swing[1] - swing[0]) / WEIGHT;

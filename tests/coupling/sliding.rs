@@ -57,9 +57,9 @@ fn a_block_that_slides_is_not_tied_to_its_bed() {
             velocity = ["0.02*max(0, sign(50 - t))", 0, 0]"#;
         let mut world = tank(bed, [0.0; 3], 30.0, stone);
         world.advance(100);
-        let slides = world.felt(0).flow.force.x;
+        let slides = world.cell_load(0).flow.force.x;
         world.advance(500);
-        let stands = world.felt(0).flow.force.x;
+        let stands = world.cell_load(0).flow.force.x;
         println!("{bed}: {slides}, {stands} N; {spring} N/m");
         // The drag of the stone, 0.02 m/s fast, and of swirls.
         assert!(slides.abs() < 2e-3 * spring, "{slides}");

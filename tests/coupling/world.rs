@@ -2,7 +2,7 @@
 
 use crate::rig::Rig;
 use glam::DVec3;
-use riprap::{Result, coupling::Felt, scene::Scene, simulation::Simulation};
+use riprap::{Result, coupling::FluidLoad, scene::Scene, simulation::Simulation};
 use std::path::Path;
 
 /// Length of a step, s.
@@ -74,7 +74,7 @@ impl World {
         self.sim.coupled().unwrap().blocks().poses()[block].centre
     }
 
-    pub fn felt(&self, block: usize) -> Felt {
-        self.sim.coupled().unwrap().felt()[block]
+    pub fn cell_load(&self, block: usize) -> FluidLoad {
+        self.sim.coupled().unwrap().cell_load()[block]
     }
 }

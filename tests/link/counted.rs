@@ -2,8 +2,8 @@
 
 use crate::specialise::LAYOUTS;
 use riprap::{
+    gpu::work::Work,
     lattice::{Collision, Force, Reach, Setup, Storage, bytes_a_cell, collide_stream},
-    work::Work,
 };
 
 fn work(setup: &Setup, reach: Reach) -> Work {

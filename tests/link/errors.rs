@@ -1,6 +1,6 @@
 //! Where errors are found, and that unrolled loops are the loops.
 
-use riprap::{Error, link::Program};
+use riprap::{Error, gpu::link::Program};
 
 /// The place of an error and its message.
 fn place(program: Program) -> (String, u32, String) {

@@ -1,6 +1,6 @@
 //! The files themselves.
 
-use riprap::link::{SOURCES, needs};
+use riprap::gpu::link::{SOURCES, needs};
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
@@ -14,7 +14,11 @@ fn kernels_folder() -> PathBuf {
 fn every_file_is_a_source_and_the_reverse() {
     let mut files = BTreeSet::new();
     for folder in std::fs::read_dir(kernels_folder()).unwrap() {
-        for file in std::fs::read_dir(folder.unwrap().path()).unwrap() {
+        let folder = folder.unwrap().path();
+        if folder.ends_with("SLOTS.md") {
+            continue;
+        }
+        for file in std::fs::read_dir(folder).unwrap() {
             let path = file.unwrap().path();
             assert_eq!(path.extension().unwrap(), "wgsl", "{}", path.display());
             files.insert(path.file_stem().unwrap().to_str().unwrap().to_owned());
@@ -33,7 +37,7 @@ fn files_stand_on_files_that_exist() {
         for (line, needed) in needs(text) {
             let known = needed.starts_with('$')
                 || generated.contains(&needed)
-                || riprap::link::source(needed).is_some();
+                || riprap::gpu::link::source(needed).is_some();
             assert!(known, "{name}:{line}: {needed}");
         }
     }
@@ -60,5 +64,54 @@ fn first_lines_say_what_a_file_is() {
             cited || copies || !text.contains("@compute"),
             "{name}: {first}"
         );
+    }
+}
+
+/// Names in code spans of a cell of a table, up to what follows an identifier.
+fn names(cell: &str) -> Vec<&str> {
+    let spans = cell.split('`').skip(1).step_by(2);
+    spans
+        .map(|span| {
+            let end = span.find(|c: char| !c.is_alphanumeric() && c != '_' && c != '$');
+            &span[..end.unwrap_or(span.len())]
+        })
+        .collect()
+}
+
+#[test]
+fn the_table_of_slots_lists_each_slot_with_its_files_and_functions() {
+    let table = std::fs::read_to_string(kernels_folder().join("SLOTS.md")).unwrap();
+    let mut listed = BTreeSet::new();
+    for row in table.lines().filter(|line| line.starts_with("| `$")) {
+        let cells: Vec<_> = row.split('|').map(str::trim).collect();
+        let [_, slot, files, functions, _, _] = cells[..] else {
+            panic!("{row}");
+        };
+        let slot = names(slot)[0];
+        assert!(listed.insert(slot.to_owned()), "{slot} has two rows");
+        for file in names(files) {
+            let text = riprap::gpu::link::source(file).unwrap_or_else(|| panic!("{slot}: {file}"));
+            for function in names(functions) {
+                // Types begin with a capital letter.
+                let defined = text.contains(&format!("fn {function}("));
+                assert!(
+                    defined || function.starts_with(char::is_uppercase),
+                    "{slot}: {file} lacks {function}"
+                );
+            }
+        }
+    }
+    let all = SOURCES.iter().flat_map(|(_, text)| needs(text));
+    let all = all.map(|(_, needed)| needed.to_owned());
+    let slots: BTreeSet<_> = all.filter(|needed| needed.starts_with('$')).collect();
+    assert_eq!(listed, slots);
+}
+
+/// A constant that a caller forgets must be an error and not a number that looks right.
+#[test]
+fn no_constant_has_a_default() {
+    for (name, text) in SOURCES {
+        let mut overrides = text.lines().filter(|line| line.starts_with("override "));
+        assert!(overrides.all(|line| !line.contains('=')), "{name}");
     }
 }

@@ -3,13 +3,13 @@
 use crate::translate::translate;
 use glam::DVec3;
 use riprap::{
-    immersed::{
+    gpu::link::{Program, SOURCES},
+    lattice::{Grid, Setup as Fluid, single_cells},
+    psm::{
         Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
         voxelise_edges,
     },
-    lattice::{Grid, Setup as Fluid, single_cells},
-    link::{Program, SOURCES},
-    particles::{self, Frame, KERNELS, Neighbours, Setup, Side, StateEquation},
+    sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
 };
 use std::collections::HashMap;
 
@@ -68,21 +68,21 @@ fn kernels_of_blocks() {
 #[test]
 fn kernels_of_particles_in_all_variants() {
     for periodic in [false, true] {
-        for state in [StateEquation::Linear, StateEquation::Tait] {
-            for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+        for state in [EquationOfState::Linear, EquationOfState::Tait] {
+            for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
                 let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
-                (setup.state, setup.neighbours) = (state, neighbours);
+                (setup.equation_of_state, setup.neighbours) = (state, neighbours);
                 // With one of them, to have both.
                 setup.laminar_viscosity = match state {
-                    StateEquation::Linear => 0.0,
-                    StateEquation::Tait => 0.01,
+                    EquationOfState::Linear => 0.0,
+                    EquationOfState::Tait => 0.01,
                 };
                 if periodic {
                     setup.faces[0] = [Side::Periodic; 2];
                 }
-                let frame = Frame::new(&setup).unwrap();
+                let frame = CellGrid::new(&setup).unwrap();
                 for kernel in KERNELS {
-                    plain(&particles::program(&setup, &frame, kernel), kernel);
+                    plain(&sph::program(&setup, &frame, kernel), kernel);
                 }
             }
         }

@@ -5,32 +5,43 @@ use riprap::lattice::{Equilibrium, Face, Setup, single_cells};
 
 /// Files, entry points and buffers of the kernels for single cells, without flags and force.
 pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
-    ("links", &["reflect"], &["links"]),
+    ("links", &["reflect"], &["cell_pass", "links"]),
     (
         "moving_wall",
         &["move_wall"],
-        &["moving_cells", "wall_velocity"],
+        &["cell_pass", "moving_cells", "wall_velocity"],
     ),
-    ("pressure_face", &["hold_pressure"], &["face_cells"]),
+    (
+        "pressure_face",
+        &["hold_pressure"],
+        &["cell_pass", "open_face", "face_cells"],
+    ),
     (
         "outflow",
         &["flow_out", "remember"],
-        &["face_cells", "carried"],
+        &["cell_pass", "open_face", "face_cells", "carried"],
     ),
     (
         "exchange",
         &["take_out", "bring_in"],
-        &["direction", "canonical"],
+        &["cell_pass", "direction", "canonical"],
     ),
     (
         "initialise",
         &["initialise"],
-        &["density", "velocity_x", "velocity_y", "velocity_z"],
+        &[
+            "cell_pass",
+            "density",
+            "velocity_x",
+            "velocity_y",
+            "velocity_z",
+        ],
     ),
     (
         "macroscopic",
         &["macroscopic"],
         &[
+            "cell_pass",
             "density_out",
             "velocity_x_out",
             "velocity_y_out",

@@ -2,9 +2,8 @@
 
 use crate::translate::translate;
 use riprap::{
-    kernel::bindings,
+    gpu::{kernel::bindings, link::Linked},
     lattice::{Force, Grid, Setup, Storage, constants},
-    link::Linked,
 };
 use std::collections::{BTreeSet, HashMap};
 
@@ -55,25 +54,14 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     let mut numbers: HashMap<String, f64> = [
         ("BRICKS", 1.0),
         ("GUARD_COUNTS", 1.0),
-        ("HALF", 1.0),
-        ("FROM", 0.0),
-        ("TO", 1.0),
         ("NON_EQUILIBRIUM", 1.0),
         ("AXIS", 2.0),
-        ("FACE_DENSITY", 1.0),
-        ("HOLD", 0.1),
-        ("INTEGRAL", 0.01),
-        ("NORMAL_X", 1.0),
-        ("NORMAL_Y", 0.0),
-        ("NORMAL_Z", 0.0),
     ]
     .into_iter()
     .chain(constants(setup, &grid, odd))
     .map(|(name, value)| (name.into(), value))
     .collect();
-    let overrides = linked.module.overrides.iter();
-    let declared: BTreeSet<_> = overrides.filter_map(|(_, o)| o.name.clone()).collect();
-    numbers.retain(|name, _| declared.contains(name));
+    numbers.retain(|name, _| linked.declares(name));
     translate(linked, entry, &numbers, setup.is_wide());
 }
 

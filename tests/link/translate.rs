@@ -8,7 +8,7 @@ use naga::{
     proc::BoundsCheckPolicies,
     valid::ModuleInfo,
 };
-use riprap::link::Linked;
+use riprap::gpu::link::Linked;
 use std::collections::HashMap;
 
 /// Metal 2.0, which macOS has had since 10.13.

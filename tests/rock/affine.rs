@@ -1,7 +1,7 @@
 //! Affine bodies alone: their critical step, their spin, their vibration.
 
 use glam::{DMat3, DVec3};
-use riprap::{
+use riprap::rock::{
     integrate::{Affine, Pull},
     law::Elastic,
 };
@@ -30,7 +30,7 @@ fn cuboid(x: f64, y: f64, z: f64, initial_stress: DMat3) -> Affine {
     Affine::new(x * y * z, inertia, DENSITY, ROCK, initial_stress)
 }
 
-/// A central difference step, as [`riprap::bodies::Blocks`] takes it.
+/// A central difference step, as [`riprap::rock::Blocks`] takes it.
 fn step(body: &Affine, f: &mut DMat3, rate: &mut DMat3, dt: f64) {
     *rate += body.accelerations(*f, &NONE).1 * (0.5 * dt);
     *f += *rate * dt;
@@ -196,7 +196,7 @@ fn a_spinning_block_has_the_exact_centrifugal_strain_and_does_not_grow() {
     let stretch = DVec3::from_array(exact.to_array().map(|e| (1.0 + 2.0 * e).sqrt()));
 
     let mut f = DMat3::from_diagonal(stretch);
-    let mut rate = riprap::bodies::skew(DVec3::X * omega) * f;
+    let mut rate = riprap::geometry::skew(DVec3::X * omega) * f;
     let start = body.angular_momentum(f, rate);
     let energy = |f: DMat3, rate: DMat3| body.kinetic(rate) + body.strain_energy(f);
     let before = energy(f, rate);

@@ -2,10 +2,7 @@
 
 use crate::rig::{blocks, cuboid, run, setup};
 use glam::DVec3;
-use riprap::{
-    bodies::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, Snapshot},
-    law::Joint,
-};
+use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, Snapshot, law::Joint};
 
 /// Of the block that hangs: 0.2 × 0.3 × 0.1 m of 2500 kg/m³.
 const WEIGHT: f64 = 0.006 * 2500.0 * 9.81;

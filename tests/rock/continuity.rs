@@ -2,7 +2,10 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
-use riprap::bodies::{Block, Blocks, Load, Setup};
+use riprap::{
+    geometry::Load,
+    rock::{Block, Blocks, Setup},
+};
 
 /// When the push begins, s: the stack is at rest.
 const REST: f64 = 4.0;

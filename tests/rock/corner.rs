@@ -2,7 +2,7 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup, try_run};
 use glam::{DQuat, DVec3};
-use riprap::bodies::{Block, Setup};
+use riprap::rock::{Block, Setup};
 
 /// k_n, Pa/m.
 const STIFFNESS: f64 = 1e8;

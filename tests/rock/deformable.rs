@@ -3,10 +3,10 @@
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
-    bodies::{
-        Block, Blocks, Deformable, FixedPoint, Load, PointLoad, Setup, Sleep, Snapshot, skew,
+    geometry::{Load, skew},
+    rock::{
+        Block, Blocks, Deformable, FixedPoint, PointLoad, Setup, Sleep, Snapshot, law::Elastic,
     },
-    law::Elastic,
 };
 
 const DENSITY: f64 = 2500.0;

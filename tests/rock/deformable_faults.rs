@@ -4,9 +4,8 @@ use crate::rig::{blocks, cuboid, joint, setup, try_run};
 use glam::{DMat3, DVec3};
 use riprap::{
     Error,
-    block::{Form, Part, Polyhedron, Shape},
-    bodies::{Block, Blocks, Deformable, FixedPoint, PointLoad, Setup},
-    law::Elastic,
+    geometry::{Form, Part, Polyhedron, Shape},
+    rock::{Block, Blocks, Deformable, FixedPoint, PointLoad, Setup, law::Elastic},
 };
 
 fn elastic(block: Block) -> Setup {

@@ -4,7 +4,8 @@ use crate::rig::{AllPairs, blocks, cuboid, joint, setup, try_run};
 use glam::{DQuat, DVec3};
 use riprap::{
     Error,
-    bodies::{Block, Blocks, Load, Motion, Setup},
+    geometry::Load,
+    rock::{Block, Blocks, Motion, Setup},
 };
 
 fn floor() -> Block {

@@ -3,9 +3,8 @@
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Shape,
-    bodies::{Block, Blocks, Setup, Snapshot},
-    law::Film,
+    geometry::Shape,
+    rock::{Block, Blocks, Setup, Snapshot, law::Film},
 };
 use std::f64::consts::PI;
 

@@ -3,9 +3,11 @@
 use crate::rig::{blocks, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::Block,
-    integrate::{Principal, spin, turn},
+    geometry::{Polyhedron, Shape},
+    rock::{
+        Block,
+        integrate::{Principal, spin, turn},
+    },
 };
 use std::sync::Arc;
 

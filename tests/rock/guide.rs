@@ -2,11 +2,14 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
-use riprap::bodies::{Block, Blocks, Guide, Load, Motion, Snapshot};
+use riprap::{
+    geometry::Load,
+    rock::{Block, Blocks, Guide, Motion, Snapshot},
+};
 
 const AXIS: DVec3 = DVec3::new(3.0, 0.0, -4.0);
 
-fn guided(list: Vec<Block>) -> riprap::bodies::Setup {
+fn guided(list: Vec<Block>) -> riprap::rock::Setup {
     let mut setup = setup(list, joint(1e8, 30.0));
     setup.guides = vec![Guide {
         block: 0,

@@ -2,7 +2,7 @@
 
 use crate::rig::{blocks, cuboid, joint, run, settled, setup, slope};
 use glam::DVec3;
-use riprap::bodies::{Block, Setup};
+use riprap::rock::{Block, Setup};
 
 const ALPHA: f64 = 30.0;
 const STIFFNESS: f64 = 1e8;

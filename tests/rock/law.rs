@@ -1,7 +1,7 @@
 //! The force law on its own.
 
 use glam::{DQuat, DVec3};
-use riprap::law::{Force, History, Joint, Motion, Section, force};
+use riprap::rock::law::{Force, History, Joint, Motion, Section, force};
 use std::f64::consts::PI;
 
 const JOINT: Joint = Joint {

@@ -2,7 +2,10 @@
 
 use crate::rig::{AllPairs, blocks, cuboid, joint, run, setup, slope};
 use glam::{DQuat, DVec3};
-use riprap::bodies::{Block, Load, Motion};
+use riprap::{
+    geometry::Load,
+    rock::{Block, Motion},
+};
 
 #[test]
 fn blocks_that_tumble_down_a_slope() {

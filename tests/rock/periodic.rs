@@ -3,10 +3,12 @@
 use crate::rig::{blocks, cuboid, joint, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Shape,
-    bodies::{Block, Blocks, Period, Setup, Snapshot},
-    broadphase::{Broadphase, HostBroadphase},
-    law::Film,
+    geometry::Shape,
+    rock::{
+        Block, Blocks, Period, Setup, Snapshot,
+        broadphase::{Broadphase, HostBroadphase},
+        law::Film,
+    },
 };
 
 fn run(blocks: &mut Blocks, until: f64) {

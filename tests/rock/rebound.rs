@@ -2,7 +2,7 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
-use riprap::{bodies::Block, law::Joint};
+use riprap::rock::{Block, law::Joint};
 
 /// Rebound speed over impact speed, and the ledger's error over the energy of impact.
 fn rebound(zeta: f64) -> (f64, f64) {

@@ -3,8 +3,8 @@
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Form, Part, Polyhedron, Shape},
-    bodies::{Block, Blocks, Setup, Snapshot},
+    geometry::{Form, Part, Polyhedron, Shape},
+    rock::{Block, Blocks, Setup, Snapshot},
 };
 
 /// A wall of five courses of sixteen, laid crookedly: more contacts than one thread takes at a time.

@@ -3,8 +3,8 @@
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Polyhedron,
-    bodies::{Block, Blocks, ContactPoint},
+    geometry::Polyhedron,
+    rock::{Block, Blocks, ContactPoint},
 };
 use std::{f64::consts::PI, sync::Arc};
 

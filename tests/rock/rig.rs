@@ -3,10 +3,12 @@
 use glam::{DQuat, DVec3};
 use riprap::{
     Result,
-    block::{Polyhedron, Shape},
-    bodies::{Block, Blocks, Material, Setup, Snapshot},
-    broadphase::{Broadphase, Item},
-    law::Joint,
+    geometry::{Polyhedron, Shape},
+    rock::{
+        Block, Blocks, Material, Setup, Snapshot,
+        broadphase::{Broadphase, Item},
+        law::Joint,
+    },
 };
 use std::sync::Arc;
 

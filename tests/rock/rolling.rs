@@ -5,8 +5,8 @@
 use crate::rig::{blocks, cuboid, joint, run, setup, slope};
 use glam::DVec3;
 use riprap::{
-    block::Shape,
-    bodies::{Block, Blocks},
+    geometry::Shape,
+    rock::{Block, Blocks},
 };
 
 const RADIUS: f64 = 0.2;

@@ -8,8 +8,7 @@ use crate::{
 };
 use glam::DVec3;
 use riprap::{
-    bodies::{Block, Period, PointLoad, Setup},
-    law::Joint,
+    rock::{Block, Period, PointLoad, Setup, law::Joint},
     safety::{Mode, Standing},
 };
 
@@ -36,11 +35,14 @@ fn a_block_on_an_incline() {
         "{still:?}"
     );
     assert_eq!(still.uplift, f64::INFINITY);
-    // Under water both are the same, and uplift is the ratio of the densities.
+    // Under water sliding is the same, uplift is the ratio of the densities, and buoyancy, W/2.5, turns over with what the
+    // weight holds less what it drives.
     let buoyancy = DVec3::Z * 1000.0 * 9.81 * 0.4;
     let wet = standing(on_incline(60.0), 1, buoyancy);
     assert!((wet.sliding.factor / still.sliding.factor - 1.0).abs() < 1e-9);
-    assert!((wet.toppling / still.toppling - 1.0).abs() < 1e-9);
+    let driven = 1.0 / still.toppling;
+    let exact = 1.0 / (driven + (1.0 - driven) / 2.5);
+    assert!((wet.toppling / exact - 1.0).abs() < 1e-9, "{wet:?}");
     assert!((wet.uplift - 2.5).abs() < 1e-9, "{wet:?}");
 }
 

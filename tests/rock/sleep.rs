@@ -2,7 +2,10 @@
 
 use crate::rig::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
-use riprap::bodies::{Block, Load, Setup, Sleep};
+use riprap::{
+    geometry::Load,
+    rock::{Block, Setup, Sleep},
+};
 
 /// A stack of three beside a block on its own.
 fn scene() -> Setup {

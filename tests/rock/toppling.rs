@@ -2,7 +2,7 @@
 
 use crate::rig::{blocks, cuboid, joint, run, settled, setup, slope};
 use glam::DVec3;
-use riprap::bodies::{Block, Setup};
+use riprap::rock::{Block, Setup};
 
 /// A 1 m × 1 m × 2 m column on an incline of `alpha` degrees. It is stiff: a degree before the threshold a strip of
 /// 65 mm carries it, which must not give way by a degree itself.

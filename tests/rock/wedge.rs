@@ -4,8 +4,8 @@
 use crate::rig::{blocks, joint, run, settled, setup};
 use glam::DVec3;
 use riprap::{
-    block::{HalfSpace, Polyhedron},
-    bodies::{Block, Material, PairMaterial, Setup},
+    geometry::{HalfSpace, Polyhedron},
+    rock::{Block, Material, PairMaterial, Setup},
 };
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! Scenes of blocks: every key, the defaults, and what the blocks become.
 
 use glam::DVec3;
-use riprap::bodies;
+use riprap::rock;
+use riprap::scene::build::block_setup;
 use riprap::scene::*;
-use riprap::simulation::block_setup;
 
 use crate::{read, refused};
 
@@ -30,7 +30,7 @@ fn changed(from: &str, to: &str) -> riprap::Result<Scene> {
     read(&CUBE.replace(from, to))
 }
 
-fn setup(text: &str) -> riprap::Result<bodies::Setup> {
+fn setup(text: &str) -> riprap::Result<rock::Setup> {
     Ok(block_setup(&read(text)?)?.setup)
 }
 
@@ -154,7 +154,7 @@ duration = 1
 every = 0.1
 contacts = false
 [[output.histories]]
-quantities = ["block_kinetic_energy", "block_potential_energy", "contact_energy", "friction_work", "damping_work", "outside_work", "energy_error", "contacts", "awake_blocks", "block_max_speed"]
+quantities = ["block_kinetic_energy", "block_potential_energy", "contact_energy", "friction_work", "damping_work", "contact_loss", "outside_work", "energy_error", "contacts", "awake_blocks", "block_max_speed"]
 [[probes]]
 name = "p"
 kind = "block"
@@ -194,12 +194,12 @@ animation = false
     assert_eq!(setup.blocks[9].centre.z - setup.blocks[7].centre.z, 3.0);
     let fixed = |name: &str| {
         let block = setup.blocks.iter().find(|b| b.name == name).unwrap();
-        block.motion == bodies::Motion::Fixed
+        block.motion == rock::Motion::Fixed
     };
     assert!(fixed("h") && fixed("solid_1") && !fixed("v"));
     let mass = setup.blocks.iter().filter(|b| b.name.starts_with("m_"));
-    assert!(mass.clone().any(|b| b.motion == bodies::Motion::Fixed));
-    assert!(mass.clone().any(|b| b.motion == bodies::Motion::Free));
+    assert!(mass.clone().any(|b| b.motion == rock::Motion::Fixed));
+    assert!(mass.clone().any(|b| b.motion == rock::Motion::Free));
     let volume: f64 = mass.map(|b| b.shape.volume()).sum();
     assert!((volume - 64.0).abs() < 0.1, "{volume}");
 }
@@ -212,7 +212,7 @@ fn copies_slide_along_the_same_guide() {
     let axis = DVec3::new(0.0, 0.0, -2.0);
     assert_eq!(
         setup.guides,
-        [0, 1].map(|block| bodies::Guide { block, axis })
+        [0, 1].map(|block| rock::Guide { block, axis })
     );
     refused(
         changed(

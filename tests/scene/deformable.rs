@@ -1,7 +1,7 @@
 //! Scenes of blocks that deform: what they make, and what they refuse.
 
 use glam::{DMat3, DVec3};
-use riprap::{bodies::Setup, simulation::block_setup};
+use riprap::{rock::Setup, scene::build::block_setup};
 
 const SCENE: &str = r#"
 [[materials]]
@@ -95,7 +95,7 @@ fn keys_become_deformable_blocks_and_loads() {
         1,
         "{mass:?}"
     );
-    riprap::bodies::Blocks::new(setup).unwrap();
+    riprap::rock::Blocks::new(setup).unwrap();
 }
 
 #[test]

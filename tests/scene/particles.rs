@@ -1,7 +1,7 @@
 //! Fluids of particles: their keys, and what they leave no room for.
 
+use riprap::scene::build::block_setup;
 use riprap::scene::*;
-use riprap::simulation::block_setup;
 use riprap::units::Units;
 
 use crate::{CHANNEL, read, refused};
@@ -378,4 +378,32 @@ fn blocks_meet_across_periodic_sides_but_not_in_a_plane() {
     assert_eq!(period(plane), None);
     let flow = period(read(CHANNEL)).expect("some faces are periodic");
     assert!(flow.size.min_element().is_finite());
+}
+
+/// −1.2 + 7.6 is 6.3999… in binary.
+#[test]
+fn probes_reach_the_end_of_the_domain_whatever_rounding_makes_of_it() {
+    let rounded = TANK.replace("size = [4.0,", "origin = [-1.2, 0, 0]\nsize = [7.6,");
+    let probe = |end: f64| {
+        let keys = "kind = \"box\"\nname = \"all\"\nmin = [-1.2, 0, 0]";
+        read(&format!(
+            "{rounded}[[probes]]\n{keys}\nmax = [{end}, 1, 2]\n"
+        ))
+    };
+    // −1.2 + 7.6 is less than 6.4 in f64.
+    probe(6.4).unwrap();
+    refused(probe(6.4001), &["probes[0].max", "outside the domain"]);
+}
+
+/// The documentation of scenes says what a table holds where there is no water.
+#[test]
+fn the_schema_says_what_dry_probes_write() {
+    let schema = serde_json::to_value(schemars::schema_for!(ProbePlace)).unwrap();
+    let kinds = schema["oneOf"].as_array().unwrap();
+    for name in ["point", "line", "box", "gauge", "run_up"] {
+        let of = |kind: &&serde_json::Value| kind["properties"]["kind"]["const"] == name;
+        let kind = kinds.iter().find(of).expect(name);
+        let told = kind["description"].as_str().unwrap();
+        assert!(told.contains("NaN"), "{name}: {told}");
+    }
 }

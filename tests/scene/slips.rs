@@ -124,3 +124,41 @@ fn a_driven_block_without_a_drive() {
         silent("size = [0.05, 0.05, 0.05]", &format!("{driven}\n{drive}"));
     }
 }
+
+/// A sphere of radius R under water, (ρ − 1000) 4/3 π R³ g = k π u² (2R − u) at rest; u = 1.3 % of R at 1.63e7 Pa/m.
+#[test]
+fn blocks_that_sink_into_a_plane_at_rest_are_told() {
+    let size = "kind = \"box\"\nsize = [0.05, 0.05, 0.05]";
+    let sphere = "kind = \"sphere\"\nradius = 0.025";
+    let with = |shape: &str, stiffness: f64| {
+        let text = RIGHT.replace(size, shape);
+        let text = text.replace(
+            "normal_stiffness = 1e9",
+            &format!("normal_stiffness = {stiffness}"),
+        );
+        let scene = read(&text).unwrap();
+        let found = scene.slips(1e-3);
+        found.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let (radius, gravity) = (0.025f64, 9.81);
+    let stiffness = |depth: f64| {
+        let u = depth * radius;
+        1650.0 * 4.0 / 3.0 * radius.powi(3) * gravity / (u * u * (2.0 * radius - u))
+    };
+    let found = with(sphere, stiffness(0.013));
+    assert_eq!(found.len(), 1, "{found:?}");
+    let remedy = format!("use normal_stiffness ≥ {:.2e} Pa/m", stiffness(0.01));
+    for words in [
+        "materials.r.normal_stiffness",
+        "by 1.3 % of its radius",
+        &remedy,
+    ] {
+        assert!(found[0].contains(words), "`{words}`: {found:?}");
+    }
+    assert_eq!(with(sphere, stiffness(0.0099)), [""; 0]);
+    // A box by its weight over k A.
+    let of_box = |depth: f64| 1650.0 * 0.05 * gravity / (depth * 0.025);
+    let found = with(size, of_box(0.02));
+    assert!(found.len() == 1 && found[0].contains("by 2.0 % of half its least edge"));
+    assert_eq!(with(size, of_box(0.0099)), [""; 0]);
+}

@@ -6,7 +6,10 @@ use std::path::PathBuf;
 use glam::DVec3;
 use riprap::Result;
 use riprap::scene::Scene;
-use riprap::solid::{Mask, TriangleMesh, WindingTree};
+use riprap::{
+    geometry::{TriangleMesh, WindingTree},
+    scene::static_solids::Mask,
+};
 
 use crate::{channel, refused};
 

@@ -1,17 +1,24 @@
-//! Particles of water: kernels against their twins, and small flows.
+//! SPH: initial particles, kernels against their twins, and small flows.
 
 #[path = "../rig/mod.rs"]
 mod rig;
 
+mod advice;
+mod boundary_particles;
+mod containment;
 mod energy;
-mod held;
+mod fill;
+mod gauges;
+mod internal_faces;
 mod mueller;
-mod plane;
+mod penalty;
+mod planar;
 mod programs;
-mod push;
 mod refusals;
-mod restored;
+mod restart;
+mod start;
 mod step;
-mod still;
+mod still_water;
 mod tank;
 mod twin;
+mod wendland;

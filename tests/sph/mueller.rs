@@ -1,7 +1,7 @@
 //! The scheme of Müller, Charypar & Gross (2003) and Geraili Mikola & Sitar (2014) against its twin in f64 and SI.
 
 use crate::{
-    push::{Spring, push},
+    penalty::{Spring, penalty},
     rig::Rig,
     step::Noise,
     tank::{lattice, resting},
@@ -9,9 +9,8 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::Pose,
-    particles::{Body, Neighbours, Particles, Scheme, Setup, Side, Solid, Water},
+    geometry::{Polyhedron, Pose, Shape},
+    sph::{Body, NeighbourSearch, Scheme, Setup, Side, Solid, SphSolver, Water},
 };
 use std::f64::consts::PI;
 
@@ -24,7 +23,7 @@ struct Twin<'a> {
 
 impl Twin<'_> {
     /// Support of the kernels.
-    fn reach(&self) -> f64 {
+    fn support(&self) -> f64 {
         2.0 * self.setup.smoothing * self.setup.spacing
     }
 
@@ -34,28 +33,30 @@ impl Twin<'_> {
     }
 
     fn poly6(&self, r: f64) -> f64 {
-        let h = self.reach();
-        let scale = match self.setup.plane {
-            true => 4.0 / (PI * h.powi(8)),
-            false => 315.0 / (64.0 * PI * h.powi(9)),
+        let h = self.support();
+        let scale = if self.setup.plane {
+            4.0 / (PI * h.powi(8))
+        } else {
+            315.0 / (64.0 * PI * h.powi(9))
         };
         scale * (h * h - r * r).max(0.0).powi(3)
     }
 
-    /// Gradient of the spiky function and Laplacian of that for viscosity.
+    /// Gradient of the spiky function and Laplacian of the viscosity function.
     fn spiky(&self, r: DVec3) -> (DVec3, f64) {
-        let (h, d) = (self.reach(), r.length());
+        let (h, d) = (self.support(), r.length());
         if d >= h || d == 0.0 {
             return (DVec3::ZERO, 0.0);
         }
-        let [gradient, laplacian] = match self.setup.plane {
-            true => [30.0 / (PI * h.powi(5)), 40.0 / (PI * h.powi(5))],
-            false => [45.0 / (PI * h.powi(6)); 2],
+        let [gradient, laplacian] = if self.setup.plane {
+            [30.0 / (PI * h.powi(5)), 40.0 / (PI * h.powi(5))]
+        } else {
+            [45.0 / (PI * h.powi(6)); 2]
         };
         (-gradient * (h - d).powi(2) * r / d, laplacian * (h - d))
     }
 
-    /// Acceleration by the springs of a body: frequency c/(2Δx), half of critical damping.
+    /// Acceleration by the penalty force of a body: frequency c/(2Δx), half of critical damping.
     fn penalty(&self, body: usize, x: DVec3, v: DVec3) -> DVec3 {
         let omega = 0.5 * self.setup.sound_speed / self.setup.spacing;
         let spring = Spring {
@@ -63,8 +64,8 @@ impl Twin<'_> {
             damping: omega,
         };
         let solids = self.setup.bodies[body].solids.iter();
-        let pushes = solids.map(|solid| push(spring, &self.poses[body], solid, x, v));
-        pushes.sum()
+        let accelerations = solids.map(|solid| penalty(spring, &self.poses[body], solid, x, v));
+        accelerations.sum()
     }
 
     /// Velocities after `dt`, and the force of each particle on the body.
@@ -77,7 +78,7 @@ impl Twin<'_> {
             .map(|a| x.iter().map(|b| m * self.poly6((*a - *b).length())).sum())
             .collect();
         let p = |n: usize| c2 * (rho[n] - self.setup.density);
-        let (mut fresh, mut forces) = (Vec::new(), Vec::new());
+        let (mut new_velocities, mut forces) = (Vec::new(), Vec::new());
         for i in 0..x.len() {
             let mut f = DVec3::ZERO;
             for j in 0..x.len() {
@@ -89,10 +90,10 @@ impl Twin<'_> {
             for other in 0..self.poses.len() {
                 a += self.penalty(other, x[i], v[i]);
             }
-            fresh.push(v[i] + a * dt);
+            new_velocities.push(v[i] + a * dt);
             forces.push(-m * self.penalty(body, x[i], v[i]));
         }
-        (fresh, rho, forces)
+        (new_velocities, rho, forces)
     }
 }
 
@@ -142,7 +143,7 @@ fn check(plane: bool) {
     );
     let poses = [floor, block];
     let cells = (size / spacing).round().to_array().map(|n| n as i32);
-    let one = setup(Neighbours::Cells);
+    let one = setup(NeighbourSearch::Cells);
     let positions: Vec<DVec3> = lattice(&one, [0; 3], [cells[0], cells[1], cells[2] - 2])
         .into_iter()
         .map(|x| x + 0.03 * noise.vector(plane) - 0.05 * DVec3::Z)
@@ -153,10 +154,10 @@ fn check(plane: bool) {
         .collect();
     let rig = Rig::new();
     let (device, queue) = (&rig.device, &rig.queue);
-    for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+    for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
         let setup = setup(neighbours);
         let pressures = vec![0.0; positions.len()];
-        let mut particles = Particles::new(
+        let mut particles = SphSolver::new(
             device,
             queue,
             setup.clone(),
@@ -166,7 +167,7 @@ fn check(plane: bool) {
         )
         .unwrap();
         let before = rig.wait(particles.water(device, queue)).unwrap();
-        let dt = 0.5 * particles.limit();
+        let dt = 0.5 * particles.step_limit();
         let done = rig
             .wait(particles.advance(device, queue, &poses, dt))
             .unwrap();
@@ -176,14 +177,14 @@ fn check(plane: bool) {
             setup: &setup,
             poses: &poses,
         };
-        let (fresh, rho, forces) = twin.step(&before, 1, dt);
+        let (new_velocities, rho, forces) = twin.step(&before, 1, dt);
         let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
         for n in 0..after.len() {
-            dv = dv.max((after.velocities[n].as_dvec3() - fresh[n]).length());
-            most = most.max((fresh[n] - before.velocities[n].as_dvec3()).length());
+            dv = dv.max((after.velocities[n].as_dvec3() - new_velocities[n]).length());
+            most = most.max((new_velocities[n] - before.velocities[n].as_dvec3()).length());
             drho = drho.max((after.densities[n] - rho[n]).abs());
-            let way = before.positions[n] + fresh[n] * dt;
-            dx = dx.max((after.positions[n] - way).length());
+            let expected = before.positions[n] + new_velocities[n] * dt;
+            dx = dx.max((after.positions[n] - expected).length());
         }
         let levers: Vec<DVec3> = before.positions.iter().map(|x| *x - block.centre).collect();
         let width = if plane { size.y } else { 1.0 };
@@ -195,7 +196,7 @@ fn check(plane: bool) {
             load.force,
             width * force
         );
-        assert!(scale > 0.0, "the block meets water");
+        assert!(scale > 0.0, "water inside the block");
         assert!(dv < 1e-5 * most && drho < 1e-2 && dx < 1e-5 * spacing);
         assert!((load.force - width * force).length() < 1e-4 * scale);
         let miss = (load.moment - width * moment).to_cols_array();
@@ -214,9 +215,9 @@ fn a_step_in_space() {
     check(false);
 }
 
-/// Invocations of software adapters take 65 535 turns of loops: each of these would want 200 times 1200.
+/// Invocations of software adapters end loops after 65 535 iterations; each of these would need 200 times 1200.
 #[test]
-fn loads_of_many_parts_and_particles_are_whole() {
+fn loads_of_many_parts_and_particles_are_complete() {
     let mut noise = Noise(5);
     let mut setup = Setup::tank(DVec3::new(16.0, 0.1, 8.0), 0.1, 20.0);
     setup.plane = true;
@@ -240,7 +241,7 @@ fn loads_of_many_parts_and_particles_are_whole() {
     let pressures = vec![0.0; positions.len()];
     let rig = Rig::new();
     let (device, queue) = (&rig.device, &rig.queue);
-    let mut particles = Particles::new(
+    let mut particles = SphSolver::new(
         device,
         queue,
         setup.clone(),
@@ -249,7 +250,7 @@ fn loads_of_many_parts_and_particles_are_whole() {
         &pressures,
     )
     .unwrap();
-    let dt = 0.5 * particles.limit();
+    let dt = 0.5 * particles.step_limit();
     let done = rig
         .wait(particles.advance(device, queue, &poses, dt))
         .unwrap();
@@ -258,8 +259,8 @@ fn loads_of_many_parts_and_particles_are_whole() {
         setup: &setup,
         poses: &poses,
     };
-    let push = |x: &DVec3| -setup.particle_mass() * twin.penalty(0, *x, DVec3::ZERO);
-    let forces: Vec<DVec3> = positions.iter().map(push).collect();
+    let force = |x: &DVec3| -setup.particle_mass() * twin.penalty(0, *x, DVec3::ZERO);
+    let forces: Vec<DVec3> = positions.iter().map(force).collect();
     let force: DVec3 = forces.iter().sum();
     let scale: f64 = forces.iter().map(|f| f.length()).sum();
     let miss = (done.loads[0].force - force).length();
@@ -267,9 +268,9 @@ fn loads_of_many_parts_and_particles_are_whole() {
     assert!(miss < 1e-4 * scale, "{miss} of {scale} N");
 }
 
-/// Nobody would hear of it.
+/// The adapter would end the loops without an error.
 #[test]
-fn more_parts_than_a_software_adapter_looks_at_are_refused() {
+fn more_parts_than_a_software_adapter_can_loop_over_are_refused() {
     let rig = Rig::new();
     if rig.device.adapter_info().device_type != wgpu::DeviceType::Cpu {
         return;
@@ -283,10 +284,10 @@ fn more_parts_than_a_software_adapter_looks_at_are_refused() {
         solids: vec![sphere; 20_000],
         ..Body::default()
     }];
-    let made = Particles::new(&rig.device, &rig.queue, setup, &[], &[], &[]);
-    let fault = made.unwrap_err().to_string();
+    let result = SphSolver::new(&rig.device, &rig.queue, setup, &[], &[], &[]);
+    let message = result.unwrap_err().to_string();
     assert!(
-        fault.contains("20000 convex parts") && fault.contains("use a GPU"),
-        "{fault}"
+        message.contains("20000 convex parts") && message.contains("use a GPU"),
+        "{message}"
     );
 }

@@ -1,37 +1,39 @@
-//! Every kernel in every variant, and the structures that they share with the host.
+//! All kernels in all variants, and the structures that they share with the host.
 
 use glam::DVec3;
 use riprap::{
-    kernel::{Binding, bindings},
-    layout,
-    particles::{
-        Clock, Frame, Home, Hull, KERNELS, MOST_BINDINGS, Motion, Neighbours, Particle, Setup,
-        Shelter, Side, StateEquation, program,
+    gpu::{
+        kernel::{Binding, bindings},
+        layout,
+    },
+    sph::{
+        BodyMotion, CellGrid, Clock, EquationOfState, Hull, KERNELS, MAX_STORAGE_BUFFERS,
+        NeighbourSearch, Particle, ReferencePosition, Setup, Side, WallWork, program,
     },
 };
 use std::mem::offset_of;
 
 #[test]
-fn all_variants_compile_and_bind_what_is_asked_for() {
+fn all_variants_compile_and_bind_the_stated_number_of_buffers() {
     let mut most = 0;
     for periodic in [false, true] {
-        for state in [StateEquation::Linear, StateEquation::Tait] {
+        for state in [EquationOfState::Linear, EquationOfState::Tait] {
             let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
-            // With the other state, to have both.
-            setup.laminar_viscosity = if state == StateEquation::Tait {
+            // Viscous with one equation of state only, to cover both variants.
+            setup.laminar_viscosity = if state == EquationOfState::Tait {
                 0.01
             } else {
                 0.0
             };
-            setup.state = state;
+            setup.equation_of_state = state;
             if periodic {
                 setup.faces[0] = [Side::Periodic; 2];
             }
-            for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+            for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
                 setup.neighbours = neighbours;
-                let frame = Frame::new(&setup).unwrap();
+                let grid = CellGrid::new(&setup).unwrap();
                 for kernel in KERNELS {
-                    let linked = program(&setup, &frame, kernel).link().unwrap();
+                    let linked = program(&setup, &grid, kernel).link().unwrap();
                     let all = bindings(&linked, kernel).unwrap();
                     let storage = |b: &&Binding| b.kind != wgpu::BufferBindingType::Uniform;
                     most = most.max(all.iter().filter(storage).count() as u32);
@@ -39,88 +41,88 @@ fn all_variants_compile_and_bind_what_is_asked_for() {
             }
         }
     }
-    assert_eq!(most, MOST_BINDINGS);
+    assert_eq!(most, MAX_STORAGE_BUFFERS);
 }
 
 #[test]
-fn structures_lie_as_on_the_device() {
+fn structures_have_the_layout_of_the_kernels() {
     let setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
-    let frame = Frame::new(&setup).unwrap();
-    let place = program(&setup, &frame, "shell_place").link().unwrap();
+    let grid = CellGrid::new(&setup).unwrap();
+    let linked = program(&setup, &grid, "boundary_position").link().unwrap();
     let particle = [
         ("at", offset_of!(Particle, at)),
         ("id", offset_of!(Particle, id)),
         ("velocity", offset_of!(Particle, velocity)),
         ("excess", offset_of!(Particle, excess)),
     ];
-    layout::check::<Particle>(&place.module, "Particle", &particle).unwrap();
-    let home = [
-        ("place", offset_of!(Home, place)),
-        ("body", offset_of!(Home, body)),
+    layout::check::<Particle>(&linked.module, "Particle", &particle).unwrap();
+    let reference = [
+        ("position", offset_of!(ReferencePosition, position)),
+        ("body", offset_of!(ReferencePosition, body)),
     ];
-    layout::check::<Home>(&place.module, "Home", &home).unwrap();
+    layout::check::<ReferencePosition>(&linked.module, "ReferencePosition", &reference).unwrap();
     let column = |base: usize, n: usize| base + 16 * n;
-    let (turn, rate, change) = (
-        offset_of!(Motion, turn),
-        offset_of!(Motion, rate),
-        offset_of!(Motion, change),
+    let (deformation, rate, acceleration) = (
+        offset_of!(BodyMotion, deformation),
+        offset_of!(BodyMotion, deformation_rate),
+        offset_of!(BodyMotion, deformation_acceleration),
     );
     let motion = [
-        ("centre", offset_of!(Motion, centre)),
-        ("first", offset_of!(Motion, first)),
-        ("velocity", offset_of!(Motion, velocity)),
-        ("count", offset_of!(Motion, count)),
-        ("acceleration", offset_of!(Motion, acceleration)),
-        ("clings", offset_of!(Motion, clings)),
-        ("turn_x", column(turn, 0)),
-        ("turn_y", column(turn, 1)),
-        ("turn_z", column(turn, 2)),
-        ("rate_x", column(rate, 0)),
-        ("rate_y", column(rate, 1)),
-        ("rate_z", column(rate, 2)),
-        ("change_x", column(change, 0)),
-        ("change_y", column(change, 1)),
-        ("change_z", column(change, 2)),
+        ("centre", offset_of!(BodyMotion, centre)),
+        ("first", offset_of!(BodyMotion, first)),
+        ("velocity", offset_of!(BodyMotion, velocity)),
+        ("count", offset_of!(BodyMotion, count)),
+        ("acceleration", offset_of!(BodyMotion, acceleration)),
+        ("no_slip", offset_of!(BodyMotion, no_slip)),
+        ("deformation_x", column(deformation, 0)),
+        ("deformation_y", column(deformation, 1)),
+        ("deformation_z", column(deformation, 2)),
+        ("deformation_rate_x", column(rate, 0)),
+        ("deformation_rate_y", column(rate, 1)),
+        ("deformation_rate_z", column(rate, 2)),
+        ("deformation_acceleration_x", column(acceleration, 0)),
+        ("deformation_acceleration_y", column(acceleration, 1)),
+        ("deformation_acceleration_z", column(acceleration, 2)),
     ];
-    layout::check::<Motion>(&place.module, "Motion", &motion).unwrap();
+    layout::check::<BodyMotion>(&linked.module, "BodyMotion", &motion).unwrap();
     let clock = [
         ("step", offset_of!(Clock, step)),
-        ("limit", offset_of!(Clock, limit)),
+        ("step_limit", offset_of!(Clock, step_limit)),
         ("elapsed", offset_of!(Clock, elapsed)),
-        ("left", offset_of!(Clock, left)),
+        ("remaining", offset_of!(Clock, remaining)),
         ("steps", offset_of!(Clock, steps)),
-        ("fault", offset_of!(Clock, fault)),
+        ("invalid_particle", offset_of!(Clock, invalid_particle)),
         ("escaped", offset_of!(Clock, escaped)),
-        ("crowd", offset_of!(Clock, crowd)),
-        ("held", offset_of!(Clock, held)),
-        ("shell_crowd", offset_of!(Clock, shell_crowd)),
+        ("overflow", offset_of!(Clock, overflow)),
+        ("pending_step", offset_of!(Clock, pending_step)),
+        ("boundary_overflow", offset_of!(Clock, boundary_overflow)),
         ("stale", offset_of!(Clock, stale)),
-        ("travel", offset_of!(Clock, travel)),
-        ("body_speed", offset_of!(Clock, body_speed)),
-        ("missed", offset_of!(Clock, missed)),
+        ("list_displacement", offset_of!(Clock, list_displacement)),
+        ("max_body_speed", offset_of!(Clock, max_body_speed)),
+        ("escaped_at_sort", offset_of!(Clock, escaped_at_sort)),
         ("sorts", offset_of!(Clock, sorts)),
-        ("fastest", offset_of!(Clock, fastest)),
-        ("pressed", offset_of!(Clock, pressed)),
-        ("pushed", offset_of!(Clock, pushed)),
+        ("max_speed", offset_of!(Clock, max_speed)),
+        ("boundary_work", offset_of!(Clock, boundary_work)),
+        ("penalty_work", offset_of!(Clock, penalty_work)),
     ];
-    layout::check::<Clock>(&place.module, "Clock", &clock).unwrap();
-    let shelter = [
-        ("near", offset_of!(Shelter, near)),
-        ("pressed", offset_of!(Shelter, pressed)),
-        ("pushed", offset_of!(Shelter, pushed)),
+    layout::check::<Clock>(&linked.module, "Clock", &clock).unwrap();
+    let wall_work = [
+        ("near_boundary", offset_of!(WallWork, near_boundary)),
+        ("boundary_work", offset_of!(WallWork, boundary_work)),
+        ("penalty_work", offset_of!(WallWork, penalty_work)),
     ];
-    let keep_out = program(&setup, &frame, "keep_out").link().unwrap();
-    layout::check::<Shelter>(&keep_out.module, "Shelter", &shelter).unwrap();
+    let penalty = program(&setup, &grid, "apply_penalty").link().unwrap();
+    layout::check::<WallWork>(&penalty.module, "WallWork", &wall_work).unwrap();
     let hull = [
         ("centre", offset_of!(Hull, centre)),
         ("radius", offset_of!(Hull, radius)),
         ("body", offset_of!(Hull, body)),
         ("first_face", offset_of!(Hull, first_face)),
         ("faces", offset_of!(Hull, faces)),
-        ("bare", offset_of!(Hull, bare)),
+        ("exposed", offset_of!(Hull, exposed)),
     ];
-    let load = program(&setup, &frame, "mueller_load").link().unwrap();
+    let load = program(&setup, &grid, "mueller_load").link().unwrap();
     layout::check::<Hull>(&load.module, "Hull", &hull).unwrap();
-    let drift = program(&setup, &frame, "drift").link().unwrap();
-    layout::check::<Clock>(&drift.module, "ClockShared", &clock).unwrap();
+    let drift = program(&setup, &grid, "drift").link().unwrap();
+    layout::check::<Clock>(&drift.module, "ClockAtomic", &clock).unwrap();
 }

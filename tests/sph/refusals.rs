@@ -1,28 +1,28 @@
-//! What is no water is refused, by name.
+//! Errors of the solver for invalid input.
 
 use crate::tank::resting;
 use glam::{DMat3, DVec3};
 use riprap::{
-    bodies::Pose,
-    particles::{Body, Particles, Scheme, Setup, Solid, StateEquation},
+    geometry::Pose,
+    sph::{Body, EquationOfState, Scheme, Setup, Solid, SphSolver},
     wgpu,
 };
 
-/// A device that does nothing: what is refused never reaches one.
-fn nothing() -> (wgpu::Device, wgpu::Queue) {
+/// A device that does nothing: invalid input never reaches it.
+fn noop() -> (wgpu::Device, wgpu::Queue) {
     wgpu::Device::noop(&wgpu::DeviceDescriptor::default())
 }
 
-/// A particle in a box beside a body.
-fn made(setup: Setup, at: DVec3, velocity: DVec3, pressure: f64) -> riprap::Result<Particles> {
-    let (device, queue) = nothing();
-    Particles::new(&device, &queue, setup, &[at], &[velocity], &[pressure])
+/// A solver for a particle in a tank with a body.
+fn solver(setup: Setup, at: DVec3, velocity: DVec3, pressure: f64) -> riprap::Result<SphSolver> {
+    let (device, queue) = noop();
+    SphSolver::new(&device, &queue, setup, &[at], &[velocity], &[pressure])
 }
 
 fn tank() -> Setup {
     let mut setup = Setup::tank(DVec3::ONE, 0.1, 20.0);
     setup.bodies = vec![Body {
-        shell: vec![DVec3::ZERO],
+        boundary: vec![DVec3::ZERO],
         loaded: true,
         ..Body::default()
     }];
@@ -32,16 +32,19 @@ fn tank() -> Setup {
 const MIDDLE: DVec3 = DVec3::splat(0.5);
 
 #[test]
-fn numbers_that_cannot_be_are_refused_by_name() {
+fn invalid_parameters_are_refused_by_name() {
     const NAN: f64 = f64::NAN;
     let refused = |place: &str, change: &dyn Fn(&mut Setup)| {
         let mut setup = tank();
         change(&mut setup);
-        let told = made(setup, MIDDLE, DVec3::ZERO, 0.0).unwrap_err();
-        let told = told.to_string();
-        assert!(told.starts_with(&format!("{place}: ")), "{place}: {told}");
+        let error = solver(setup, MIDDLE, DVec3::ZERO, 0.0).unwrap_err();
+        let message = error.to_string();
+        assert!(
+            message.starts_with(&format!("{place}: ")),
+            "{place}: {message}"
+        );
     };
-    assert!(made(tank(), MIDDLE, DVec3::ZERO, 0.0).is_ok());
+    assert!(solver(tank(), MIDDLE, DVec3::ZERO, 0.0).is_ok());
     for bad in [NAN, -1.0, f64::INFINITY, 1e300] {
         refused("particles.artificial_viscosity", &|s| {
             s.artificial_viscosity = bad;
@@ -57,8 +60,8 @@ fn numbers_that_cannot_be_are_refused_by_name() {
     for bad in [NAN, 0.0, -1.0, 1.5, f64::INFINITY] {
         refused("particles.courant", &|s| s.courant = bad);
     }
-    refused("bodies[0].shell[1]", &|s| {
-        s.bodies[0].shell.push(DVec3::NAN);
+    refused("bodies[0].boundary[1]", &|s| {
+        s.bodies[0].boundary.push(DVec3::NAN);
     });
     refused("bodies[0].solids[0]", &|s| {
         s.bodies[0].solids = vec![Solid::Sphere {
@@ -69,29 +72,32 @@ fn numbers_that_cannot_be_are_refused_by_name() {
 }
 
 #[test]
-fn water_that_is_none_is_refused() {
-    let (device, queue) = nothing();
-    let none = Particles::new(&device, &queue, tank(), &[], &[], &[]);
-    let told = none.unwrap_err().to_string();
-    assert!(told.starts_with("water: there is no particle"), "{told}");
-    let told = |state: StateEquation, at: DVec3, velocity: DVec3, pressure: f64| {
+fn invalid_particles_are_refused() {
+    let (device, queue) = noop();
+    let none = SphSolver::new(&device, &queue, tank(), &[], &[], &[]);
+    let message = none.unwrap_err().to_string();
+    assert!(
+        message.starts_with("water: there is no particle"),
+        "{message}"
+    );
+    let message = |state: EquationOfState, at: DVec3, velocity: DVec3, pressure: f64| {
         let mut setup = tank();
-        setup.state = state;
-        let made = made(setup, at, velocity, pressure);
-        made.map_err(|error| error.to_string()).err()
+        setup.equation_of_state = state;
+        let result = solver(setup, at, velocity, pressure);
+        result.map_err(|error| error.to_string()).err()
     };
     let still = DVec3::ZERO;
-    for state in [StateEquation::Linear, StateEquation::Tait] {
-        assert_eq!(told(state, MIDDLE, still, -1e4), None);
-        // ρ₀ c₀² is 400 kPa, a seventh of it what Tait's equation has at no density.
-        let told = told(state, MIDDLE, still, -5e5).unwrap();
+    for state in [EquationOfState::Linear, EquationOfState::Tait] {
+        assert_eq!(message(state, MIDDLE, still, -1e4), None);
+        // ρ₀ c₀² is 400 kPa; Tait's equation has minus a seventh of it at zero density.
+        let message = message(state, MIDDLE, still, -5e5).unwrap();
         let least = match state {
-            StateEquation::Linear => "-4.000e5",
-            StateEquation::Tait => "-5.714e4",
+            EquationOfState::Linear => "-4.000e5",
+            EquationOfState::Tait => "-5.714e4",
         };
         assert!(
-            told.contains("no density") && told.contains(least),
-            "{told}"
+            message.contains("no density") && message.contains(least),
+            "{message}"
         );
     }
     for (at, velocity) in [
@@ -99,38 +105,38 @@ fn water_that_is_none_is_refused() {
         (MIDDLE, DVec3::NAN),
         (MIDDLE, DVec3::X * 1e300),
     ] {
-        let told = told(StateEquation::Linear, at, velocity, 0.0).unwrap();
-        assert!(told.contains("particle 0"), "{told}");
+        let message = message(EquationOfState::Linear, at, velocity, 0.0).unwrap();
+        assert!(message.contains("particle 0"), "{message}");
     }
 }
 
 #[test]
-fn exchanges_that_cannot_be_are_refused() {
-    let (device, queue) = nothing();
+fn invalid_exchanges_are_refused() {
+    let (device, queue) = noop();
     let still = [DVec3::ZERO];
-    let mut particles = Particles::new(&device, &queue, tank(), &[MIDDLE], &still, &[0.0]).unwrap();
+    let mut particles = SphSolver::new(&device, &queue, tank(), &[MIDDLE], &still, &[0.0]).unwrap();
     let good = resting(DVec3::ZERO);
     let mut begin = |poses: &[Pose], time: f64| {
         let begun = particles.begin(&queue, poses, time);
         begun.map_err(|error| error.to_string()).err()
     };
     for poses in [&[][..], &[good, good]] {
-        let told = begin(poses, 0.01).unwrap();
-        assert!(told.starts_with("poses: "), "{told}");
+        let message = begin(poses, 0.01).unwrap();
+        assert!(message.starts_with("poses: "), "{message}");
     }
     let (mut lost, mut flat) = (good, good);
     lost.velocity.y = f64::NAN;
     flat.deformation = DMat3::ZERO;
     for (pose, word) in [(lost, "not finite"), (flat, "determinant")] {
-        let told = begin(&[pose], 0.01).unwrap();
+        let message = begin(&[pose], 0.01).unwrap();
         assert!(
-            told.starts_with("poses[0]: ") && told.contains(word),
-            "{told}"
+            message.starts_with("poses[0]: ") && message.contains(word),
+            "{message}"
         );
     }
     for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let told = begin(&[good], time).unwrap();
-        assert!(told.starts_with("time: "), "{told}");
+        let message = begin(&[good], time).unwrap();
+        assert!(message.starts_with("time: "), "{message}");
     }
     assert_eq!(begin(&[good], 0.01), None);
 }

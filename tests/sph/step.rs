@@ -3,16 +3,15 @@
 use crate::{
     rig::Rig,
     tank::{lattice, resting, walls},
-    twin::{Dummy, Twin, Wet, wrench},
+    twin::{BoundaryParticle, FluidParticle, Twin, wrench},
 };
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
-    block::{HalfSpace, Polyhedron},
-    bodies::Pose,
-    particles::{Body, Faces, Neighbours, Particles, Setup, Side, Solid, StateEquation},
+    geometry::{HalfSpace, Polyhedron, Pose},
+    sph::{Body, EquationOfState, Faces, NeighbourSearch, Setup, Side, Solid, SphSolver},
 };
 
-/// Numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
+/// Random numbers in −1..1 (Steele & Vigna 2014, SplitMix64).
 pub struct Noise(pub u64);
 
 impl Noise {
@@ -51,9 +50,9 @@ fn base(plane: bool, periodic: bool) -> Setup {
     setup
 }
 
-/// A turned body of dummy particles in disturbed water, and the walls: one step, everything compared.
+/// One step of disturbed water with walls and a rotated body of boundary particles.
 fn check(setup: Setup) {
-    for neighbours in [Neighbours::Cells, Neighbours::Lists] {
+    for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
         check_with(Setup {
             neighbours,
             ..setup.clone()
@@ -61,7 +60,7 @@ fn check(setup: Setup) {
     }
 }
 
-/// A cylinder, as nothing varies along y, or a cube of two halves with a sphere at its side, m.
+/// A cylinder in a plane, or a cube of two halves with a sphere at its side, m.
 fn solids(plane: bool) -> Vec<Solid> {
     let sphere = |x: f64| Solid::Sphere {
         centre: DVec3::X * x,
@@ -75,13 +74,13 @@ fn solids(plane: bool) -> Vec<Solid> {
         Solid::Faces(Faces {
             centre: DVec3::ZERO,
             radius: cube.radius(),
-            bare: cube
+            exposed: cube
                 .faces()
                 .iter()
                 .filter(|face| face.normal.x * side < 0.5)
                 .copied()
                 .collect(),
-            seams: vec![HalfSpace {
+            internal: vec![HalfSpace {
                 normal: side * DVec3::X,
                 distance: 0.0,
             }],
@@ -95,15 +94,15 @@ fn check_with(setup: Setup) {
     let mut setup = setup;
     let mut noise = Noise(7);
     let middle = setup.origin + 0.5 * setup.size;
-    // In a plane the body moves, in space it keeps out what is in it.
-    let pace = if plane { 1.0 } else { 0.0 };
+    // In a plane the body moves; in space it is fixed and repels the water inside it.
+    let speed = if plane { 1.0 } else { 0.0 };
     let pose = Pose {
         centre: middle,
         ..Pose::rigid(
             middle,
             DQuat::from_rotation_y(0.4),
-            pace * DVec3::new(0.3, 0.0, -0.2),
-            pace * DVec3::new(0.0, 0.5, 0.0),
+            speed * DVec3::new(0.3, 0.0, -0.2),
+            speed * DVec3::new(0.0, 0.5, 0.0),
         )
     };
     let mut block = Vec::new();
@@ -115,12 +114,12 @@ fn check_with(setup: Setup) {
         }
     }
     let fixed = walls(&setup);
-    // Water clings to walls in space, and slides along them in a plane.
-    let slips = plane;
+    // Walls are no-slip in space, and free-slip in a plane.
+    let free_slip = plane;
     setup.bodies = vec![
-        Body { slips, ..fixed },
+        Body { free_slip, ..fixed },
         Body {
-            shell: block.clone(),
+            boundary: block.clone(),
             solids: solids(plane),
             moves: plane,
             loaded: true,
@@ -131,20 +130,20 @@ fn check_with(setup: Setup) {
         .round()
         .to_array()
         .map(|n| n as i32);
-    let mut places = lattice(&setup, [0; 3], [cells[0], cells[1], cells[2] - 2]);
-    places.retain(|x| (*x - middle).abs().max_element() > 0.3 || noise.number() > 0.5);
-    let positions: Vec<DVec3> = places
+    let mut sites = lattice(&setup, [0; 3], [cells[0], cells[1], cells[2] - 2]);
+    sites.retain(|x| (*x - middle).abs().max_element() > 0.3 || noise.number() > 0.5);
+    let positions: Vec<DVec3> = sites
         .iter()
         .map(|x| *x + 0.01 * noise.vector(plane))
         .collect();
-    let velocities: Vec<DVec3> = places.iter().map(|_| 0.5 * noise.vector(plane)).collect();
-    let pressures: Vec<f64> = places
+    let velocities: Vec<DVec3> = sites.iter().map(|_| 0.5 * noise.vector(plane)).collect();
+    let pressures: Vec<f64> = sites
         .iter()
         .map(|x| 9810.0 * (setup.origin.z + setup.size.z - x.z) + 500.0 * noise.number())
         .collect();
     let rig = Rig::new();
     let (device, queue) = (&rig.device, &rig.queue);
-    let mut particles = Particles::new(
+    let mut particles = SphSolver::new(
         device,
         queue,
         setup.clone(),
@@ -155,47 +154,49 @@ fn check_with(setup: Setup) {
     .unwrap();
     let before = rig.wait(particles.water(device, queue)).unwrap();
     assert_eq!(before.len(), positions.len());
-    let water: Vec<Wet> = (0..before.len())
-        .map(|n| Wet {
+    let water: Vec<FluidParticle> = (0..before.len())
+        .map(|n| FluidParticle {
             x: before.positions[n],
             v: before.velocities[n].as_dvec3(),
             rho: before.densities[n],
         })
         .collect();
     let poses = [resting(DVec3::ZERO), pose];
-    let within = |wet: &&Wet| (wet.x - middle).abs().max_element() < 0.12;
-    assert!(water.iter().filter(within).count() > 0);
-    let mut dummies: Vec<Dummy> = setup.bodies[0]
-        .shell
+    let inside = |particle: &&FluidParticle| (particle.x - middle).abs().max_element() < 0.12;
+    assert!(water.iter().filter(inside).count() > 0);
+    let mut boundary: Vec<BoundaryParticle> = setup.bodies[0]
+        .boundary
         .iter()
-        .map(|x| Dummy {
+        .map(|x| BoundaryParticle {
             x: *x,
             v: DVec3::ZERO,
             a: DVec3::ZERO,
-            slips,
+            free_slip,
         })
         .collect();
-    let first = dummies.len();
-    dummies.extend(block.iter().map(|x| Dummy {
+    let first = boundary.len();
+    boundary.extend(block.iter().map(|x| BoundaryParticle {
         x: pose.point(*x),
         v: pose.point_velocity(*x),
         a: DVec3::ZERO,
-        slips: false,
+        free_slip: false,
     }));
-    let dt = 0.9 * particles.limit();
-    // In the water, in rock, over the water and far away.
+    let dt = 0.9 * particles.step_limit();
+    // In the water, in the body, above the water and far away.
     let above = setup.origin + setup.size * DVec3::new(0.5, 0.5, 0.95);
-    let asked = [positions[0], positions[7], middle, above, DVec3::splat(1e4)];
-    // Covered by more, or by less, than there is water.
-    let walls = [(positions[0], 2.0), (positions[7], 0.1), (middle, 0.7)];
-    particles.ask(device, queue, &asked, &walls).unwrap();
+    let in_water = [positions[0], positions[7], middle, above, DVec3::splat(1e4)];
+    // Full coverage by more, and by less, water than there is.
+    let on_walls = [(positions[0], 2.0), (positions[7], 0.1), (middle, 0.7)];
+    particles
+        .set_probes(device, queue, &in_water, &on_walls)
+        .unwrap();
     let done = rig
         .wait(particles.advance(device, queue, &poses, dt))
         .unwrap();
     assert_eq!(done.steps, 1);
     let after = rig.wait(particles.water(device, queue)).unwrap();
     let twin = Twin(&setup, &poses);
-    let exact = twin.step(&water, &dummies, dt);
+    let exact = twin.step(&water, &boundary, dt);
     let change = |a: f64, b: f64| (a - b).abs();
     let (mut dv, mut drho, mut dx, mut most) = (0.0f64, 0.0f64, 0.0f64, [0.0f64; 2]);
     for n in 0..after.len() {
@@ -209,21 +210,22 @@ fn check_with(setup: Setup) {
         most[0] = most[0].max((exact.water[n].v - water[n].v).length());
         most[1] = most[1].max(change(exact.water[n].rho, water[n].rho));
     }
-    let asked = asked.iter().map(|x| (x, 0.0));
-    let asked = asked.chain(walls.iter().map(|(x, share)| (x, *share)));
-    for ((x, share), found) in asked.zip(&done.pressures) {
-        // To the whole quanta of places, whose weight is that of a column.
-        let at = Dummy {
+    let probes = in_water.iter().map(|x| (x, 0.0));
+    let probes = probes.chain(on_walls.iter().map(|(x, fraction)| (x, *fraction)));
+    for ((x, fraction), found) in probes.zip(&done.pressures) {
+        // The tolerance covers the rounding of positions to quanta.
+        let at = BoundaryParticle {
             x: *x,
             v: DVec3::ZERO,
             a: DVec3::ZERO,
-            slips: true,
+            free_slip: true,
         };
-        let wet = match share > 0.0 {
-            true => (twin.covered(&water, *x) / share).min(1.0),
-            false => 1.0,
+        let covered = if fraction > 0.0 {
+            (twin.water_fraction(&water, *x) / fraction).min(1.0)
+        } else {
+            1.0
         };
-        let expected = wet * twin.wall_pressure(&water, &at);
+        let expected = covered * twin.wall_pressure(&water, &at);
         assert!(
             change(*found, expected) < 1e-4 * 1e4,
             "{found} {expected} at {x}"
@@ -231,7 +233,7 @@ fn check_with(setup: Setup) {
     }
     assert!(done.pressures[..3].iter().all(|p| *p > 0.0));
     assert_eq!(done.pressures[4], 0.0);
-    let limit = particles.limit();
+    let limit = particles.step_limit();
     let levers: Vec<DVec3> = block.iter().map(|x| pose.deformation * *x).collect();
     let width = if plane { setup.size.y } else { 1.0 };
     let (force, moment) = wrench(&exact.forces[first..], &levers);
@@ -239,13 +241,13 @@ fn check_with(setup: Setup) {
     let load = done.loads[1];
     println!(
         "dv {dv:.2e} of {:.2e}, drho {drho:.2e} of {:.2e}, dx {dx:.2e}, limit {limit:.6e} {:.6e}, force {} {force}",
-        most[0], most[1], exact.limit, load.force
+        most[0], most[1], exact.step_limit, load.force
     );
-    // Sums of a hundred pushes in f32, each rounded at 6e-8 of itself; they cancel to a tenth.
+    // Sums of a hundred terms in f32, each with a rounding error of 6e-8, that cancel to a tenth.
     assert!(dv < 2e-6 * most[0].max(setup.sound_speed * 1e-2), "{dv}");
     assert!(drho < 1e-5 * most[1], "{drho}");
     assert!(dx < 1e-6 * setup.spacing, "{dx}");
-    assert!(change(limit, exact.limit) < 1e-5 * exact.limit);
+    assert!(change(limit, exact.step_limit) < 1e-5 * exact.step_limit);
     let scale: f64 = exact.forces[first..]
         .iter()
         .map(|f| width * f.length())
@@ -258,22 +260,22 @@ fn check_with(setup: Setup) {
         .fold(0.0, |a: f64, b| a.max(b.abs()));
     assert!(worst < 1e-5 * scale * 0.2, "{worst}");
     assert_eq!(done.loads[0].moment, DMat3::ZERO);
-    let works = particles.works();
+    let works = particles.work();
     let end = pose.after(dt);
     let bodies = -done.loads[1].work(&pose, &end);
-    // A product of a pressure, a velocity and a step, each pair of another sign.
+    // Products of pressure, velocity and step, whose signs vary.
     let scale = scale * 0.5 * dt;
     for (found, expected) in [
-        (works.pressed, width * exact.pressed),
-        (works.pushed, width * exact.pushed),
+        (works.boundary, width * exact.boundary_work),
+        (works.penalty, width * exact.penalty_work),
         (works.bodies, bodies),
     ] {
         println!("work {found:.6e} {expected:.6e} of {scale:.2e}");
         assert!(change(found, expected) < 1e-5 * scale, "{found} {expected}");
     }
-    // In a plane the body moves, in space it keeps out what is in it.
-    assert!((works.bodies != 0.0) == plane && (works.pushed.abs() > 1e-3 * scale) != plane);
-    assert!(works.pressed.abs() > 1e-3 * scale);
+    // In a plane the body moves; in space it is fixed and repels the water inside it.
+    assert!((works.bodies != 0.0) == plane && (works.penalty.abs() > 1e-3 * scale) != plane);
+    assert!(works.boundary.abs() > 1e-3 * scale);
 }
 
 #[test]
@@ -297,15 +299,15 @@ fn in_a_plane_periodic() {
 }
 
 #[test]
-fn with_the_state_equation_of_tait() {
+fn with_the_equation_of_state_of_tait() {
     let mut setup = base(true, false);
-    setup.state = StateEquation::Tait;
+    setup.equation_of_state = EquationOfState::Tait;
     check(setup);
 }
 
 #[test]
 fn with_laminar_viscosity() {
-    // In space it bounds the step, in a plane sound does.
+    // In space viscosity bounds the step, in a plane sound does.
     for (plane, laminar_viscosity) in [(false, 3.0), (true, 0.5)] {
         check(Setup {
             laminar_viscosity,
@@ -315,16 +317,16 @@ fn with_laminar_viscosity() {
 }
 
 #[test]
-fn lists_grow_where_water_is_squeezed() {
-    // Three times as many particles as the lattice has, without a push of their own.
+fn lists_grow_where_particles_are_dense() {
+    // Three times as many particles as on the lattice, at zero pressure.
     let mut setup = base(true, false);
-    setup.neighbours = Neighbours::Lists;
+    setup.neighbours = NeighbourSearch::Lists;
     setup.bodies = vec![walls(&setup)];
-    let places = lattice(&setup, [0; 3], [13, 1, 9]);
+    let sites = lattice(&setup, [0; 3], [13, 1, 9]);
     let mut noise = Noise(3);
     let positions: Vec<DVec3> = (0..3)
         .flat_map(|_| {
-            places
+            sites
                 .iter()
                 .map(|x| *x + 0.03 * noise.vector(true))
                 .collect::<Vec<_>>()
@@ -333,35 +335,35 @@ fn lists_grow_where_water_is_squeezed() {
     let still = vec![DVec3::ZERO; positions.len()];
     let rig = Rig::new();
     let (device, queue) = (&rig.device, &rig.queue);
-    let mut ends = Vec::new();
-    for neighbours in [Neighbours::Lists, Neighbours::Cells] {
+    let mut results = Vec::new();
+    for neighbours in [NeighbourSearch::Lists, NeighbourSearch::Cells] {
         let setup = Setup {
             neighbours,
             ..setup.clone()
         };
         let pressures = vec![0.0; positions.len()];
         let mut particles =
-            Particles::new(device, queue, setup, &positions, &still, &pressures).unwrap();
+            SphSolver::new(device, queue, setup, &positions, &still, &pressures).unwrap();
         let poses = [resting(DVec3::ZERO)];
-        let time = 0.9 * particles.limit();
+        let time = 0.9 * particles.step_limit();
         let done = rig
             .wait(particles.advance(device, queue, &poses, time))
             .unwrap();
         assert_eq!(done.steps, 1);
-        ends.push(rig.wait(particles.water(device, queue)).unwrap());
+        results.push(rig.wait(particles.water(device, queue)).unwrap());
     }
-    let [lists, cells] = [&ends[0], &ends[1]];
+    let [lists, cells] = [&results[0], &results[1]];
     for n in 0..lists.len() {
         assert!((lists.velocities[n] - cells.velocities[n]).length() < 1e-5);
         assert!((lists.densities[n] - cells.densities[n]).abs() < 1e-3);
     }
 }
 
-/// A block that moves through water that sloshes, and jumps: the lists that are kept miss nobody.
+/// A block moves through sloshing water and jumps: the lists contain all neighbours throughout their validity.
 #[test]
-fn lists_serve_several_steps() {
+fn lists_are_valid_for_several_steps() {
     let mut setup = base(true, true);
-    // Short steps, of which a list serves many.
+    // Short steps, so that a list is valid for many.
     setup.courant = 0.2;
     let middle = setup.origin + 0.5 * setup.size;
     let grid = [-0.15, -0.05, 0.05, 0.15];
@@ -369,7 +371,7 @@ fn lists_serve_several_steps() {
     setup.bodies = vec![
         walls(&setup),
         Body {
-            shell: block,
+            boundary: block,
             moves: true,
             loaded: true,
             ..Body::default()
@@ -385,17 +387,17 @@ fn lists_serve_several_steps() {
     let pressures: Vec<f64> = positions.iter().map(|x| 9810.0 * depth(x)).collect();
     let rig = Rig::new();
     let (device, queue) = (&rig.device, &rig.queue);
-    let mut ends = Vec::new();
-    for neighbours in [Neighbours::Lists, Neighbours::Cells] {
+    let mut results = Vec::new();
+    for neighbours in [NeighbourSearch::Lists, NeighbourSearch::Cells] {
         let setup = Setup {
             neighbours,
             ..setup.clone()
         };
         let mut particles =
-            Particles::new(device, queue, setup, &positions, &velocities, &pressures).unwrap();
-        let (mut sorts, mut steps, mut time, mut push) = (0, 0, 0.0, DVec3::ZERO);
+            SphSolver::new(device, queue, setup, &positions, &velocities, &pressures).unwrap();
+        let (mut sorts, mut steps, mut time, mut load) = (0, 0, 0.0, DVec3::ZERO);
         for n in 0..60 {
-            let dt = 0.99 * particles.limit();
+            let dt = 0.99 * particles.step_limit();
             let velocity = DVec3::new(0.3, 0.0, 0.1);
             let mut pose = Pose::rigid(
                 middle + time * velocity,
@@ -411,19 +413,19 @@ fn lists_serve_several_steps() {
                 .wait(particles.advance(device, queue, &poses, dt))
                 .unwrap();
             (sorts, steps, time) = (sorts + done.sorts, steps + done.steps, time + dt);
-            push += done.loads[1].force / 60.0;
+            load += done.loads[1].force / 60.0;
         }
-        println!("{neighbours:?}: {sorts} sorts in {steps} steps, {push} N");
-        let few = neighbours == Neighbours::Lists;
-        assert!(if few {
+        println!("{neighbours:?}: {sorts} sorts in {steps} steps, {load} N");
+        let uses_lists = neighbours == NeighbourSearch::Lists;
+        assert!(if uses_lists {
             4 * sorts < steps
         } else {
             sorts == steps
         });
         let water = rig.wait(particles.water(device, queue)).unwrap();
-        ends.push((water, push));
+        results.push((water, load));
     }
-    let [(lists, by_lists), (cells, by_cells)] = [&ends[0], &ends[1]];
+    let [(lists, by_lists), (cells, by_cells)] = [&results[0], &results[1]];
     assert!((*by_lists - *by_cells).length() < 1e-4 * by_cells.length());
     for n in 0..lists.len() {
         let miss = (lists.positions[n] - cells.positions[n]).length();

@@ -1,19 +1,19 @@
-//! A tank of water with walls of shell particles, on a device.
+//! A tank of water with walls of boundary particles, on a device.
 
 use crate::rig::Rig;
 use glam::{DMat3, DVec3};
 use riprap::{
-    bodies::Pose,
-    particles::{Body, Exchange, Particles, Setup, Side, Water},
+    geometry::Pose,
+    sph::{Body, ExchangeResult, Setup, Side, SphSolver, Water},
 };
 
 pub struct Tank {
     pub rig: Rig,
-    pub particles: Particles,
+    pub particles: SphSolver,
     pub poses: Vec<Pose>,
 }
 
-/// A body that rests at a place.
+/// The pose of a body at rest.
 pub fn resting(centre: DVec3) -> Pose {
     Pose {
         centre,
@@ -23,7 +23,7 @@ pub fn resting(centre: DVec3) -> Pose {
     }
 }
 
-/// The points (i + ½) Δx of a box of whole spacings, `y` only in the middle of a plane setup.
+/// The points (i + ½) Δx of a box of whole spacings; a planar setup has one row in the middle.
 pub fn lattice(setup: &Setup, low: [i32; 3], high: [i32; 3]) -> Vec<DVec3> {
     let mut points = Vec::new();
     let [mut low, mut high] = [low, high];
@@ -33,8 +33,8 @@ pub fn lattice(setup: &Setup, low: [i32; 3], high: [i32; 3]) -> Vec<DVec3> {
     for k in low[2]..high[2] {
         for j in low[1]..high[1] {
             for i in low[0]..high[0] {
-                let place = [i, j, k].map(|n| f64::from(n) + 0.5);
-                let mut point = setup.origin + setup.spacing * DVec3::from(place);
+                let index = [i, j, k].map(|n| f64::from(n) + 0.5);
+                let mut point = setup.origin + setup.spacing * DVec3::from(index);
                 if setup.plane {
                     point.y = setup.origin.y + 0.5 * setup.size.y;
                 }
@@ -45,7 +45,7 @@ pub fn lattice(setup: &Setup, low: [i32; 3], high: [i32; 3]) -> Vec<DVec3> {
     points
 }
 
-/// Shell particles behind the walls of the domain.
+/// Boundary particles behind the walls of the domain.
 pub fn walls(setup: &Setup) -> Body {
     let layers = setup.layers() as i32;
     let cells = (setup.size / setup.spacing)
@@ -71,16 +71,16 @@ pub fn walls(setup: &Setup) -> Body {
         axes.iter()
             .any(|&axis| x[axis] < setup.origin[axis] || x[axis] > end[axis])
     };
-    let mut shell = lattice(setup, low, high);
-    shell.retain(outside);
+    let mut boundary = lattice(setup, low, high);
+    boundary.retain(outside);
     Body {
-        shell,
+        boundary,
         ..Body::default()
     }
 }
 
 impl Tank {
-    /// Water at `positions` with the pressures `pressure`, at rest.
+    /// Water at rest at `positions` with the given pressures.
     pub fn new(
         setup: Setup,
         poses: Vec<Pose>,
@@ -90,7 +90,7 @@ impl Tank {
         let rig = Rig::new();
         let still = vec![DVec3::ZERO; positions.len()];
         let pressures: Vec<f64> = positions.iter().map(|x| pressure(*x)).collect();
-        let particles = Particles::new(
+        let particles = SphSolver::new(
             &rig.device,
             &rig.queue,
             setup,
@@ -106,12 +106,14 @@ impl Tank {
         }
     }
 
-    pub fn ask(&mut self, places: &[DVec3]) {
+    pub fn set_probes(&mut self, positions: &[DVec3]) {
         let Rig { device, queue } = &self.rig;
-        self.particles.ask(device, queue, places, &[]).unwrap();
+        self.particles
+            .set_probes(device, queue, positions, &[])
+            .unwrap();
     }
 
-    pub fn advance(&mut self, time: f64) -> Exchange {
+    pub fn advance(&mut self, time: f64) -> ExchangeResult {
         let Rig { device, queue } = &self.rig;
         let done = self.particles.advance(device, queue, &self.poses, time);
         self.rig.wait(done).unwrap()

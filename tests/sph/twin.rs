@@ -1,44 +1,44 @@
-//! A step of the scheme in f64 and SI units, each particle with each other: Wendland C2; momentum with artificial
-//! viscosity from the old state, continuity with diffusion and the way with the new velocity; dummy particles with
-//! the pressure of the water before them, and the push of bodies on what is in them.
+//! Twin of a δ-SPH step in f64 and SI units over all pairs: Wendland C2; momentum with artificial viscosity from the old
+//! state, continuity with diffusion and displacement with the new velocity; boundary particles with extrapolated pressure,
+//! and the penalty force of bodies.
 
-use crate::push::{Spring, push};
+use crate::penalty::{Spring, penalty};
 use glam::{DMat3, DVec3};
 use riprap::{
-    bodies::Pose,
-    particles::{Setup, Side, StateEquation},
+    geometry::Pose,
+    sph::{EquationOfState, Setup, Side},
 };
 use std::f64::consts::PI;
 
 #[derive(Clone, Copy, Debug)]
-pub struct Wet {
+pub struct FluidParticle {
     pub x: DVec3,
     pub v: DVec3,
     pub rho: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
-pub struct Dummy {
+pub struct BoundaryParticle {
     pub x: DVec3,
     pub v: DVec3,
     /// Acceleration of the wall.
     pub a: DVec3,
-    pub slips: bool,
+    pub free_slip: bool,
 }
 
 pub struct Outcome {
-    pub water: Vec<Wet>,
-    /// Force on each dummy particle.
+    pub water: Vec<FluidParticle>,
+    /// Force on each boundary particle.
     pub forces: Vec<DVec3>,
     /// Longest next step.
-    pub limit: f64,
-    /// Work of dummy particles beyond that of their bodies.
-    pub pressed: f64,
-    /// Work of the push of bodies.
-    pub pushed: f64,
+    pub step_limit: f64,
+    /// Work of boundary particles beyond that of their bodies.
+    pub boundary_work: f64,
+    /// Work of the penalty force.
+    pub penalty_work: f64,
 }
 
-/// The water's constants, and where the bodies are.
+/// The setup and the poses of the bodies.
 pub struct Twin<'a>(pub &'a Setup, pub &'a [Pose]);
 
 impl Twin<'_> {
@@ -46,7 +46,7 @@ impl Twin<'_> {
         self.0.smoothing * self.0.spacing
     }
 
-    /// Normalisation in a plane per width.
+    /// Normalisation of the kernel; in a plane per width.
     fn alpha(&self) -> f64 {
         let h = self.h();
         if self.0.plane {
@@ -78,7 +78,7 @@ impl Twin<'_> {
     }
 
     /// From the nearest image of b to a.
-    fn between(&self, a: DVec3, b: DVec3) -> DVec3 {
+    fn separation(&self, a: DVec3, b: DVec3) -> DVec3 {
         let mut r = a - b;
         for axis in 0..3 {
             if self.0.faces[axis][0] == Side::Periodic && !(self.0.plane && axis == 1) {
@@ -90,9 +90,9 @@ impl Twin<'_> {
 
     fn pressure(&self, rho: f64) -> f64 {
         let c2 = self.0.sound_speed.powi(2);
-        match self.0.state {
-            StateEquation::Linear => c2 * (rho - self.0.density),
-            StateEquation::Tait => {
+        match self.0.equation_of_state {
+            EquationOfState::Linear => c2 * (rho - self.0.density),
+            EquationOfState::Tait => {
                 self.0.density * c2 / 7.0 * ((rho / self.0.density).powi(7) - 1.0)
             }
         }
@@ -100,9 +100,9 @@ impl Twin<'_> {
 
     fn density(&self, p: f64) -> f64 {
         let c2 = self.0.sound_speed.powi(2);
-        match self.0.state {
-            StateEquation::Linear => self.0.density + p / c2,
-            StateEquation::Tait => {
+        match self.0.equation_of_state {
+            EquationOfState::Linear => self.0.density + p / c2,
+            EquationOfState::Tait => {
                 self.0.density * (1.0 + 7.0 * p / (self.0.density * c2)).powf(1.0 / 7.0)
             }
         }
@@ -113,10 +113,10 @@ impl Twin<'_> {
         self.0.density * self.0.spacing.powi(if self.0.plane { 2 } else { 3 })
     }
 
-    pub fn wall_pressure(&self, water: &[Wet], wall: &Dummy) -> f64 {
+    pub fn wall_pressure(&self, water: &[FluidParticle], wall: &BoundaryParticle) -> f64 {
         let (mut above, mut below) = (0.0, 0.0);
         for f in water {
-            let r = self.between(wall.x, f.x);
+            let r = self.separation(wall.x, f.x);
             let w = self.w(r.length());
             above += w * (self.pressure(f.rho) + f.rho * (self.0.gravity - wall.a).dot(r));
             below += w;
@@ -128,18 +128,20 @@ impl Twin<'_> {
         }
     }
 
-    /// Share of the kernel around a place that water covers.
-    pub fn covered(&self, water: &[Wet], x: DVec3) -> f64 {
+    /// Fraction of the kernel around a point that water covers.
+    pub fn water_fraction(&self, water: &[FluidParticle], x: DVec3) -> f64 {
         let cell = self.0.spacing.powi(if self.0.plane { 2 } else { 3 });
-        let weights = water.iter().map(|f| self.w(self.between(x, f.x).length()));
+        let weights = water
+            .iter()
+            .map(|f| self.w(self.separation(x, f.x).length()));
         cell * weights.sum::<f64>()
     }
 
-    /// The velocity of the water before a wall, continued into it about the wall's own.
-    fn wall_velocity(&self, water: &[Wet], wall: &Dummy) -> DVec3 {
+    /// Velocity of a boundary particle for no slip: the velocity of the water extrapolated about that of the wall.
+    fn wall_velocity(&self, water: &[FluidParticle], wall: &BoundaryParticle) -> DVec3 {
         let (mut above, mut below) = (DVec3::ZERO, 0.0);
         for f in water {
-            let w = self.w(self.between(wall.x, f.x).length());
+            let w = self.w(self.separation(wall.x, f.x).length());
             above += w * f.v;
             below += w;
         }
@@ -150,8 +152,8 @@ impl Twin<'_> {
         }
     }
 
-    /// What friction of a neighbour at `r` adds to the rate of a velocity that differs from its by `v`.
-    fn friction(&self, [a, b]: [f64; 2], r: DVec3, v: DVec3) -> DVec3 {
+    /// Viscous acceleration at the densities `[a, b]`, the separation `r` and the relative velocity `v`.
+    fn viscous(&self, [a, b]: [f64; 2], r: DVec3, v: DVec3) -> DVec3 {
         if r.length() == 0.0 {
             return DVec3::ZERO;
         }
@@ -160,8 +162,8 @@ impl Twin<'_> {
         self.mass() * both / (a * b) * r.dot(self.gradient(r)) / r.length_squared() * v
     }
 
-    /// What bodies that do not move do to water that is in them: nothing if no dummy particle is near.
-    fn kept_out(&self, at: &Wet, walls: &[Dummy]) -> DVec3 {
+    /// Penalty acceleration by fixed bodies; zero if no boundary particle is near.
+    fn penalty(&self, at: &FluidParticle, walls: &[BoundaryParticle]) -> DVec3 {
         let rate = self.0.sound_speed / self.0.spacing;
         let spring = Spring {
             stiffness: (0.1 * rate).powi(2),
@@ -170,54 +172,55 @@ impl Twin<'_> {
         let near = 0.95 * self.0.spacing;
         if walls
             .iter()
-            .all(|wall| self.between(at.x, wall.x).length() >= near)
+            .all(|wall| self.separation(at.x, wall.x).length() >= near)
         {
             return DVec3::ZERO;
         }
-        let still = self.1.iter().zip(&self.0.bodies).filter(|(_, b)| !b.moves);
-        let pushes = still.flat_map(|(pose, body)| {
+        let fixed = self.1.iter().zip(&self.0.bodies).filter(|(_, b)| !b.moves);
+        let accelerations = fixed.flat_map(|(pose, body)| {
             let solids = body.solids.iter();
-            solids.map(|solid| push(spring, pose, solid, at.x, at.v))
+            solids.map(|solid| penalty(spring, pose, solid, at.x, at.v))
         });
-        pushes.sum()
+        accelerations.sum()
     }
 
-    pub fn step(&self, water: &[Wet], walls: &[Dummy], dt: f64) -> Outcome {
+    pub fn step(&self, water: &[FluidParticle], walls: &[BoundaryParticle], dt: f64) -> Outcome {
         let (m, h, c) = (self.mass(), self.h(), self.0.sound_speed);
         let pressures: Vec<f64> = walls.iter().map(|w| self.wall_pressure(water, w)).collect();
         let velocities: Vec<DVec3> = walls.iter().map(|w| self.wall_velocity(water, w)).collect();
         let mut forces = vec![DVec3::ZERO; walls.len()];
-        let (mut fresh, mut limit) = (Vec::new(), f64::INFINITY);
-        let (mut pressed, mut pushed) = (0.0, 0.0);
+        let (mut new_velocities, mut step_limit) = (Vec::new(), f64::INFINITY);
+        let (mut boundary_work, mut penalty_work) = (0.0, 0.0);
         for i in water {
             let (mut a, mut steepest) = (self.0.gravity, 0.0f64);
-            let mut beside = Vec::new();
+            let mut excess = Vec::new();
             for j in water {
-                let r = self.between(i.x, j.x);
+                let r = self.separation(i.x, j.x);
                 if r.length() >= 2.0 * h {
                     continue;
                 }
                 let vr = (i.v - j.v).dot(r);
                 let mu = h * vr / (r.length_squared() + 0.01 * h * h);
                 steepest = steepest.max(mu.abs());
-                let pi = match vr < 0.0 {
-                    true => -self.0.artificial_viscosity * c * mu / (0.5 * (i.rho + j.rho)),
-                    false => 0.0,
+                let pi = if vr < 0.0 {
+                    -self.0.artificial_viscosity * c * mu / (0.5 * (i.rho + j.rho))
+                } else {
+                    0.0
                 };
                 let push = (self.pressure(i.rho) + self.pressure(j.rho)) / (i.rho * j.rho) + pi;
                 a -= m * push * self.gradient(r);
-                a += self.friction([i.rho, j.rho], r, i.v - j.v);
+                a += self.viscous([i.rho, j.rho], r, i.v - j.v);
             }
             for (k, w) in walls.iter().enumerate() {
                 let rho = self.density(pressures[k]);
                 let push = (self.pressure(i.rho) + pressures[k]) / (i.rho * rho);
-                let r = self.between(i.x, w.x);
-                // Kinetic energy by the push, less what compresses: that is of walls of the reference density.
+                let r = self.separation(i.x, w.x);
+                // Kinetic energy by the push, less the compression energy at walls of the reference density.
                 let beyond = push - self.pressure(i.rho) / (i.rho * self.0.density);
-                beside.push((w.v, m * m * beyond * self.gradient(r)));
+                excess.push((w.v, m * m * beyond * self.gradient(r)));
                 let mut pull = m * push * self.gradient(r);
-                if !w.slips {
-                    pull -= self.friction([i.rho, rho], r, i.v - velocities[k]);
+                if !w.free_slip {
+                    pull -= self.viscous([i.rho, rho], r, i.v - velocities[k]);
                 }
                 a -= pull;
                 forces[k] += m * pull;
@@ -225,53 +228,54 @@ impl Twin<'_> {
             let v = i.v + a * dt;
             let by_force = (h / a.length()).sqrt();
             let by_sound = h / (c.max(10.0 * v.length()) + steepest);
-            let by_friction = h * h / (8.0 * self.0.laminar_viscosity);
-            limit = limit.min((self.0.courant * by_force.min(by_sound)).min(by_friction));
+            let by_viscosity = h * h / (8.0 * self.0.laminar_viscosity);
+            let by_courant = self.0.courant * by_force.min(by_sound);
+            step_limit = step_limit.min(by_courant.min(by_viscosity));
             let middle = 0.5 * (i.v + v);
-            let works = beside.iter().map(|(wall, f)| -dt * f.dot(middle - *wall));
-            pressed += works.sum::<f64>();
-            let kept = self.kept_out(i, walls);
-            let end = v + kept * dt;
-            pushed += dt * m * kept.dot(0.5 * (i.v + end));
-            fresh.push(end);
+            let works = excess.iter().map(|(wall, f)| -dt * f.dot(middle - *wall));
+            boundary_work += works.sum::<f64>();
+            let repulsion = self.penalty(i, walls);
+            let end = v + repulsion * dt;
+            penalty_work += dt * m * repulsion.dot(0.5 * (i.v + end));
+            new_velocities.push(end);
         }
         let mut out = Vec::new();
         for (n, i) in water.iter().enumerate() {
             let mut rate = 0.0;
             for (k, j) in water.iter().enumerate() {
-                let r = self.between(i.x, j.x);
+                let r = self.separation(i.x, j.x);
                 let (volume, gradient) = (m / j.rho, self.gradient(r));
-                rate += i.rho * volume * (fresh[n] - fresh[k]).dot(gradient);
+                rate += i.rho * volume * (new_velocities[n] - new_velocities[k]).dot(gradient);
                 if r.length() > 0.0 {
-                    // What the density of still water at j has more than at i.
-                    let still = -self.0.density * self.0.gravity.dot(r) / (c * c);
-                    let excess = j.rho - i.rho - still;
+                    // Hydrostatic density difference of j to i.
+                    let hydrostatic = -self.0.density * self.0.gravity.dot(r) / (c * c);
+                    let excess = j.rho - i.rho - hydrostatic;
                     let flux = 2.0 * excess * (-r).dot(gradient) / r.length_squared();
                     rate += self.0.density_diffusion * h * c * volume * flux;
                 }
             }
             for w in walls {
-                let gradient = self.gradient(self.between(i.x, w.x));
+                let gradient = self.gradient(self.separation(i.x, w.x));
                 let volume = m / self.0.density;
-                rate += i.rho * volume * (fresh[n] - w.v).dot(gradient);
+                rate += i.rho * volume * (new_velocities[n] - w.v).dot(gradient);
             }
-            out.push(Wet {
-                x: i.x + fresh[n] * dt,
-                v: fresh[n],
+            out.push(FluidParticle {
+                x: i.x + new_velocities[n] * dt,
+                v: new_velocities[n],
                 rho: i.rho + rate * dt,
             });
         }
         Outcome {
             water: out,
             forces,
-            limit,
-            pressed,
-            pushed,
+            step_limit,
+            boundary_work,
+            penalty_work,
         }
     }
 }
 
-/// Force and Σ f ⊗ r of forces at places.
+/// Force and Σ f ⊗ r of forces with lever arms.
 pub fn wrench(forces: &[DVec3], levers: &[DVec3]) -> (DVec3, DMat3) {
     let mut moment = DMat3::ZERO;
     for (f, r) in forces.iter().zip(levers) {

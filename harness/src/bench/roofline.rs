@@ -93,7 +93,7 @@ impl fmt::Display for Parts {
 mod tests {
     use super::*;
     use crate::kit::arithmetic::FLOPS;
-    use riprap::{link::Program, work::Work};
+    use riprap::gpu::{link::Program, work::Work};
 
     #[test]
     fn the_ceiling_has_the_operations_that_are_counted() {

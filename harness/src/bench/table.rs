@@ -9,10 +9,9 @@ use crate::kit::{
 use glam::{DQuat, DVec3};
 use riprap::{
     Error, Result,
-    block::Shape,
-    bodies::Pose,
-    immersed::{Frame, Immersed, Submerged},
+    geometry::{Pose, Shape},
     lattice::{Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_a_cell, memory},
+    psm::{Frame, SolidBlock, SolidCells},
     units::Units,
     wgpu,
 };
@@ -275,7 +274,7 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
     let cells = lattice.grid().cells[0];
     let places = crowd(cells, ACROSS, 0.1);
     let shape: Arc<Shape> = Arc::new(Shape::sphere(0.5 * ACROSS)?);
-    let submerged = places.iter().map(|_| Submerged {
+    let submerged = places.iter().map(|_| SolidBlock {
         shape: shape.clone(),
         loaded: true,
         faces: false,
@@ -288,7 +287,7 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
             density: 1.0,
         },
     };
-    let mut immersed = Immersed::new(&device, &lattice, frame, submerged.collect())?;
+    let mut immersed = SolidCells::new(&device, &lattice, frame, submerged.collect())?;
     let velocity = DVec3::new(0.0, 0.02, 0.0);
     let mut step = 0.0;
     let mut steps = |count: u32| -> Result<()> {
@@ -331,7 +330,7 @@ fn floats(
     buffer: &wgpu::Buffer,
     count: usize,
 ) -> Result<Vec<f32>> {
-    let mut readback = riprap::readback::Readback::default();
+    let mut readback = riprap::gpu::readback::Readback::default();
     let read = readback.read(device, queue, buffer, count);
     gpu::drive(device, PATIENCE, "the loads", read)?
 }

@@ -3,7 +3,7 @@
 use super::{copy_bandwidth, report::Machine};
 use crate::kit::{exponent::exponent, gpu, tank::Tank};
 use cpu_time::ProcessTime;
-use riprap::{particles::Neighbours, wgpu};
+use riprap::{sph::NeighbourSearch, wgpu};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -53,7 +53,7 @@ pub struct Row {
     pub around: f64,
     /// Time of a step, s: CPU time over the cores on software adapters.
     pub step: f64,
-    /// Particles a second.
+    /// Updates of particles of water a second; those of walls, which each step computes too, are not counted.
     pub particles_a_second: f64,
     /// Pairs a second, each pair once for each of its ends and for each sum.
     pub pairs_a_second: f64,
@@ -103,9 +103,9 @@ pub fn measure(
         (_, true) => &[22, 46, 100],
         (false, false) => &[22, 46],
     };
-    let kinds: &[Neighbours] = match machine.software {
-        true => &[Neighbours::Lists, Neighbours::Cells],
-        false => &[Neighbours::Cells, Neighbours::Lists],
+    let kinds: &[NeighbourSearch] = match machine.software {
+        true => &[NeighbourSearch::Lists, NeighbourSearch::Cells],
+        false => &[NeighbourSearch::Cells, NeighbourSearch::Lists],
     };
     let (mut rows, mut moving): (Vec<Row>, Vec<Row>) = (Vec::new(), Vec::new());
     for &edge in edges {
@@ -169,11 +169,11 @@ impl Timing<'_> {
         &self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         mut tank: Tank,
-        neighbours: Neighbours,
+        neighbours: NeighbourSearch,
         rounds: impl Fn(f64) -> u32,
     ) -> anyhow::Result<Row> {
         let machine = self.machine;
-        let moving = tank.particles.fastest() > 0.0;
+        let moving = tank.particles.max_speed() > 0.0;
         let (mut step, mut round) = (f64::INFINITY, 0);
         let (mut all, mut sorted) = (0.0, 0.0);
         while round < rounds(step) {
@@ -193,8 +193,8 @@ impl Timing<'_> {
             round += 1;
         }
         let lists = match neighbours {
-            Neighbours::Lists => LIST_BYTES * tank.neighbours,
-            Neighbours::Cells => 0.0,
+            NeighbourSearch::Lists => LIST_BYTES * tank.neighbours,
+            NeighbourSearch::Cells => 0.0,
         };
         let bytes_a_particle = OWN_BYTES + lists;
         let particles_a_second = tank.count as f64 / step;

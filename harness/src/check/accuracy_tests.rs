@@ -115,3 +115,49 @@ fn y_plus_is_that_of_the_runs_in_streams() {
         }
     }
 }
+
+/// The arrays of spheres at τ = 1 of which the errors are known: 12 cells from centre to centre with c = 0.45 and 0.343,
+/// and body-centred with 0.343 on 16 cells. The loose array of the report alone has 1.6 % at most.
+#[test]
+fn neighbours_count_in_the_error_of_dense_arrays() {
+    let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
+    let known = [
+        (11.41, 12.0, 0.10),
+        (10.42, 12.0, 0.064),
+        (11.03, 13.86, 0.05),
+    ];
+    for (across, apart, error) in known {
+        let asked = Asked {
+            across,
+            tau: 1.0,
+            reynolds: None,
+        };
+        let alone = of_blocks(&rows, asked).unwrap();
+        assert!(alone.band[1] < 0.02, "{alone:?}");
+        let found = alone.crowded(apart - across, "ball and its image");
+        assert_eq!(found.gap, Some(apart - across));
+        let [low, high] = found.band;
+        assert!(
+            low < error && (0.95 * error..1.3 * error).contains(&high),
+            "{found:?}"
+        );
+        let text = found.text();
+        assert!(text.contains("between ball and its image"), "{text}");
+    }
+}
+
+#[test]
+fn wide_gaps_add_nothing_and_what_is_not_measured_is_said() {
+    let rows = table();
+    let asked = |tau| Asked {
+        across: 10.0,
+        tau,
+        reynolds: None,
+    };
+    let alone = |tau| of_blocks(&rows, asked(tau)).unwrap();
+    assert_eq!(alone(1.0).crowded(6.1, "a and b"), alone(1.0));
+    let text = |tau, gap| alone(tau).crowded(gap, "a and b").text();
+    assert!(text(1.0, 0.2).contains("narrower than 0.59 cells are not measured"));
+    assert!(text(1.3, 2.0).contains("gaps at this τ are not measured"));
+    assert!(!text(1.0, 2.0).contains("not measured"));
+}

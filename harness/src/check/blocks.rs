@@ -2,9 +2,9 @@
 
 use super::super::{print::bytes, search::left_out};
 use riprap::{
-    block::{Form, Shape},
-    bodies::{Block, Blocks, Motion},
-    simulation::LeftOut,
+    geometry::{Form, Shape},
+    rock::{Block, Blocks, Motion},
+    scene::build::LeftOut,
 };
 use serde::Serialize;
 use std::{collections::HashMap, sync::Arc};

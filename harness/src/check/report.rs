@@ -7,7 +7,7 @@ use crate::{
 };
 use anyhow::Result;
 use riprap::{
-    coupling::Coupled, immersed::Immersed, lattice::Lattice, simulation::Simulation, units::Units,
+    coupling::Coupled, lattice::Lattice, psm::SolidCells, simulation::Simulation, units::Units,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -146,7 +146,7 @@ impl Report {
     /// # Errors
     /// If a formula is not finite somewhere.
     pub fn of(simulation: &Simulation, adapter: Adapter, time: Time) -> Result<Self> {
-        let immersed = simulation.coupled().map(Coupled::immersed);
+        let solid_cells = simulation.coupled().map(Coupled::solid_cells);
         let lattice = simulation.lattice();
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
@@ -156,10 +156,10 @@ impl Report {
             title: scene.title.clone(),
             adapter,
             cells: Cells::of(lattice),
-            memory: Memory::of(lattice, immersed),
+            memory: Memory::of(lattice, solid_cells),
             kernels: lattice
                 .kernels(false)
-                .chain(immersed.into_iter().flat_map(Immersed::kernels))
+                .chain(solid_cells.into_iter().flat_map(SolidCells::kernels))
                 .map(Kernel::of)
                 .collect(),
             left_out: LeftOut::of_lattice(lattice)
@@ -195,14 +195,14 @@ impl Cells {
 }
 
 impl Memory {
-    fn of(lattice: &Lattice, immersed: Option<&Immersed>) -> Self {
+    fn of(lattice: &Lattice, solid_cells: Option<&SolidCells>) -> Self {
         let bytes = lattice.bytes().into_iter();
         let mut kinds: BTreeMap<_, _> = bytes.map(|(kind, n)| (kind.to_owned(), n)).collect();
         // Density and three components of the velocity in f32.
         let output = 16 * lattice.grid().cell_count() as u64;
         kinds.insert("density and velocity for output".into(), output);
-        if let Some(immersed) = immersed {
-            kinds.insert("blocks".into(), immersed.bytes());
+        if let Some(solid_cells) = solid_cells {
+            kinds.insert("blocks".into(), solid_cells.bytes());
         }
         Self {
             total: kinds.values().sum(),
@@ -213,7 +213,7 @@ impl Memory {
 }
 
 impl Kernel {
-    fn of((kernel, workgroups): (&riprap::kernel::Kernel, u32)) -> Self {
+    fn of((kernel, workgroups): (&riprap::gpu::kernel::Kernel, u32)) -> Self {
         Self {
             file: kernel.file().into(),
             entry: kernel.entry().into(),

@@ -5,12 +5,12 @@ use crate::{
     adapters::Adapter,
     gpu,
     print::{bytes, duration},
-    run::{Engine, Pond},
+    run::{Engine, SphRun},
 };
 use anyhow::Result;
 use riprap::{
-    particles::{Home, Particle},
     scene::Scene,
+    sph::{Particle, ReferencePosition},
 };
 use serde::Serialize;
 use std::{
@@ -31,7 +31,7 @@ pub struct WaterReport {
     pub adapter: Adapter,
     /// Particles of water.
     pub particles: u32,
-    /// Particles of shells.
+    /// Boundary particles.
     pub shell: u32,
     /// Bytes of all particles on the device.
     pub memory: u64,
@@ -64,7 +64,7 @@ pub struct WaterReport {
     pub step_seconds: f64,
     /// The run without its output, s.
     pub run_seconds: f64,
-    /// Updates of particles of water a second.
+    /// Updates of particles a second, of fluid and boundary particles.
     pub particles_a_second: f64,
     /// Steps of the trial.
     pub trial_steps: u64,
@@ -80,43 +80,43 @@ pub fn report(
     file: &Path,
     adapter: Option<&str>,
 ) -> Result<(WaterReport, riprap::Result<()>)> {
-    let mut pond = Pond::open(scene, file, adapter)?;
-    let steps = scene.run.count(pond.time_step());
-    let (done, spent, ended) = try_out(&mut pond, steps);
-    let simulation = &pond.simulation;
+    let mut run = SphRun::open(scene, file, adapter)?;
+    let steps = scene.run.count(run.time_step());
+    let (done, spent, ended) = try_out(&mut run, steps);
+    let simulation = &run.simulation;
     let particles = simulation.particles();
-    let (setup, numbers) = (particles.setup(), particles.numbers());
-    let all = u64::from(numbers.water) + u64::from(numbers.shell);
+    let (setup, counts) = (particles.setup(), particles.counts());
+    let all = u64::from(counts.fluid) + u64::from(counts.boundary);
     let step = spent.as_secs_f64() / done.max(1) as f64;
     // The step before the trial took as many.
     let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
-    let updates = tried * f64::from(numbers.water);
+    let updates = tried * all as f64;
     let named = gpu::pick(adapter)?;
     Ok((
         WaterReport {
             title: scene.title.clone(),
             adapter: Adapter::of(&named, adapter.is_none()),
-            particles: numbers.water,
-            shell: numbers.shell,
-            // Particles as they come and by cells, and where those of shells belong.
+            particles: counts.fluid,
+            shell: counts.boundary,
+            // Unsorted and sorted particles, and reference positions of boundary particles.
             memory: 2 * all * size_of::<Particle>() as u64
-                + u64::from(numbers.shell) * size_of::<Home>() as u64,
+                + u64::from(counts.boundary) * size_of::<ReferencePosition>() as u64,
             spacing: setup.spacing,
             particle_mass: setup.particle_mass(),
-            mass: setup.particle_mass() * f64::from(numbers.water),
+            mass: setup.particle_mass() * f64::from(counts.fluid),
             largest_speed: setup.largest_speed(),
             sound_speed: setup.sound_speed,
             mach: setup.largest_speed() / setup.sound_speed,
             acoustic_step: setup.acoustic_step(),
-            time_step: pond.time_step(),
+            time_step: run.time_step(),
             steps,
-            duration: scene.run.length(pond.time_step()),
-            blocks: pond.rock().map(|rock| {
+            duration: scene.run.length(run.time_step()),
+            blocks: run.rock().map(|rock| {
                 let shown = &rock.setup.blocks[..rock.shown];
                 let left_out = &simulation.setup().left_out;
-                BlockFacts::of(shown, rock.blocks, left_out, pond.time_step())
+                BlockFacts::of(shown, rock.blocks, left_out, run.time_step())
             }),
-            warnings: pond.warnings.clone(),
+            warnings: run.warnings.clone(),
             step_seconds: step,
             run_seconds: step * steps as f64,
             particles_a_second: updates / spent.as_secs_f64().max(1e-9),
@@ -127,21 +127,21 @@ pub fn report(
 }
 
 /// Steps for about half a second, at least one: how many, how long they took, and how they ended.
-fn try_out(pond: &mut Pond, most: u64) -> (u64, Duration, riprap::Result<()>) {
+fn try_out(run: &mut SphRun, most: u64) -> (u64, Duration, riprap::Result<()>) {
     // Drivers compile at the first dispatch.
-    let warm = pond.advance(1).and_then(|()| pond.water().map(drop));
+    let warm = run.advance(1).and_then(|()| run.water().map(drop));
     if let Err(error) = warm {
         return (0, Duration::ZERO, Err(error));
     }
     let (mut done, start) = (0, Instant::now());
     while done < most.max(1) && (done == 0 || start.elapsed() < TRIAL) {
-        if let Err(error) = pond.advance(1) {
+        if let Err(error) = run.advance(1) {
             return (done, start.elapsed(), Err(error));
         }
         done += 1;
     }
     // What is recorded is done once it can be read.
-    let ended = pond.water().map(drop);
+    let ended = run.water().map(drop);
     (done, start.elapsed(), ended)
 }
 
@@ -161,7 +161,7 @@ impl WaterReport {
         line(
             "water",
             format!(
-                "{} particles of {:.4e} m, {:.4e} kg each, {:.4e} kg in all; {} in shells",
+                "{} particles of {:.4e} m, {:.4e} kg each, {:.4e} kg in all; {} boundary particles",
                 self.particles, self.spacing, self.particle_mass, self.mass, self.shell
             ),
         );
@@ -189,7 +189,7 @@ impl WaterReport {
         line(
             "run",
             format!(
-                "about {} without output: {:.3e} s a step, {:.2} million particle updates a second ({} steps tried)",
+                "about {} without output: {:.3e} s a step, {:.2} million particle updates a second, boundary particles included ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
                 self.particles_a_second / 1e6,

@@ -2,7 +2,7 @@
 
 use super::section::Plane;
 use glam::{DMat3, DVec2, DVec3};
-use riprap::block::Form;
+use riprap::geometry::Form;
 use std::f64::consts::TAU;
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! The surface of a body, ready to be drawn.
 
 use glam::DVec3;
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 use std::collections::HashMap;
 
 /// A corner of a surface.

@@ -2,7 +2,7 @@
 //! [`Picture`], single, as a strip of frames or as an [animation](animate).
 //!
 //! ```no_run
-//! use riprap::{block::Polyhedron, wgpu};
+//! use riprap::{geometry::Polyhedron, wgpu};
 //! use riprap_harness::{gpu, render::{Drawing, Instance, Mesh, Renderer}};
 //! use glam::{DMat3, DVec3};
 //!

@@ -12,7 +12,7 @@ use super::submission::texture;
 use super::uniforms::Uniforms;
 use crate::gpu;
 use glam::DVec3;
-use riprap::readback::Readback;
+use riprap::gpu::readback::Readback;
 use riprap::{Error, Result, wgpu};
 use std::time::Duration;
 

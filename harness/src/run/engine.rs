@@ -1,13 +1,14 @@
 //! What a journey asks of whatever moves: a fluid, blocks, or both.
 
 use super::{
+    pace::Pace,
     recorder::{Notes, Recorder},
     rock::Rock,
     summary::Summary,
 };
 use anyhow::Result;
 use riprap::scene::{Quantity, Scene};
-use std::{path::Path, time::Duration};
+use std::path::Path;
 
 /// The recorders of an engine.
 pub type Recorders<E> = Vec<Box<dyn Recorder<E>>>;
@@ -19,6 +20,11 @@ pub trait Engine: Sized + 'static {
 
     /// Steps done.
     fn step(&self) -> u64;
+
+    /// Steps of its fluid done, of which a step of the scene may take several.
+    fn fluid_steps(&self) -> u64 {
+        self.step()
+    }
 
     /// Length of a step, s.
     fn time_step(&self) -> f64;
@@ -32,7 +38,7 @@ pub trait Engine: Sized + 'static {
     /// Whether its state is worth writing after steps that have left the range of the method.
     fn is_good(&self) -> bool;
 
-    /// Takes `steps` steps.
+    /// Takes `steps` steps; the device is idle at their end.
     fn advance(&mut self, steps: u64) -> riprap::Result<()>;
 
     /// Restores the state in the file.
@@ -53,9 +59,9 @@ pub trait Engine: Sized + 'static {
     /// Tells, on standard error, what will run on what.
     fn announce(&self, summary: &Summary, folder: &Path, last: u64);
 
-    /// How fast it runs, in a few words: `steps` of this run took `time`.
-    fn pace(&self, summary: &Summary, steps: u64, time: Duration) -> String;
+    /// How fast it runs, in a few words.
+    fn describe_pace(&self, summary: &Summary, pace: &Pace) -> String;
 
-    /// What is known after the last step: `steps` of this run took `time`.
-    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration);
+    /// What is known after the last step.
+    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, pace: &Pace);
 }

@@ -93,6 +93,7 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::ContactEnergy => ("elastic energy of contacts", "J"),
         Quantity::FrictionWork => ("work of friction", "J"),
         Quantity::DampingWork => ("work of damping", "J"),
+        Quantity::ContactLoss => ("loss in contacts that ended", "J"),
         Quantity::OutsideWork => ("work of drives and loads", "J"),
         Quantity::EnergyError => ("error of the energy", ""),
         Quantity::Contacts => ("contacts", ""),

@@ -5,6 +5,7 @@ use super::{
     checkpoints::Checkpoints,
     engine::{Engine, Recorders},
     history::{self, History},
+    pace::{Pace, Timed},
     progress::Progress,
     recorder::Notes,
     summary::{Summary, Unfinished},
@@ -14,7 +15,7 @@ use riprap::Error;
 use std::{
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 /// A run under way.
@@ -23,8 +24,7 @@ pub struct Journey<E> {
     last: u64,
     recorders: Recorders<E>,
     notes: Notes,
-    /// Time spent on steps alone.
-    stepping: Duration,
+    pace: Pace,
     pub summary: Summary,
 }
 
@@ -64,7 +64,7 @@ impl<E: Engine> Journey<E> {
             last,
             recorders,
             notes,
-            stepping: Duration::ZERO,
+            pace: Pace::default(),
             summary: engine.summary()?,
         })
     }
@@ -95,8 +95,7 @@ impl<E: Engine> Journey<E> {
                 .finish(engine, &mut self.notes)
                 .with_context(|| Unfinished::new(step, &self.notes))?;
         }
-        let steps = step - self.summary.first_step;
-        engine.conclude(&mut self.summary, &self.notes, steps, self.stepping);
+        engine.conclude(&mut self.summary, &self.notes, &self.pace);
         let summary = &mut self.summary;
         summary.steps = step;
         summary.time = engine.time();
@@ -121,15 +120,18 @@ impl<E: Engine> Journey<E> {
             }
             let next = self.recorders.iter().map(|r| r.schedule().next(step)).min();
             let steps = batch.steps().min(next.unwrap_or(self.last) - step);
-            let start = Instant::now();
+            let (start, fluid_steps) = (Instant::now(), engine.fluid_steps());
             engine.advance(steps)?;
             let time = start.elapsed();
             batch.learn(steps, time);
-            self.stepping += time;
-            let done = step + steps - self.summary.first_step;
+            self.pace.add(Timed {
+                steps,
+                fluid_steps: engine.fluid_steps() - fluid_steps,
+                time,
+            });
             progress.show(
                 step + steps,
-                &engine.pace(&self.summary, done, self.stepping),
+                &engine.describe_pace(&self.summary, &self.pace),
             );
             self.record(engine, false)?;
         }

@@ -1,6 +1,6 @@
 //! What a run did not do because its scene did not need it.
 
-use super::{flow::Coupling, rock::Rocks, water::Pool};
+use super::{flow::Coupling, rock::Rocks, water::WaterSummary};
 use crate::print::percent;
 use riprap::lattice::{Force, Lattice, bytes_a_step};
 use serde::Serialize;
@@ -174,7 +174,7 @@ impl LeftOut {
     }
 
     /// What water of particles did without.
-    pub fn of_pool(pool: &Pool) -> Vec<Self> {
+    pub fn of_pool(pool: &WaterSummary) -> Vec<Self> {
         let sorts = "sorts, the lists of neighbours serving several steps";
         Self::some(sorts, pool.sorts as f64, pool.steps_here as f64)
             .into_iter()

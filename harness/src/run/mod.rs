@@ -15,6 +15,7 @@ mod history;
 mod journey;
 mod left_out;
 mod origin;
+mod pace;
 mod progress;
 mod recorder;
 mod rock;
@@ -29,7 +30,7 @@ pub(crate) use batch::Batch;
 pub(crate) use dry::Dry;
 pub(crate) use engine::Engine;
 pub(crate) use flow::Flow;
-pub(crate) use water::Pond;
+pub(crate) use water::SphRun;
 
 pub use estimate::{Estimate, Headline};
 pub use flow::Coupling;
@@ -37,7 +38,7 @@ pub use left_out::LeftOut;
 pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
-pub use water::Pool;
+pub use water::WaterSummary;
 
 use anyhow::Result;
 use journey::Journey;
@@ -92,7 +93,7 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
 fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let (file, adapter) = (&args.scene, args.adapter.as_deref());
     if scene.has_particles() {
-        return travel(Pond::open(scene, file, adapter)?, args, stop);
+        return travel(SphRun::open(scene, file, adapter)?, args, stop);
     }
     match scene.has_fluid() {
         true => travel(Flow::open(scene, file, adapter)?, args, stop),

@@ -10,8 +10,8 @@ use crate::picture::{Plane, Slice};
 use anyhow::Result;
 use riprap::{
     output::Image,
-    probe::Layer,
     scene::{self, Field, SliceField},
+    simulation::probe::Layer,
 };
 use std::path::{Path, PathBuf};
 

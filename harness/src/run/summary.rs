@@ -7,7 +7,7 @@ use super::{
     progress::clock,
     recorder::Notes,
     rock::{Rocks, Safety},
-    water::{Energies, Pool},
+    water::{Energies, WaterSummary},
 };
 use riprap::output::replace;
 use serde::Serialize;
@@ -83,7 +83,7 @@ pub struct Summary {
     pub coupling: Option<Coupling>,
     /// What particles of water did, where there are some.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub pool: Option<Pool>,
+    pub pool: Option<WaterSummary>,
     /// Where the energy of the particles is and where it went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub water_energies: Option<Energies>,

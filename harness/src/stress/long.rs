@@ -185,7 +185,7 @@ fn buffers(tank: &Tank<'_>) -> u64 {
     let blocks = tank
         .simulation
         .coupled()
-        .map_or(0, |c| c.immersed().bytes());
+        .map_or(0, |c| c.solid_cells().bytes());
     saturation + blocks
 }
 

@@ -6,10 +6,12 @@ use crate::{
     validate::{Stand, solids::tank::Tank},
 };
 use riprap::{
-    broadphase::HostBroadphase,
-    checkpoint::{BlockCheckpoint, Checkpoint, WaterCheckpoint},
+    rock::broadphase::HostBroadphase,
     scene::Scene,
-    simulation::{Dry, FreeSurface},
+    simulation::{
+        Dry, FreeSurface,
+        checkpoint::{BlockCheckpoint, Checkpoint, WaterCheckpoint},
+    },
 };
 use std::{
     path::Path,

@@ -6,8 +6,8 @@ use crate::validate::{
     rock::{G, Rock, cuboid, joint, setup},
 };
 use glam::DVec3;
-use riprap::{
-    bodies::{Block, Setup},
+use riprap::rock::{
+    Block, Setup,
     law::{LARGEST_SHARE, USUAL_SHARE},
 };
 use std::time::Instant;

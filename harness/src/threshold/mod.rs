@@ -13,7 +13,7 @@ pub use key::Key;
 pub use report::Report;
 pub use trial::{Criterion, Motion, Trial};
 
-use crate::run::{Dry, Flow, Pond};
+use crate::run::{Dry, Flow, SphRun};
 use anyhow::{Context, Result, bail};
 use riprap::{Error, scene::Scene};
 use std::{
@@ -163,7 +163,7 @@ impl Search<'_> {
         let (file, adapter) = (&self.args.scene, self.args.adapter.as_deref());
         let path = self.settled();
         if scene.has_particles() {
-            return trial::settle(Pond::open(&scene, file, adapter)?, time, &path)
+            return trial::settle(SphRun::open(&scene, file, adapter)?, time, &path)
                 .with_context(|| format!("while the blocks settled at {}", self.args.from));
         }
         match scene.has_fluid() {
@@ -191,7 +191,7 @@ impl Search<'_> {
             stop: self.stop,
         };
         if scene.has_particles() {
-            return trial::run(Pond::open(&scene, file, adapter)?, &asked)
+            return trial::run(SphRun::open(&scene, file, adapter)?, &asked)
                 .with_context(|| format!("in the trial with the value {value}"));
         }
         match scene.has_fluid() {

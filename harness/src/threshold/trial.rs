@@ -3,7 +3,7 @@
 use crate::run::{Batch, Engine};
 use anyhow::Result;
 use glam::DVec3;
-use riprap::{Error, bodies};
+use riprap::{Error, rock};
 use serde::Serialize;
 use std::{
     fmt,
@@ -173,8 +173,8 @@ impl Watched {
             let message = "it has no blocks; add [[blocks]] or [[rock_masses]]";
             return Err(Error::scene("scene", message));
         };
-        let free = |block: &bodies::Block| block.motion == bodies::Motion::Free;
-        let counts = |block: &bodies::Block| match asked.block {
+        let free = |block: &rock::Block| block.motion == rock::Motion::Free;
+        let counts = |block: &rock::Block| match asked.block {
             Some(name) => block.name == name && free(block),
             None => free(block),
         };

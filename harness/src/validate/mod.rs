@@ -45,7 +45,7 @@ pub use method::Method;
 pub use record::{Record, Trial};
 pub use stand::{Flow, Stand};
 
-use crate::bench::Machine;
+use crate::{bench::Machine, print};
 use anyhow::Context;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -56,6 +56,9 @@ pub struct Args {
     /// Cases to run, such as `cavity/*`; all without it
     #[arg(long, value_name = "GLOB")]
     pub case: Option<String>,
+    /// Print the names of the cases, whether they need --full, and what they compute; run none
+    #[arg(long)]
+    pub list: bool,
     /// Finer grids, longer runs, and the cases that need them
     #[arg(long)]
     pub full: bool,
@@ -78,22 +81,26 @@ type Outcome = anyhow::Result<Vec<Record>>;
 pub struct Case {
     /// Family and case, as `--case` matches them.
     pub name: &'static str,
+    /// What it computes, in a line.
+    pub about: &'static str,
     /// Whether it only runs with `--full`.
     pub only_full: bool,
     run: fn(&Stand) -> Outcome,
 }
 
-const fn short(name: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+const fn short(name: &'static str, about: &'static str, run: fn(&Stand) -> Outcome) -> Case {
     Case {
         name,
+        about,
         only_full: false,
         run,
     }
 }
 
-const fn long(name: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+const fn long(name: &'static str, about: &'static str, run: fn(&Stand) -> Outcome) -> Case {
     Case {
         name,
+        about,
         only_full: true,
         run,
     }
@@ -101,81 +108,381 @@ const fn long(name: &'static str, run: fn(&Stand) -> Outcome) -> Case {
 
 /// All cases, in the order in which they run.
 pub const CASES: &[Case] = &[
-    short("kernels/slots", slots::run),
-    short("kernels/golden", golden::run),
-    short("kernels/null-models", null_models::run),
-    short("kernels/repeatability", repeatability::run),
-    short("kernels/conservation", conservation::run),
-    short("taylor-green/convergence", decay::taylor_green),
-    short("abc-flow/convergence", decay::abc_flow),
-    short("shear-wave/galilean", shear_wave::run),
-    short("walls/couette", plane_walls::couette),
-    short("walls/poiseuille", plane_walls::poiseuille),
-    short("walls/film", plane_walls::film),
-    short("channel/velocity-pressure", open_channel::velocity_pressure),
-    short("channel/velocity-outflow", open_channel::velocity_outflow),
-    short("channel/pressure-pressure", open_channel::pressure_pressure),
-    short("wake/pressure", wake::pressure),
-    short("wake/outflow", wake::outflow),
-    short("cavity/re100", cavity::re100),
-    long("cavity/re1000", cavity::re1000),
-    short("wale/pure-shear", wale::pure_shear),
-    short("wale/near-wall", wale::near_wall),
-    short("wale/solid-rotation", wale::solid_rotation),
-    long("wale/channel-re-tau-180", turbulent_channel::run),
-    long("joint/stagnation", offset_joint::stagnation),
-    short("outlet/pulse", outlet::pulse),
-    short("stability/quiescent", stability::quiescent),
-    short("stability/taylor-green", stability::taylor_green),
-    short("solids/volume", solids::volume::run),
-    short("solids/plates", solids::plates::run),
-    short("solids/array", solids::array::drag),
-    long("solids/array-offset", solids::array::offset),
-    short("solids/array-comparison", solids::array::comparison),
-    short("solids/array-map", solids::array::map),
-    short("solids/rotation", solids::rotation::run),
-    short("solids/release", solids::release::run),
-    short("solids/buoyancy", solids::buoyancy::archimedes),
-    short("solids/neutral", solids::buoyancy::neutral),
-    short("solids/crossing", solids::crossing::run),
-    short("solids/spike", solids::spike::run),
-    short("solids/momentum", solids::momentum::run),
-    short("solids/lubrication", solids::lubrication::run),
-    short("solids/landing", solids::lubrication::landing),
-    short("solids/settling", solids::settling::short),
-    long("solids/settling-whole", solids::settling::whole),
-    short("solids/cylinder", solids::cylinder::run),
-    long("solids/sphere", solids::obstacle::sphere),
-    long("solids/cube", solids::obstacle::cube),
-    long("solids/incline-flow", solids::incline_flow::run),
-    short("rock/incline", rock_incline::run),
-    short("rock/toppling", rock_toppling::run),
-    short("rock/rebound", rock_rebound::run),
-    short("rock/free-body", rock_free_body::run),
-    short("rock/wedge", rock_wedge::run),
-    short("rock/stack", rock_rest::stack),
-    short("rock/pyramid", rock_rest::pyramid),
-    short("rock/arch", rock_rest::arch),
-    short("rock/contact-sign", rock_contact::sign),
-    short("rock/broadphase", rock_broadphase::run),
-    short("dda/critical-step", dda::critical_step::run),
-    short("dda/spin", dda::spin::run),
-    short("dda/vibration", dda::vibration::run),
-    short("dda/bar", dda::bar::run),
-    short("dda/stack", dda::contact::stack),
-    short("dda/collision", dda::contact::collision),
-    short("dda/rigid-limit", dda::rigid_limit::run),
-    short("water/still", water::still::run),
-    short("water/film", water::film::run),
-    short("water/submerged", water::buoyancy::submerged),
-    short("water/stacked", water::buoyancy::stacked),
-    short("water/floating", water::buoyancy::floating),
-    short("water/standing-wave", water::wave::run),
-    short("water/dam-break", water::dam::run),
-    short("water/wave-maker", water::maker::run),
-    short("water/pushed", water::pushed::run),
-    long("water/solitary", water::solitary::run),
-    long("water/schemes", water::schemes::run),
+    short(
+        "kernels/slots",
+        "every combination of slots is valid WGSL, and binds only what it uses",
+        slots::run,
+    ),
+    short(
+        "kernels/golden",
+        "a periodic box of noise and shear after 50 steps, against float64",
+        golden::run,
+    ),
+    short(
+        "kernels/null-models",
+        "a model with its constant at zero is the simpler model",
+        null_models::run,
+    ),
+    short(
+        "kernels/repeatability",
+        "same bits: twice, after a restart, in workgroups of other shapes",
+        repeatability::run,
+    ),
+    short(
+        "kernels/conservation",
+        "mass and momentum of a periodic box over 10⁴ steps",
+        conservation::run,
+    ),
+    short(
+        "taylor-green/convergence",
+        "order of convergence and viscosity of Taylor–Green vortices",
+        decay::taylor_green,
+    ),
+    short(
+        "abc-flow/convergence",
+        "order of convergence and viscosity of the ABC flow",
+        decay::abc_flow,
+    ),
+    short(
+        "shear-wave/galilean",
+        "a shear wave carried along an axis decays as one at rest",
+        shear_wave::run,
+    ),
+    short(
+        "walls/couette",
+        "Couette flow between walls",
+        plane_walls::couette,
+    ),
+    short(
+        "walls/poiseuille",
+        "Poiseuille flow driven by a force",
+        plane_walls::poiseuille,
+    ),
+    short(
+        "walls/film",
+        "film with a slip top, driven by a force",
+        plane_walls::film,
+    ),
+    short(
+        "channel/velocity-pressure",
+        "channel from a velocity inlet to a held pressure",
+        open_channel::velocity_pressure,
+    ),
+    short(
+        "channel/velocity-outflow",
+        "channel from a velocity inlet to an outlet that lets vortices leave",
+        open_channel::velocity_outflow,
+    ),
+    short(
+        "channel/pressure-pressure",
+        "channel between two held pressures",
+        open_channel::pressure_pressure,
+    ),
+    short(
+        "wake/pressure",
+        "vortices behind a square cylinder cross a face of held pressure",
+        wake::pressure,
+    ),
+    short(
+        "wake/outflow",
+        "vortices behind a square cylinder cross an outlet that lets them leave",
+        wake::outflow,
+    ),
+    short(
+        "cavity/re100",
+        "lid-driven cavity at Re 100 (Ghia, Ghia & Shin 1982)",
+        cavity::re100,
+    ),
+    long(
+        "cavity/re1000",
+        "lid-driven cavity at Re 1000 (Ghia, Ghia & Shin 1982)",
+        cavity::re1000,
+    ),
+    short(
+        "wale/pure-shear",
+        "WALE has no eddy viscosity in pure shear",
+        wale::pure_shear,
+    ),
+    short(
+        "wale/near-wall",
+        "WALE's eddy viscosity grows as y³ at a wall",
+        wale::near_wall,
+    ),
+    short(
+        "wale/solid-rotation",
+        "WALE's eddy viscosity in solid rotation",
+        wale::solid_rotation,
+    ),
+    long(
+        "wale/channel-re-tau-180",
+        "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU",
+        turbulent_channel::run,
+    ),
+    long(
+        "joint/stagnation",
+        "stagnation point in an offset open joint (Gardner & Sitar 2018)",
+        offset_joint::stagnation,
+    ),
+    short(
+        "outlet/pulse",
+        "what an outlet returns of a pulse of sound",
+        outlet::pulse,
+    ),
+    short(
+        "stability/quiescent",
+        "noise in fluid at rest calms down at every relaxation time",
+        stability::quiescent,
+    ),
+    short(
+        "stability/taylor-green",
+        "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps",
+        stability::taylor_green,
+    ),
+    short(
+        "solids/volume",
+        "solid fractions of cells add up to the volume of the block",
+        solids::volume::run,
+    ),
+    short(
+        "solids/plates",
+        "flow between two plates that are blocks",
+        solids::plates::run,
+    ),
+    short(
+        "solids/array",
+        "drag of a simple cubic array of spheres (Zick & Homsy 1982)",
+        solids::array::drag,
+    ),
+    long(
+        "solids/array-offset",
+        "drag of the array with the spheres shifted in their cells",
+        solids::array::offset,
+    ),
+    short(
+        "solids/array-comparison",
+        "drag of the array at other concentrations and by other operators",
+        solids::array::comparison,
+    ),
+    short(
+        "solids/array-map",
+        "error of the drag of the array over resolution and relaxation time",
+        solids::array::map,
+    ),
+    short(
+        "solids/rotation",
+        "torque on a sphere that turns in a viscous fluid",
+        solids::rotation::run,
+    ),
+    short(
+        "solids/release",
+        "acceleration of a sphere that is let go: its added mass",
+        solids::release::run,
+    ),
+    short(
+        "solids/buoyancy",
+        "buoyancy of a block at rest in a closed tank",
+        solids::buoyancy::archimedes,
+    ),
+    short(
+        "solids/neutral",
+        "a cube as heavy as water stays where it is",
+        solids::buoyancy::neutral,
+    ),
+    short(
+        "solids/crossing",
+        "a cube crosses the grid in fluid that moves with it and in fluid at rest",
+        solids::crossing::run,
+    ),
+    short(
+        "solids/spike",
+        "swing of a cube's drag as its faces cross cells",
+        solids::spike::run,
+    ),
+    short(
+        "solids/momentum",
+        "momentum and mass of fluid and blocks in a periodic box",
+        solids::momentum::run,
+    ),
+    short(
+        "solids/lubrication",
+        "force on a block driven towards a wall, against lubrication theory",
+        solids::lubrication::run,
+    ),
+    short(
+        "solids/landing",
+        "time in which a block sinks onto a wall, against lubrication theory",
+        solids::lubrication::landing,
+    ),
+    short(
+        "solids/settling",
+        "a sphere settles in oil, coarse (ten Cate et al. 2002)",
+        solids::settling::short,
+    ),
+    long(
+        "solids/settling-whole",
+        "spheres settle in oil on three grids (ten Cate et al. 2002)",
+        solids::settling::whole,
+    ),
+    short(
+        "solids/cylinder",
+        "cylinder in a channel at Re 20 (Schäfer & Turek 1996)",
+        solids::cylinder::run,
+    ),
+    long(
+        "solids/sphere",
+        "drag of a sphere in a stream",
+        solids::obstacle::sphere,
+    ),
+    long(
+        "solids/cube",
+        "drag of a cube in a stream (Hölzer & Sommerfeld 2008)",
+        solids::obstacle::cube,
+    ),
+    long(
+        "solids/incline-flow",
+        "drag of a cube on a bed of 30° in water that starts to run (Gardner & Sitar 2018)",
+        solids::incline_flow::run,
+    ),
+    short(
+        "rock/incline",
+        "a block slides on an incline, or sticks, by its friction angle",
+        rock_incline::run,
+    ),
+    short(
+        "rock/toppling",
+        "a column on an incline topples if tan α > b/h",
+        rock_toppling::run,
+    ),
+    short(
+        "rock/rebound",
+        "rebound of a block from a fixed one at four damping ratios",
+        rock_rebound::run,
+    ),
+    short(
+        "rock/free-body",
+        "free rotation of an asymmetric body",
+        rock_free_body::run,
+    ),
+    short(
+        "rock/wedge",
+        "wedges on two planes slide by their factor of safety (Goodman & Shi 1985)",
+        rock_wedge::run,
+    ),
+    short(
+        "rock/stack",
+        "a crooked stack of ten cubes stands still",
+        rock_rest::stack,
+    ),
+    short(
+        "rock/pyramid",
+        "a pyramid of 55 cubes stands still",
+        rock_rest::pyramid,
+    ),
+    short(
+        "rock/arch",
+        "a masonry arch of fifteen stones stands still",
+        rock_rest::arch,
+    ),
+    short(
+        "rock/contact-sign",
+        "contact or not, against GJK and EPA",
+        rock_contact::sign,
+    ),
+    short(
+        "rock/broadphase",
+        "pairs of both broadphases against all pairs tried",
+        rock_broadphase::run,
+    ),
+    short(
+        "dda/critical-step",
+        "critical time step of a deformable block",
+        dda::critical_step::run,
+    ),
+    short(
+        "dda/spin",
+        "centrifugal strain of a spinning deformable block",
+        dda::spin::run,
+    ),
+    short(
+        "dda/vibration",
+        "period of a cube that swings in its volume",
+        dda::vibration::run,
+    ),
+    short(
+        "dda/bar",
+        "stress and elongation of a hanging bar",
+        dda::bar::run,
+    ),
+    short(
+        "dda/stack",
+        "a stack of deformable and rigid cubes under its weight",
+        dda::contact::stack,
+    ),
+    short(
+        "dda/collision",
+        "two bars meet end to end without damping",
+        dda::contact::collision,
+    ),
+    short(
+        "dda/rigid-limit",
+        "a stiff block moves as a rigid one, the difference falls with 1/E",
+        dda::rigid_limit::run,
+    ),
+    short(
+        "water/still",
+        "hydrostatic pressure of water at rest",
+        water::still::run,
+    ),
+    short(
+        "water/film",
+        "film of viscous water down an incline",
+        water::film::run,
+    ),
+    short(
+        "water/submerged",
+        "buoyancy of a box under water and on the floor",
+        water::buoyancy::submerged,
+    ),
+    short(
+        "water/stacked",
+        "buoyancy of a box over another one at several gaps",
+        water::buoyancy::stacked,
+    ),
+    short(
+        "water/floating",
+        "draft of floating boxes",
+        water::buoyancy::floating,
+    ),
+    short(
+        "water/standing-wave",
+        "period and damping of a standing wave",
+        water::wave::run,
+    ),
+    short(
+        "water/dam-break",
+        "front of a dam break (Martin & Moyce 1952)",
+        water::dam::run,
+    ),
+    short(
+        "water/wave-maker",
+        "height of waves of a piston (Dean & Dalrymple 1991)",
+        water::maker::run,
+    ),
+    short(
+        "water/pushed",
+        "pressure on the end walls of a tank that is pushed (Westergaard 1933)",
+        water::pushed::run,
+    ),
+    long(
+        "water/solitary",
+        "solitary wave of a falling box (Monaghan & Kos 2000)",
+        water::solitary::run,
+    ),
+    long(
+        "water/schemes",
+        "the scheme of Geraili Mikola & Sitar (2014) against the default",
+        water::schemes::run,
+    ),
 ];
 
 /// The cases whose names match.
@@ -200,6 +507,15 @@ pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
     Ok(found)
 }
 
+/// The table of `cases`: name, `short` or `full`, what it computes. Those of `full` run with `--full` only.
+pub fn list(cases: &[Case]) -> String {
+    let row = |case: &Case| {
+        let form = if case.only_full { "full" } else { "short" };
+        format!("{:26}{form:7}{}\n", case.name, case.about)
+    };
+    cases.iter().map(row).collect()
+}
+
 /// Runs the cases that match, prints each record as its case ends; whether all passed.
 ///
 /// # Errors
@@ -207,6 +523,10 @@ pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
 /// off does not end the others: it fails with what went wrong.
 pub fn run(args: Args) -> anyhow::Result<bool> {
     let cases = select(args.case.as_deref())?;
+    if args.list {
+        print::print(&list(&cases))?;
+        return Ok(true);
+    }
     let mut stand = Stand::open(args.adapter.as_deref(), args.full)?;
     if let Some(folder) = &args.pictures {
         std::fs::create_dir_all(folder)

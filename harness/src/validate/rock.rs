@@ -3,10 +3,8 @@
 use super::Trial;
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Polyhedron, Shape},
-    bodies::{Block, Blocks, Material, Setup, Snapshot},
-    broadphase::HostBroadphase,
-    law::Joint,
+    geometry::{Polyhedron, Shape},
+    rock::{Block, Blocks, Material, Setup, Snapshot, broadphase::HostBroadphase, law::Joint},
 };
 use std::{sync::Arc, time::Instant};
 

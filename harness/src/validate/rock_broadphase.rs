@@ -2,7 +2,7 @@
 
 use super::{Outcome, Stand, Trial};
 use cpu_time::ProcessTime;
-use riprap::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
+use riprap::rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
 
 /// Boxes of sizes 1:100 in a cube, of which each meets a few others.
 fn items(count: u32) -> Vec<Item> {

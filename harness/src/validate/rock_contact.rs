@@ -11,7 +11,7 @@ mod rig;
 use super::{Outcome, Stand, Trial};
 use pairs::Couple;
 use rig::Random;
-use riprap::contact::{Cache, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 use std::time::Instant;
 
 /// Gaps and overlaps from here on have a sign, in diameters of the smaller block.

@@ -2,7 +2,7 @@
 
 use super::{Outcome, Stand, Trial};
 use glam::{DMat3, DQuat, DVec3};
-use riprap::integrate::{Principal, spin, turn};
+use riprap::rock::integrate::{Principal, spin, turn};
 use std::time::Instant;
 
 const START: DVec3 = DVec3::new(0.1, 1.0, 0.05);

@@ -5,7 +5,7 @@ use super::{
     rock::{DENSITY, G, Rock, cuboid, joint, setup, slope},
 };
 use glam::DVec3;
-use riprap::bodies::{Block, Setup};
+use riprap::rock::{Block, Setup};
 
 const ALPHA: f64 = 30.0;
 const STIFFNESS: f64 = 1e8;

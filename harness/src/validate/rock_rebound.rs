@@ -5,7 +5,7 @@ use super::{
     rock::{DENSITY, Rock, cuboid, joint, setup},
 };
 use glam::DVec3;
-use riprap::{bodies::Block, law::Joint};
+use riprap::rock::{Block, law::Joint};
 
 const STIFFNESS: f64 = 1e7;
 

@@ -6,8 +6,8 @@ use super::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Polyhedron,
-    bodies::{Block, ContactPoint},
+    geometry::Polyhedron,
+    rock::{Block, ContactPoint},
 };
 use std::{f64::consts::PI, sync::Arc};
 

@@ -5,7 +5,7 @@ use super::{
     rock::{Rock, cuboid, joint, setup, slope},
 };
 use glam::DVec3;
-use riprap::bodies::Block;
+use riprap::rock::Block;
 
 /// At 0.3° from the threshold a strip of 20 mm carries the column of 49 kN: it must not give way by more
 /// than a tenth of that angle, θ = 2W/(k s²).

@@ -7,8 +7,8 @@ use super::{
 };
 use glam::DVec3;
 use riprap::{
-    block::{HalfSpace, Polyhedron},
-    bodies::{Block, Material, PairMaterial, Setup},
+    geometry::{HalfSpace, Polyhedron},
+    rock::{Block, Material, PairMaterial, Setup},
 };
 use std::sync::Arc;
 

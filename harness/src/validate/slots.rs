@@ -3,7 +3,7 @@
 use super::{Outcome, Record, Stand, Trial};
 use anyhow::Context;
 use riprap::{
-    kernel,
+    gpu::kernel,
     lattice::{
         Collision, Equilibrium, Force, Reach, Setup, SolidOperator, Storage, collide_stream,
     },

@@ -1,7 +1,10 @@
 //! Meshes, spoilt.
 
 use crate::{dice::Dice, judge::judge};
-use riprap::{Result, block::Polyhedron, solid::TriangleMesh};
+use riprap::{
+    Result,
+    geometry::{Polyhedron, TriangleMesh},
+};
 use std::path::{Path, PathBuf};
 
 const COUNT: usize = 10_000;
@@ -121,7 +124,7 @@ fn spoil(bytes: &mut Vec<u8>, dice: &mut Dice) {
 fn read(path: &Path) -> Result<()> {
     let mesh = TriangleMesh::read(path, 1.0, [0.0; 3])?;
     // What a scene does with it: a block of it, and a block of its corners.
-    riprap::block::Shape::from_mesh(&mesh)?;
+    riprap::geometry::Shape::from_mesh(&mesh)?;
     Polyhedron::from_vertices(&mesh.vertices)?;
     Ok(())
 }

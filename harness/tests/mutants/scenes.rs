@@ -3,9 +3,10 @@
 use crate::{dice::Dice, judge::judge};
 use riprap::{
     Result,
-    particles::particle_setup,
-    scene::Scene,
-    simulation::{block_setup, lattice_setup},
+    scene::{
+        Scene,
+        build::{block_setup, lattice_setup, particle_setup},
+    },
     units::Units,
 };
 use std::path::{Path, PathBuf};

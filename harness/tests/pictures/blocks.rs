@@ -2,7 +2,7 @@
 
 use crate::rig::{Rgb, file, read, slice};
 use glam::{DMat3, DVec3};
-use riprap::block::{Form, Polyhedron};
+use riprap::geometry::{Form, Polyhedron};
 use riprap::output::{Array, Image};
 use riprap_harness::picture::{Palette, Placed, Plane, Quantity};
 use std::f64::consts::{FRAC_PI_4, PI};

@@ -4,7 +4,7 @@ use crate::rig::{
     WHITE, body, body_in_the_middle_row, extent, level, oblique, plain_cube, render, seen, speed,
 };
 use glam::{DMat3, DQuat, DVec3};
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 use riprap_harness::render::{Camera, Drawing, Instance, Mesh, View};
 
 /// Area of the convex hull, by Andrew's monotone chain.

@@ -2,7 +2,7 @@
 
 use crate::rig::{body, extent, level, plain_cube, render};
 use glam::{DMat3, DVec3};
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 use riprap_harness::render::{Background, Drawing, Ground, Instance, Look, Mesh, Picture, View};
 
 #[test]

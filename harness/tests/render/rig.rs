@@ -1,7 +1,7 @@
 //! What tests of pictures in space share: a device, a cube, cameras, and where they see what.
 
 use glam::{DMat3, DVec3};
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 use riprap::wgpu;
 use riprap_harness::gpu;
 use riprap_harness::render::{Camera, Colours, Drawing, Instance, Mesh, Picture, Renderer};

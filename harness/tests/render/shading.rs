@@ -4,7 +4,7 @@ use crate::rig::{
     body, body_in_the_middle_row, level, linear, oblique, pixel_at, plain_cube, render, seen, speed,
 };
 use glam::DVec3;
-use riprap::block::Polyhedron;
+use riprap::geometry::Polyhedron;
 use riprap::wgpu::naga;
 use riprap_harness::picture::Palette;
 use riprap_harness::render::{

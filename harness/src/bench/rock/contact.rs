@@ -4,8 +4,10 @@ use super::core::{Core, Cost};
 use crate::kit::pile::Pile;
 use riprap::{
     Result,
-    broadphase::{Broadphase, HostBroadphase},
-    contact::{Cache, Counts, Options, Placed, Resolver, Verdict},
+    rock::{
+        broadphase::{Broadphase, HostBroadphase},
+        contact::{Cache, Counts, Options, Placed, Resolver, Verdict},
+    },
 };
 
 /// Successive steps in which the pairs are looked at, gone to and fro.

@@ -9,7 +9,7 @@ use crate::bench::report::Machine;
 use glam::DVec3;
 use riprap::{
     Result,
-    block::{HalfSpace, JointSet, RockMass, Scatter},
+    geometry::{HalfSpace, JointSet, RockMass, Scatter},
 };
 
 /// What is cut, on all cores.

@@ -10,9 +10,8 @@ use crate::bench::report::Machine;
 use glam::DVec3;
 use riprap::{
     Result,
-    block::{Polyhedron, Shape},
-    bodies::{Block, Blocks, Material, Setup},
-    broadphase::HostBroadphase,
+    geometry::{Polyhedron, Shape},
+    rock::{Block, Blocks, Material, Setup, broadphase::HostBroadphase},
 };
 use std::sync::Arc;
 

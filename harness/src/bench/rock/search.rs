@@ -8,7 +8,7 @@ use super::{
 use crate::{bench::report::Machine, gpu};
 use riprap::{
     Result,
-    broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
 };
 use std::time::Duration;
 

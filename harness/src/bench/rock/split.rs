@@ -8,8 +8,10 @@ use crate::kit::pile::Pile;
 use glam::{DQuat, DVec3};
 use riprap::{
     Result,
-    broadphase::{Broadphase, HostBroadphase},
-    law::{self, History, Motion, Section},
+    rock::{
+        broadphase::{Broadphase, HostBroadphase},
+        law::{self, History, Motion, Section},
+    },
 };
 use serde::Serialize;
 use std::{fmt, hint::black_box};

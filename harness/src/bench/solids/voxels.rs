@@ -3,10 +3,9 @@
 use super::turns::Turns;
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::Shape,
-    bodies::Pose,
-    immersed::{Frame, Immersed, Submerged},
+    geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator},
+    psm::{Frame, SolidBlock, SolidCells},
     units::Units,
 };
 use std::sync::Arc;
@@ -42,20 +41,20 @@ pub fn measure(turns: &Turns, across: u32) -> anyhow::Result<Found> {
     };
     let across = f64::from(across);
     let shape: Arc<Shape> = Arc::new(Shape::sphere(0.5 * across)?);
-    let submerged = vec![Submerged {
+    let blocks = vec![SolidBlock {
         shape,
         loaded: false,
         faces: false,
     }];
-    let mut immersed = Immersed::new(device, &lattice, frame, submerged)?;
+    let mut cells = SolidCells::new(device, &lattice, frame, blocks)?;
     let mut place = DVec3::splat(0.5 * f64::from(edge));
     let mut once = |times: u32| -> anyhow::Result<()> {
         for _ in 0..times {
             place += STRIDE * DVec3::new(0.5, 0.3, 0.8);
             let pose = Pose::rigid(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
-            immersed.place(device, queue, &mut lattice, &[pose])?;
+            cells.place(device, queue, &mut lattice, &[pose])?;
             let mut encoder = device.create_command_encoder(&Default::default());
-            immersed.record_cells(&mut encoder.begin_compute_pass(&Default::default()));
+            cells.record_cells(&mut encoder.begin_compute_pass(&Default::default()));
             queue.submit([encoder.finish()]);
             turns.wait()?;
         }

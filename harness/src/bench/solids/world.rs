@@ -158,7 +158,7 @@ impl World {
         let all: u32 = grid.bricks().iter().product();
         let bricks = simulation
             .coupled()
-            .map_or(0, |c| c.immersed().bricks().len());
+            .map_or(0, |c| c.solid_cells().bricks().len());
         grid.cell_count() as f64 * bricks as f64 / f64::from(all)
     }
 

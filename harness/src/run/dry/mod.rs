@@ -4,6 +4,7 @@ mod announce;
 
 use super::{
     engine::{Engine, Recorders},
+    pace::Pace,
     recorder::Notes,
     rock::{self, BlockFiles, Rock, Rocks},
     summary::Summary,
@@ -12,13 +13,13 @@ use super::{
 use crate::search::Finder;
 use riprap::{
     Error, Result,
-    bodies::{Block, Ledger, Pose},
-    checkpoint::BlockCheckpoint,
+    geometry::Pose,
     output::Array,
+    rock::{Block, Ledger},
     scene::{Field, ProbePlace, Quantity, Scene},
-    simulation,
+    simulation::{self, checkpoint::BlockCheckpoint},
 };
-use std::{path::Path, time::Duration};
+use std::path::Path;
 
 /// A scene of blocks alone.
 pub struct Dry {
@@ -135,14 +136,15 @@ impl Engine for Dry {
         announce::announce(self, folder, last);
     }
 
-    fn pace(&self, _: &Summary, steps: u64, time: Duration) -> String {
-        let rate = steps as f64 / time.as_secs_f64().max(1e-9);
+    fn describe_pace(&self, _: &Summary, pace: &Pace) -> String {
+        let warm = pace.warm();
+        let rate = warm.rate(warm.steps);
         let activity = self.rock().map(|rock| rock.activity());
         format!("{rate:.0} steps/s, {}", activity.unwrap_or_default())
     }
 
-    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
-        summary.rocks = Rocks::concluded(self, notes, (steps, time));
+    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, pace: &Pace) {
+        summary.rocks = Rocks::concluded(self, notes, pace);
     }
 }
 

@@ -1,6 +1,6 @@
 //! A scene at half its resolution.
 
-use super::super::{Args, Dry, Engine, Pond};
+use super::super::{Args, Dry, Engine, SphRun};
 use anyhow::{Context, Result};
 use riprap::{
     Error,
@@ -31,7 +31,7 @@ pub fn halved(scene: &Scene, args: &Args) -> Result<Halved> {
             particles.spacing *= 2.0;
             let says = format!("particles {} m apart", particles.spacing);
             if args.steps.or(scene.run.steps).is_some() {
-                let engine = Pond::open(scene, &args.scene, args.adapter.as_deref())?;
+                let engine = SphRun::open(scene, &args.scene, args.adapter.as_deref())?;
                 half.run = lasting(scene, args, engine.time_step());
             }
             says

@@ -46,26 +46,29 @@ impl Coupling {
     /// Of the blocks in `simulation`, if there are any, after `steps` of this run.
     pub fn of(simulation: &Simulation, steps: u64) -> Option<Self> {
         let coupled = simulation.coupled()?;
-        let immersed = coupled.immersed();
+        let cells = coupled.solid_cells();
         let geometry = simulation.lattice().geometry();
-        let saturated = immersed.bricks();
+        let solid_bricks = cells.bricks();
         let others = |list: &[u32]| {
-            let reached = |brick: &&u32| saturated.binary_search(brick).is_err();
+            let reached = |brick: &&u32| solid_bricks.binary_search(brick).is_err();
             list.iter().filter(reached).count()
         };
-        let Exchanges { readings, cells } = coupled.exchanges();
+        let Exchanges {
+            readings,
+            cells: work,
+        } = coupled.exchanges();
         Some(Self {
             in_fluid: coupled.in_fluid(),
-            tiles: immersed.tiles(),
-            saturated_bricks: saturated.len(),
+            tiles: cells.tiles(),
+            saturated_bricks: solid_bricks.len(),
             plain_bricks: others(&geometry.plain),
             mixed_bricks: others(&geometry.mixed),
-            tiles_computed: cells.tiles,
-            lanes_computed: cells.lanes,
-            searches: cells.searches,
+            tiles_computed: work.tiles,
+            lanes_computed: work.lanes,
+            searches: work.searches,
             readings,
             readings_skipped: steps.saturating_sub(readings),
-            bytes: immersed.bytes(),
+            bytes: cells.bytes(),
             brick_share: brick_share(simulation.lattice()),
             reading_seconds: 0.0,
             step_seconds: 0.0,

@@ -12,6 +12,7 @@ mod watch;
 use super::{
     engine::{Engine, Recorders},
     left_out::LeftOut,
+    pace::Pace,
     recorder::Notes,
     rock::{self, BlockFiles, Rock, Rocks},
     slices::Pictures,
@@ -24,14 +25,13 @@ use fields::Fields;
 use probes::ProbeTable;
 use riprap::{
     Result,
-    bodies::{Block, Ledger},
-    checkpoint::Checkpoint,
     coupling::Coupled,
+    gpu::readback::Readback,
     lattice::{bytes_a_cell, bytes_a_step},
     output::Image,
-    readback::Readback,
+    rock::{Block, Ledger},
     scene::{Field, ProbePlace, Quantity, Scene},
-    simulation::{Needs, Simulation, Totals},
+    simulation::{Needs, Simulation, Totals, checkpoint::Checkpoint},
     wgpu,
 };
 use solids::solid_blocks;
@@ -159,7 +159,7 @@ impl Engine for Flow {
             time: simulation.time(),
             setup: &coupled.setup().setup,
             blocks: coupled.blocks(),
-            felt: &coupled.around()[..in_fluid],
+            felt: &coupled.external_load()[..in_fluid],
             coupled: Some(coupled),
             shown: self.shown(),
             start: &self.start,
@@ -266,8 +266,8 @@ impl Engine for Flow {
         announce::announce(self, folder, last, summary.bandwidth);
     }
 
-    fn pace(&self, summary: &Summary, steps: u64, time: Duration) -> String {
-        let (mlups, share) = speed(summary, steps, time);
+    fn describe_pace(&self, summary: &Summary, pace: &Pace) -> String {
+        let (mlups, share) = speed(summary, pace);
         let fluid = format!("{mlups:.1} MLUPS, {:.0} % of memory speed", 100.0 * share);
         match self.rock() {
             Some(rock) => format!("{fluid}; {}", rock.activity()),
@@ -275,26 +275,28 @@ impl Engine for Flow {
         }
     }
 
-    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
+    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, pace: &Pace) {
+        let (whole, warm) = (pace.whole(), pace.warm());
         // Others may have kept the device busy the first time.
         if let Ok(again) = self.bandwidth() {
             summary.bandwidth = summary.bandwidth.max(again);
         }
-        (summary.mlups, summary.bandwidth_share) = speed(summary, steps, time);
+        (summary.mlups, summary.bandwidth_share) = speed(summary, pace);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
-        summary.rocks = Rocks::concluded(self, notes, (steps, time));
-        summary.coupling = Coupling::of(&self.simulation, steps).map(|coupling| Coupling {
+        summary.rocks = Rocks::concluded(self, notes, pace);
+        summary.coupling = Coupling::of(&self.simulation, whole.steps).map(|coupling| Coupling {
             reading_seconds: self.reading().unwrap_or_default(),
-            step_seconds: time.as_secs_f64() / steps.max(1) as f64,
+            step_seconds: warm.time.as_secs_f64() / warm.steps.max(1) as f64,
             ..coupling
         });
         self.look_at_walls(summary);
     }
 }
 
-/// Million cell updates a second, and the part of what memory allows.
-fn speed(summary: &Summary, steps: u64, time: Duration) -> (f64, f64) {
-    let rate = steps as f64 / time.as_secs_f64().max(1e-9);
+/// Million cell updates a second, and the part of what memory allows, once kernels are compiled.
+fn speed(summary: &Summary, pace: &Pace) -> (f64, f64) {
+    let warm = pace.warm();
+    let rate = warm.rate(warm.steps);
     (
         rate * summary.fluid_cells as f64 / 1e6,
         rate * summary.bytes_a_step as f64 / summary.bandwidth,

@@ -8,7 +8,7 @@ use super::super::{
 };
 use super::Flow;
 use anyhow::Result;
-use riprap::{output::Csv, probe::Gauge, scene::Probe};
+use riprap::{output::Csv, scene::Probe, simulation::probe::Gauge};
 use std::path::{Path, PathBuf};
 
 pub struct ProbeTable {

@@ -2,12 +2,7 @@
 
 use super::{super::views::Shown, Flow, PATIENCE, solids::pose};
 use crate::gpu;
-use riprap::{
-    Result,
-    bodies::{Block, Pose},
-    output::Array,
-    scene::Field,
-};
+use riprap::{Result, geometry::Pose, output::Array, rock::Block, scene::Field};
 
 impl Shown for Flow {
     fn blocks(&self) -> &[Block] {

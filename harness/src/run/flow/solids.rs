@@ -1,9 +1,9 @@
 //! Static solids as they are drawn.
 
 use riprap::{
-    bodies::{Block, Pose},
-    scene::{Material, Scene},
-    simulation::block_setup,
+    geometry::Pose,
+    rock::Block,
+    scene::{Material, Scene, build::block_setup},
 };
 
 /// The solids of a scene as fixed blocks. What encloses no volume, or cannot be cut into convex parts, is left to the

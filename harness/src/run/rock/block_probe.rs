@@ -150,10 +150,10 @@ fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
 /// Those of `OF_FACES`.
 fn measure_faces(coupled: &Coupled, block: usize, gravity: DVec3) -> [f64; 2] {
     let up = -gravity.normalize_or_zero();
-    let loads = coupled.faces(block);
-    let closed = coupled.closed_joints(block);
+    let loads = coupled.face_loads(block);
+    let closed = coupled.joint_loads(block);
     let (mut uplift, mut force, mut area) = (0.0, 0.0, 0.0);
-    for (number, (load, joint)) in loads.iter().zip(coupled.joints(block)).enumerate() {
+    for (number, (load, joint)) in loads.iter().zip(coupled.faces_in_joints(block)).enumerate() {
         let closed = closed.get(number).copied().unwrap_or_default();
         let (normal, all) = (load.face.normal, load.force + closed.force);
         if normal.dot(up) < 0.0 {
@@ -172,7 +172,7 @@ fn standing(rock: &Rock<'_>, block: usize) -> Standing {
     let felt = rock.felt.get(block).copied().unwrap_or_default();
     let fluid = rock
         .coupled
-        .and_then(|coupled| coupled.with_closed_joints(block));
+        .and_then(|coupled| coupled.wrench_with_uplift(block));
     let whole = || {
         [
             felt.flow.force + felt.buoyancy.force,

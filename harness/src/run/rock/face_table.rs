@@ -7,7 +7,7 @@ use super::super::{
     schedule::Schedule,
 };
 use anyhow::Result;
-use riprap::{coupling::JointLoad, immersed::FaceLoad, output::Csv, scene::Probe};
+use riprap::{coupling::JointLoad, output::Csv, psm::FaceLoad, scene::Probe};
 use std::path::{Path, PathBuf};
 
 /// Numbers of a face that are no vectors.
@@ -85,9 +85,9 @@ impl<E: Engine> Recorder<E> for FaceTable {
         else {
             return Ok(());
         };
-        let loads = coupled.faces(self.block).iter();
-        let closed = coupled.closed_joints(self.block);
-        let joints = loads.zip(coupled.joints(self.block));
+        let loads = coupled.face_loads(self.block).iter();
+        let closed = coupled.joint_loads(self.block);
+        let joints = loads.zip(coupled.faces_in_joints(self.block));
         for (number, (load, joint)) in joints.enumerate() {
             let row = row(load, joint, closed.get(number));
             self.table.append(rock.step, rock.time, &row)?;

@@ -19,8 +19,8 @@ pub use values::values;
 use super::engine::{Engine, Recorders};
 use anyhow::Result;
 use riprap::{
-    bodies::{Blocks, Ledger, Motion, Setup},
-    coupling::{Coupled, Felt},
+    coupling::{Coupled, FluidLoad},
+    rock::{Blocks, Ledger, Motion, Setup},
     scene::Probe,
 };
 use std::path::Path;
@@ -37,7 +37,7 @@ pub struct Rock<'a> {
     /// The blocks as they are.
     pub blocks: &'a Blocks,
     /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
-    pub felt: &'a [Felt],
+    pub felt: &'a [FluidLoad],
     /// They and the fluid together, where there is one.
     pub coupled: Option<&'a Coupled>,
     /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.

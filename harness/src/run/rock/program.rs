@@ -3,9 +3,8 @@
 use glam::{DQuat, DVec3};
 use riprap::{
     Result,
-    block::Polyhedron,
-    bodies::Pose,
-    contact::{Cache, Options, Placed, Resolver},
+    geometry::{Polyhedron, Pose},
+    rock::contact::{Cache, Options, Placed, Resolver},
 };
 use std::time::Instant;
 

@@ -1,11 +1,11 @@
 //! A run of blocks in numbers.
 
 use super::{
-    super::{engine::Engine, recorder::Notes},
+    super::{engine::Engine, pace::Pace, recorder::Notes},
     program,
 };
 use serde::Serialize;
-use std::{fmt, time::Duration};
+use std::fmt;
 
 /// What blocks did.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -36,7 +36,9 @@ pub struct Rocks {
     pub ledger: Energies,
     /// What the balance of energies has gained since the start, as a part of what was turned over.
     pub energy_error: f64,
-    /// Steps a second, without what was written.
+    /// What contacts held when they ended, as a part of what was turned over.
+    pub contact_loss: f64,
+    /// Steps a second, without what was written and without the first ones, in which kernels are compiled.
     pub steps_a_second: f64,
 }
 
@@ -49,7 +51,7 @@ pub struct Energies {
     pub potential: f64,
     /// Of strain, in the deformable blocks.
     pub strain: f64,
-    /// Elastic, in the contacts.
+    /// In the springs of the present contacts; may be negative, see [`riprap::rock::Ledger`].
     pub elastic: f64,
     /// Taken by friction.
     pub friction: f64,
@@ -59,7 +61,7 @@ pub struct Energies {
     pub mass_damping: f64,
     /// Taken by films of fluid between blocks that nearly touch.
     pub film: f64,
-    /// Held by contacts that ended.
+    /// Held by the springs of contacts when these ended: taken out, or put in where it is negative.
     pub lost: f64,
     /// Done by driven blocks.
     pub driven: f64,
@@ -86,6 +88,7 @@ impl Rocks {
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
             energy_error: rock.energy_error(&ledger),
+            contact_loss: rock.contact_loss(&ledger),
             ledger: Energies {
                 kinetic: ledger.kinetic,
                 potential: ledger.potential,
@@ -103,18 +106,15 @@ impl Rocks {
         })
     }
 
-    /// The state at the end of a run that took `steps` in `time`.
-    pub fn concluded(
-        engine: &impl Engine,
-        notes: &Notes,
-        (steps, time): (u64, Duration),
-    ) -> Option<Self> {
+    /// The state at the end of a run.
+    pub fn concluded(engine: &impl Engine, notes: &Notes, pace: &Pace) -> Option<Self> {
         let now = Self::of(engine)?;
+        let warm = pace.warm();
         Some(Self {
             max_speed_seen: notes.block_speed.max(now.max_speed),
             program_seconds: program::seconds().unwrap_or_default(),
-            seconds: time.as_secs_f64(),
-            steps_a_second: steps as f64 / time.as_secs_f64().max(1e-9),
+            seconds: pace.whole().time.as_secs_f64(),
+            steps_a_second: warm.rate(warm.steps),
             ..now
         })
     }
@@ -125,14 +125,15 @@ impl fmt::Display for Rocks {
         write!(
             f,
             "  {} blocks, {} awake, {} contacts; {:.0} steps/s; speed {:.3e} m/s (largest seen \
-             {:.3e}); energies close to {:.1e}",
+             {:.3e}); energies close to {:.1e}, contacts that ended took {:.1e}",
             self.blocks,
             self.awake,
             self.contacts,
             self.steps_a_second,
             self.max_speed,
             self.max_speed_seen,
-            self.energy_error.abs()
+            self.energy_error.abs(),
+            self.contact_loss
         )
     }
 }

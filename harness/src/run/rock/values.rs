@@ -1,7 +1,7 @@
 //! Numbers that sum up all blocks.
 
 use super::{super::recorder::Notes, Rock};
-use riprap::{bodies::Ledger, scene::Quantity};
+use riprap::{rock::Ledger, scene::Quantity};
 
 /// The present values of `quantities`, those of blocks from `rock`, the others from `of_fluid`.
 pub fn values(
@@ -30,7 +30,8 @@ fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
         Quantity::StrainEnergy => ledger.strain,
         Quantity::ContactEnergy => ledger.elastic,
         Quantity::FrictionWork => ledger.friction,
-        Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.film + ledger.lost,
+        Quantity::DampingWork => ledger.dashpot + ledger.mass_damping + ledger.film,
+        Quantity::ContactLoss => ledger.lost,
         Quantity::OutsideWork => ledger.driven + ledger.loads,
         Quantity::EnergyError => rock.energy_error(ledger),
         Quantity::Contacts => rock.blocks.contacts().count() as f64,
@@ -46,10 +47,20 @@ fn value(rock: &Rock<'_>, quantity: Quantity, ledger: &Ledger) -> f64 {
 
 impl Rock<'_> {
     /// What the balance of energies has lost or gained since the start, as a part of what has been
-    /// turned over: of the kinetic energy now, the fall of the potential one, the strain, and all that
-    /// was taken.
+    /// turned over. The balance counts what ended contacts held, [`Ledger::lost`].
     pub fn energy_error(&self, now: &Ledger) -> f64 {
-        let change = now.balance() - self.start.balance();
+        self.part_of_turnover(now, now.balance() - self.start.balance())
+    }
+
+    /// What contacts held when they ended, as a part of what has been turned over: the error of the contact law, positive
+    /// where it takes energy out.
+    pub fn contact_loss(&self, now: &Ledger) -> f64 {
+        self.part_of_turnover(now, now.lost - self.start.lost)
+    }
+
+    /// `energy` as a part of what has been turned over: the kinetic energy now and at the start, the change of the
+    /// potential one, the strain, all that was taken, and what was put in.
+    fn part_of_turnover(&self, now: &Ledger, energy: f64) -> f64 {
         let turned = now.kinetic
             + self.start.kinetic
             + (now.potential - self.start.potential).abs()
@@ -59,8 +70,9 @@ impl Rock<'_> {
             + now.dashpot
             + now.mass_damping
             + now.film
+            + now.lost.abs()
             + now.driven.abs()
             + now.loads.abs();
-        if turned > 0.0 { change / turned } else { 0.0 }
+        if turned > 0.0 { energy / turned } else { 0.0 }
     }
 }

@@ -9,10 +9,10 @@ use crate::{
 };
 use anyhow::Result;
 use riprap::{
-    bodies::Pose,
+    geometry::Pose,
     output::Image,
-    probe::Layer,
     scene::{Field, Scene, SliceField, View, ViewSlice},
+    simulation::probe::Layer,
 };
 
 /// The cells that a view shows.

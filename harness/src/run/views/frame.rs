@@ -7,7 +7,7 @@ use crate::{
     render::{Colours, Drops, FluidPlane, Instance, Traces},
 };
 use anyhow::Result;
-use riprap::bodies::{Motion, Pose};
+use riprap::{geometry::Pose, rock::Motion};
 use std::{collections::HashMap, sync::Arc};
 
 /// Bodies and fluid at one time.

@@ -3,9 +3,9 @@
 use super::super::engine::Engine;
 use crate::{picture::Placed, render::Drops};
 use riprap::{
-    block::Shape,
-    bodies::{Block, Pose},
+    geometry::{Pose, Shape},
     output::Array,
+    rock::Block,
     scene::Field,
 };
 use std::{collections::HashMap, sync::Arc};

@@ -9,8 +9,8 @@ use crate::{
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{
-    block::Form,
-    bodies::Motion,
+    geometry::Form,
+    rock::Motion,
     scene::{self, Domain, Scene},
     wgpu,
 };

@@ -1,18 +1,18 @@
-//! What a run of water says before it starts.
+//! Header of a run with free water.
 
-use super::{super::summary::Summary, Engine, Pond};
+use super::{super::summary::Summary, Engine, SphRun};
 use crate::{gpu, search::left_out};
 use std::path::Path;
 
-/// Tells, on standard error, what will run on what.
-pub fn announce(engine: &Pond, summary: &Summary, folder: &Path, last: u64) {
+/// Prints the scene, the adapter and the steps of the run to standard error.
+pub fn announce(engine: &SphRun, summary: &Summary, folder: &Path, last: u64) {
     let simulation = &engine.simulation;
     let setup = simulation.particles().setup();
     eprintln!("{}", simulation.scene().title);
     eprintln!("  adapter   {}", gpu::describe(&engine.adapter));
     if let Some(pool) = &summary.pool {
         eprintln!(
-            "  water     {} particles of {:.4e} m, {} in shells; speed of sound {:.2} m/s",
+            "  water     {} particles of {:.4e} m, {} boundary particles; speed of sound {:.2} m/s",
             pool.particles, pool.spacing, pool.shell, pool.sound_speed
         );
     }

@@ -5,11 +5,11 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::Pond;
+use super::SphRun;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vtp},
-    particles::cloud,
+    sph::point_cloud,
 };
 use std::path::{Path, PathBuf};
 
@@ -20,8 +20,8 @@ pub struct Clouds {
 }
 
 impl Clouds {
-    /// Begins the collection, or goes on with it after a restart.
-    pub fn new(engine: &Pond, folder: &Path, last: u64) -> Result<Self> {
+    /// Begins the collection, or resumes it after a restart.
+    pub fn new(engine: &SphRun, folder: &Path, last: u64) -> Result<Self> {
         let path = folder.join("water.pvd");
         let every = engine.scene().output.every;
         Ok(Self {
@@ -35,15 +35,15 @@ impl Clouds {
     }
 }
 
-impl Recorder<Pond> for Clouds {
+impl Recorder<SphRun> for Clouds {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Pond, notes: &mut Notes) -> Result<()> {
+    fn record(&mut self, engine: &mut SphRun, notes: &mut Notes) -> Result<()> {
         let water = engine.water()?;
         let path = self.folder.join(format!("water_{:06}.vtp", engine.step()));
-        write_vtp(&path, &cloud(&water, &engine.scene().output.fields))?;
+        write_vtp(&path, &point_cloud(&water, &engine.scene().output.fields))?;
         self.collection.add(engine.time(), &path)?;
         notes.file(self.folder.join("water.pvd"));
         notes.file(path);

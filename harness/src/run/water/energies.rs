@@ -1,47 +1,47 @@
-//! Where the energy of the water is and where it went, in numbers.
+//! Energy balance of the water in the summary.
 
 use riprap::simulation::WaterLedger;
 use serde::Serialize;
 use std::fmt;
 
-/// Energies of the water against those at the start of the scene, and works since then, J.
+/// Changes of the energy of the water since the start of the scene, and work since then, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Energies {
     /// Gain of kinetic energy.
     pub kinetic: f64,
-    /// Gain of potential energy, by what is still there.
+    /// Gain of potential energy of the particles inside the domain.
     pub potential: f64,
-    /// Gain of energy of compression.
+    /// Gain of compression energy.
     pub compression: f64,
-    /// What particles took along that have left, potential energy from the origin of the coordinates.
+    /// Energy of the escaped particles, with the potential energy relative to the origin.
     pub left: f64,
-    /// Done by free and driven blocks.
+    /// Work of free and driven blocks.
     pub bodies: f64,
-    /// Done by what pushes water out of solids and blocks that do not move.
+    /// Work of the penalty force of solids and fixed blocks.
     pub pushed: f64,
-    /// Done by dummy particles beyond the work of their walls and blocks: the error of this boundary condition.
+    /// Work of boundary particles beyond the work of their walls and blocks: the error of this boundary condition.
     pub pressed: f64,
-    /// Done and not there: dissipated, with the error of the computation.
+    /// Dissipated energy, with the error of the time integration.
     pub dissipated: f64,
-    /// Given up by blocks to the water and in joints.
+    /// Work of blocks on the water and in joints, along their own motion.
     pub blocks: f64,
-    /// Given up by blocks in joints that have no particles.
+    /// Work of blocks in joints that have no particles.
     pub joints: f64,
-    /// Given up by blocks to the water, and not got by it.
+    /// Work of blocks on the water that it did not receive.
     pub unmatched: f64,
 }
 
 impl Energies {
-    /// Of a ledger since the start.
+    /// The balance of a ledger since the start.
     pub fn of(ledger: WaterLedger) -> Self {
         Self {
             kinetic: ledger.kinetic,
             potential: ledger.potential,
             compression: ledger.compression,
-            left: ledger.left,
+            left: ledger.escaped,
             bodies: ledger.bodies,
-            pushed: ledger.pushed,
-            pressed: ledger.pressed,
+            pushed: ledger.penalty,
+            pressed: ledger.boundary,
             dissipated: ledger.dissipated(),
             blocks: ledger.blocks,
             joints: ledger.joints,
@@ -54,8 +54,8 @@ impl fmt::Display for Energies {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "  energy of the water: kinetic {:+.4e} J, potential {:+.4e} J, compression {:+.2e} J, left {:+.2e} J; work of \
-             blocks {:+.4e} J, of walls that push {:+.2e} J, of dummy particles {:+.2e} J; dissipated {:.4e} J",
+            "  energy of the water: kinetic {:+.4e} J, potential {:+.4e} J, compression {:+.2e} J, escaped {:+.2e} J; \
+             work of blocks {:+.4e} J, of the penalty force {:+.2e} J, of boundary particles {:+.2e} J; dissipated {:.4e} J",
             self.kinetic,
             self.potential,
             self.compression,
@@ -70,7 +70,7 @@ impl fmt::Display for Energies {
         }
         write!(
             f,
-            "\n  blocks gave up {:.4e} J, {:.2e} J of it in joints; the water got {:.4e} J, {:.2e} J are between them",
+            "\n  work of blocks {:.4e} J, {:.2e} J of it in joints; the water received {:.4e} J, difference {:.2e} J",
             self.blocks, self.joints, self.bodies, self.unmatched
         )
     }

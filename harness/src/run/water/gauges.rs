@@ -1,5 +1,5 @@
-//! A table for each probe in the water: `NAME.csv`. Where a probe is dry it has no number. Levels, places and volumes are
-//! drawn over time: `NAME.png`.
+//! A table for each probe in the water: `NAME.csv`, with NaN where the probe is dry. Levels, positions and volumes are
+//! plotted over time: `NAME.png`.
 
 use super::super::{
     curves,
@@ -8,14 +8,14 @@ use super::super::{
     recorder::{Notes, Recorder},
     schedule::Schedule,
 };
-use super::Pond;
+use super::SphRun;
 use crate::picture::Track;
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{
     output::Csv,
-    particles::{Gauges, Setup, Water},
     scene::{Field, Probe, ProbePlace},
+    sph::{Gauges, Setup, Water},
 };
 use std::path::{Path, PathBuf};
 
@@ -27,8 +27,8 @@ pub struct GaugeTable {
 }
 
 impl GaugeTable {
-    /// Begins the table, or goes on with it after a restart.
-    pub fn new(engine: &Pond, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
+    /// Begins the table, or resumes it after a restart.
+    pub fn new(engine: &SphRun, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
         let path = folder.join(format!("{}.csv", probe.name));
         let mut columns: Vec<String> = match &probe.place {
             ProbePlace::Gauge { .. } => vec!["level".into()],
@@ -57,14 +57,14 @@ impl GaugeTable {
     }
 }
 
-impl Recorder<Pond> for GaugeTable {
+impl Recorder<SphRun> for GaugeTable {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Pond, notes: &mut Notes) -> Result<()> {
-        if let Some(felt) = engine.simulation.sensor(&self.probe.name) {
-            let row = [felt.pressure, felt.impulse];
+    fn record(&mut self, engine: &mut SphRun, notes: &mut Notes) -> Result<()> {
+        if let Some(reading) = engine.simulation.sensor(&self.probe.name) {
+            let row = [reading.pressure, reading.impulse];
             self.table.append(engine.step(), engine.time(), &row)?;
             notes.file(self.path.clone());
             return Ok(());
@@ -95,7 +95,7 @@ impl Recorder<Pond> for GaugeTable {
                 let inside: Vec<usize> = gauges.inside((*min).into(), (*max).into()).collect();
                 vec![in_box(&inside, setup, &water, &self.probe.fields)]
             }
-            // A scene of particles has no others.
+            // Scenes with particles have no other probes.
             _ => Vec::new(),
         };
         for row in rows {
@@ -105,24 +105,24 @@ impl Recorder<Pond> for GaugeTable {
         Ok(())
     }
 
-    fn finish(&mut self, engine: &Pond, notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, engine: &SphRun, notes: &mut Notes) -> Result<()> {
         let scene = engine.scene();
         let title = format!("{}: {}", scene.title, self.probe.name);
-        let mut tracks = drawn(&self.probe.place);
+        let mut tracks = plotted_tracks(&self.probe.place);
         if scene
             .particles
             .as_ref()
             .is_some_and(|particles| particles.plane)
         {
-            // Nothing happens along it.
+            // y is constant in a planar scene.
             tracks.retain(|track| *track.columns != ["y"]);
         }
         curves::draw(scene, &self.path, &title, &tracks, notes)
     }
 }
 
-/// What is drawn of a probe at such a place; nothing of fields.
-fn drawn(place: &ProbePlace) -> Vec<Track<'static>> {
+/// Plotted quantities of a probe; fields are not plotted.
+fn plotted_tracks(place: &ProbePlace) -> Vec<Track<'static>> {
     match place {
         ProbePlace::Gauge { .. } => vec![track("level", "m", &["level"])],
         ProbePlace::Sensor { .. } => vec![track("pressure", "Pa", &["pressure"])],
@@ -148,7 +148,7 @@ fn track(
     }
 }
 
-/// The components of a field of all particles, and what they grow by a metre in water at rest.
+/// The components of a field of all particles, and their gradients in water at rest, per metre.
 fn components(setup: &Setup, water: &Water, field: Field) -> Vec<(Vec<f64>, DVec3)> {
     match field {
         Field::Velocity => (0..3)
@@ -162,7 +162,7 @@ fn components(setup: &Setup, water: &Water, field: Field) -> Vec<(Vec<f64>, DVec
     }
 }
 
-/// The components of fields at a point.
+/// The components of fields at a point; NaN without water.
 fn at_point(
     gauges: &Gauges<'_>,
     setup: &Setup,
@@ -177,7 +177,7 @@ fn at_point(
     all.map(|field| mean(field).unwrap_or(f64::NAN)).collect()
 }
 
-/// The volume of these particles, and of each component of fields the mean, the least and the largest value.
+/// The volume of the particles with the given indices, and mean, minimum and maximum of each component of the fields.
 fn in_box(inside: &[usize], setup: &Setup, water: &Water, fields: &[Field]) -> Vec<f64> {
     let count = inside.len() as f64;
     let mut row = vec![count * setup.particle_mass() / setup.density];

@@ -1,14 +1,15 @@
-//! Free water of particles on a device of its own, with the blocks in it, every wait with an end.
+//! Runs of scenes with free-surface water (SPH) and blocks on a device of their own. Every wait has a timeout.
 
 mod announce;
 mod clouds;
 mod energies;
 mod gauges;
-mod pool;
 mod shown;
+mod water_summary;
 
 use super::{
     engine::{Engine, Recorders},
+    pace::Pace,
     recorder::Notes,
     rock::{self, BlockFiles, Rock, Rocks},
     summary::Summary,
@@ -18,40 +19,39 @@ use crate::gpu;
 use clouds::Clouds;
 pub use energies::Energies;
 use gauges::GaugeTable;
-pub use pool::Pool;
 use riprap::{
-    Result,
-    bodies::Ledger,
-    checkpoint::WaterCheckpoint,
-    particles::{self, Totals, Water},
+    Error, Result,
+    rock::Ledger,
     scene::{ProbePlace, Quantity, Scene},
-    simulation::{FreeSurface, WaterLedger},
+    simulation::{FreeSurface, WaterLedger, checkpoint::WaterCheckpoint},
+    sph::{self, Totals, Water},
     wgpu,
 };
 use std::{path::Path, rc::Rc, time::Duration};
+pub use water_summary::WaterSummary;
 
-/// A step of 10⁷ particles takes a CPU adapter minutes; this long, the device hangs.
+/// Timeout of a wait: a step of 10⁷ particles takes a CPU adapter minutes.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Water on a device.
-pub struct Pond {
+/// A run of a scene with free water.
+pub struct SphRun {
     pub adapter: wgpu::AdapterInfo,
     pub device: wgpu::Device,
     pub simulation: FreeSurface,
-    /// What may disappoint.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
-    /// Energies of the blocks at the start, those that a restart has not seen included.
+    /// Energies of the blocks at the start of the scene, before any restart.
     start: Ledger,
-    /// Energies of the water at the start, those that a restart has not seen included.
+    /// Energies of the water at the start of the scene, before any restart.
     first: WaterLedger,
-    /// The water as it was read last, and at which step: several recorders want it.
+    /// Step and state of the last readback, which several recorders share.
     read: Option<(u64, Rc<Water>)>,
-    /// Largest speed of the water that was read, m/s.
+    /// Largest speed of all readbacks, m/s.
     fastest: f64,
 }
 
-impl Pond {
-    /// The scene that was read from `file` at its start, on the adapter called `adapter` or on the best one.
+impl SphRun {
+    /// The run of `scene`, read from `file`, on the adapter named `adapter` or on the best one.
     pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
         Self::of(scene, adapter).map_err(|error| crate::search::located(error, file))
     }
@@ -59,7 +59,7 @@ impl Pond {
     fn of(scene: &Scene, adapter: Option<&str>) -> Result<Self> {
         let adapter = gpu::pick(adapter)?;
         let has = adapter.limits();
-        let most = particles::MOST_BINDINGS.max(crate::search::BUFFERS);
+        let most = sph::MAX_STORAGE_BUFFERS.max(crate::search::BUFFERS);
         let limits = wgpu::Limits {
             max_storage_buffers_per_shader_stage: most
                 .min(has.max_storage_buffers_per_shader_stage),
@@ -68,9 +68,9 @@ impl Pond {
             ..wgpu::Limits::downlevel_defaults().using_alignment(has)
         };
         let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits)?;
-        let made = FreeSurface::new(&device, &queue, scene);
-        let simulation = gpu::drive(&device, PATIENCE, "the kernels", made)??;
-        let mut pond = Self {
+        let simulation = FreeSurface::new(&device, &queue, scene);
+        let simulation = gpu::drive(&device, PATIENCE, "the kernels", simulation)??;
+        let mut run = Self {
             adapter: adapter.get_info(),
             start: simulation.blocks().ledger(),
             device,
@@ -80,25 +80,25 @@ impl Pond {
             read: None,
             fastest: 0.0,
         };
-        let water = pond.water()?;
-        pond.first = pond.simulation.ledger(&water);
-        let simulation = &pond.simulation;
+        let water = run.water()?;
+        run.first = run.simulation.ledger(&water);
+        let simulation = &run.simulation;
         let setup = simulation.particles().setup();
-        let advice = particles::advise(
+        let advice = sph::advise(
             scene,
             simulation.setup(),
             simulation.blocks(),
             setup,
             &water.positions,
         );
-        let advice = gpu::drive(&pond.device, PATIENCE, "looking for gaps", advice)??;
-        let slips = scene.slips(pond.time_step());
+        let advice = gpu::drive(&run.device, PATIENCE, "looking for gaps", advice)??;
+        let slips = scene.slips(run.time_step());
         let all = advice.iter().chain(&slips);
-        pond.warnings = all.map(ToString::to_string).collect();
-        Ok(pond)
+        run.warnings = all.map(ToString::to_string).collect();
+        Ok(run)
     }
 
-    /// The water as it is now.
+    /// The present state of the water.
     pub fn water(&mut self) -> Result<Rc<Water>> {
         let step = self.simulation.step();
         if let Some((read, water)) = &self.read
@@ -130,19 +130,23 @@ impl Pond {
         Ok(self.simulation.ledger(&water).since(&self.first))
     }
 
-    /// Blocks that are shown, the first ones: the faces of the domain that hold water are none.
+    /// Number of blocks in the output, which come first; walls of the domain come last.
     fn shown(&self) -> usize {
         self.simulation.setup().in_fluid + self.simulation.scene().solids.len()
     }
 }
 
-impl Engine for Pond {
+impl Engine for SphRun {
     fn scene(&self) -> &Scene {
         self.simulation.scene()
     }
 
     fn step(&self) -> u64 {
         self.simulation.step()
+    }
+
+    fn fluid_steps(&self) -> u64 {
+        self.simulation.particles().steps()
     }
 
     fn time_step(&self) -> f64 {
@@ -162,7 +166,7 @@ impl Engine for Pond {
             setup: &simulation.setup().setup,
             blocks: simulation.blocks(),
             coupled: None,
-            felt: &simulation.felt()[..shown],
+            felt: &simulation.external_load()[..shown],
             shown,
             start: &self.start,
         })
@@ -175,7 +179,15 @@ impl Engine for Pond {
     fn advance(&mut self, steps: u64) -> Result<()> {
         let what = format!("{steps} steps");
         let done = self.simulation.advance(steps);
-        gpu::drive(&self.device, PATIENCE, &what, done)?
+        gpu::drive(&self.device, PATIENCE, &what, done)??;
+        // Without blocks `advance` returns before the device completes the steps; their time would count as output.
+        let all = wgpu::PollType::Wait {
+            submission_index: None,
+            timeout: Some(PATIENCE),
+        };
+        let idle = self.device.poll(all);
+        idle.map_err(|error| Error::DeviceLost(error.to_string()))?;
+        Ok(())
     }
 
     fn restore(&mut self, path: &Path) -> Result<()> {
@@ -189,9 +201,11 @@ impl Engine for Pond {
     }
 
     fn values(&mut self, quantities: &[Quantity], notes: &mut Notes) -> Result<Vec<f64>> {
-        let (totals, ledger) = match quantities.iter().all(|quantity| quantity.is_of_blocks()) {
-            true => Default::default(),
-            false => (self.totals()?, self.ledger()?),
+        let needs_water = !quantities.iter().all(|quantity| quantity.is_of_blocks());
+        let (totals, ledger) = if needs_water {
+            (self.totals()?, self.ledger()?)
+        } else {
+            Default::default()
         };
         let of_fluid = |quantity| match quantity {
             Quantity::Mass => totals.mass,
@@ -201,15 +215,15 @@ impl Engine for Pond {
             Quantity::KineticEnergy => totals.kinetic_energy,
             Quantity::PotentialEnergy => ledger.potential,
             Quantity::CompressionEnergy => ledger.compression,
-            Quantity::EscapedEnergy => ledger.left,
+            Quantity::EscapedEnergy => ledger.escaped,
             Quantity::BodyWork => ledger.bodies,
-            Quantity::PushWork => ledger.pushed,
-            Quantity::DummyWork => ledger.pressed,
+            Quantity::PushWork => ledger.penalty,
+            Quantity::DummyWork => ledger.boundary,
             Quantity::DissipatedEnergy => ledger.dissipated(),
             Quantity::JointWork => ledger.joints,
             Quantity::LostToWater => ledger.blocks,
             Quantity::MaxSpeed => totals.max_speed,
-            // A scene without blocks cannot ask for theirs.
+            // Quantities of blocks are not available without blocks.
             _ => f64::NAN,
         };
         Ok(rock::values(self.rock(), quantities, notes, of_fluid))
@@ -245,7 +259,7 @@ impl Engine for Pond {
             first_step: simulation.step(),
             warnings: self.warnings.clone(),
             rocks: self.rocks(Rocks::of(self)),
-            pool: Some(Pool::of(self)),
+            pool: Some(WaterSummary::of(self)),
             ..Summary::default()
         })
     }
@@ -254,27 +268,30 @@ impl Engine for Pond {
         announce::announce(self, summary, folder, last);
     }
 
-    fn pace(&self, summary: &Summary, _: u64, time: Duration) -> String {
-        let pool = Pool::of(self).since(summary.pool.as_ref(), time);
-        let water = format!("{:.2} million particles/s", pool.updates_a_second / 1e6);
+    fn describe_pace(&self, summary: &Summary, pace: &Pace) -> String {
+        let pool = WaterSummary::of(self).since(summary.pool.as_ref(), pace);
+        let water = format!(
+            "{:.2} million particle updates/s",
+            pool.updates_a_second / 1e6
+        );
         match self.rock().filter(|_| self.simulation.moves()) {
             Some(rock) => format!("{water}; {}", rock.activity()),
             None => water,
         }
     }
 
-    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, steps: u64, time: Duration) {
-        summary.rocks = self.rocks(Rocks::concluded(self, notes, (steps, time)));
-        let pool = Pool::of(self).since(summary.pool.as_ref(), time);
+    fn conclude(&mut self, summary: &mut Summary, notes: &Notes, pace: &Pace) {
+        summary.rocks = self.rocks(Rocks::concluded(self, notes, pace));
+        let pool = WaterSummary::of(self).since(summary.pool.as_ref(), pace);
         summary.warnings.extend(pool.warnings(self));
         summary.pool = Some(pool);
-        // A lost device has told already why there is none.
+        // On a lost device the run has already reported the error.
         summary.water_energies = self.ledger().ok().map(Energies::of);
     }
 }
 
-impl Pond {
-    /// What blocks do is worth a line only where some can move.
+impl SphRun {
+    /// The summary of the blocks if any can move.
     fn rocks(&self, rocks: Option<Rocks>) -> Option<Rocks> {
         rocks.filter(|_| self.simulation.moves())
     }

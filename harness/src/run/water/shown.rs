@@ -1,18 +1,13 @@
-//! What pictures see of water: its blocks and solids, and its particles.
+//! Blocks, solids and particles of a run for rendering.
 
-use super::{super::views::Shown, Engine, Pond};
+use super::{super::views::Shown, Engine, SphRun};
 use crate::render::{Colours, Drop, Drops};
-use riprap::{
-    Result,
-    bodies::{Block, Pose},
-    output::Array,
-    scene::Field,
-};
+use riprap::{Result, geometry::Pose, output::Array, rock::Block, scene::Field};
 
-/// Radius of a ball of the volume of a particle, (3/4π)^⅓, of the spacing.
-const BALL: f64 = 0.62;
+/// Radius of a sphere with the volume of a particle, (3/4π)^⅓, in spacings.
+const SPHERE_RADIUS: f64 = 0.62;
 
-impl Shown for Pond {
+impl Shown for SphRun {
     fn blocks(&self) -> &[Block] {
         &self.simulation.setup().setup.blocks[..self.shown()]
     }
@@ -46,7 +41,7 @@ impl Shown for Pond {
                 .zip(&water.velocities)
                 .map(drop)
                 .collect(),
-            radius: BALL * setup.spacing,
+            radius: SPHERE_RADIUS * setup.spacing,
             colours: Colours {
                 label: "speed".into(),
                 unit: "m/s".into(),

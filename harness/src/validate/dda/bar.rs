@@ -7,7 +7,7 @@ use super::{
 };
 use crate::validate::{Outcome, Stand};
 use glam::DVec3;
-use riprap::bodies::{Block, Deformable, FixedPoint};
+use riprap::rock::{Block, Deformable, FixedPoint};
 
 const LENGTH: f64 = 10.0;
 

@@ -6,8 +6,8 @@ use super::{
 };
 use crate::validate::{Outcome, Stand};
 use glam::DVec3;
-use riprap::{
-    bodies::Block,
+use riprap::rock::{
+    Block,
     law::{Elastic, Joint},
 };
 

@@ -9,8 +9,8 @@ pub mod vibration;
 
 use super::rock::{DENSITY, setup};
 use glam::{DMat3, DVec3};
-use riprap::{
-    bodies::{Block, Setup},
+use riprap::rock::{
+    Block, Setup,
     integrate::{Affine, Pull},
     law::{Elastic, Joint},
 };

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::validate::{Outcome, Stand, Trial};
 use glam::{DQuat, DVec3};
-use riprap::{bodies::Block, law::Elastic};
+use riprap::rock::{Block, law::Elastic};
 
 /// Centroid and rotation 0.2 s after the throw; rigid without a modulus.
 fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {

@@ -4,7 +4,7 @@
 use super::{super::rock::DENSITY, ROCK, alone, norm, step};
 use crate::validate::{Outcome, Stand, Trial};
 use glam::{DMat3, DVec3};
-use riprap::bodies::skew;
+use riprap::geometry::skew;
 use std::{f64::consts::TAU, time::Instant};
 
 const OMEGA: f64 = 20.0;

@@ -6,10 +6,11 @@ use super::{
 };
 use glam::{DQuat, DVec3};
 use riprap::{
-    block::{Form, Part, Polyhedron},
-    bodies::Pose,
-    contact::{Placed, Squeeze},
-    law::Film,
+    geometry::{Form, Part, Polyhedron, Pose},
+    rock::{
+        contact::{Placed, Squeeze},
+        law::Film,
+    },
     scene::{BlockShape, Boundary, Motion, Scene},
 };
 use std::f64::consts::PI;

@@ -7,9 +7,9 @@ use super::super::{
 };
 use anyhow::Context;
 use riprap::{
-    bodies::Pose,
-    coupling::Felt,
+    coupling::FluidLoad,
     formula::Formula,
+    geometry::Pose,
     output::Array,
     scene::{Block, BlockShape, Boundary, Field, Motion, Rotation, Scene},
     simulation::{Simulation, Totals},
@@ -158,9 +158,9 @@ impl<'a> Tank<'a> {
     }
 
     /// What a block felt in the last step in which fluid and blocks met.
-    pub fn felt(&self, block: usize) -> Felt {
+    pub fn felt(&self, block: usize) -> FluidLoad {
         let coupled = self.simulation.coupled();
-        coupled.map_or_else(Felt::default, |coupled| coupled.felt()[block])
+        coupled.map_or_else(FluidLoad::default, |coupled| coupled.cell_load()[block])
     }
 
     /// Where a block is.

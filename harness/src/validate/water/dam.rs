@@ -31,7 +31,7 @@ pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Tri
         time.push(pool.surface.time() / unit);
     }
     let [from, to] = STRETCH.map(|z| passes(&front, &time, z));
-    let kept = pool.water()?.len() as f64 / f64::from(pool.surface.particles().numbers().water);
+    let kept = pool.water()?.len() as f64 / f64::from(pool.surface.particles().counts().fluid);
     Ok((
         pool.trial("dam break"),
         [(STRETCH[1] - STRETCH[0]) / (to - from), kept],

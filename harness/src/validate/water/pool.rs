@@ -5,11 +5,11 @@ use super::super::{
     stopwatch::{Spent, Stopwatch},
 };
 use riprap::{
-    bodies::Pose,
-    coupling::Felt,
-    particles::Water,
+    coupling::FluidLoad,
+    geometry::Pose,
     scene::{Scene, Scheme},
     simulation::FreeSurface,
+    sph::Water,
 };
 use std::{path::Path, time::Instant};
 
@@ -117,8 +117,8 @@ impl<'a> Pool<'a> {
     }
 
     /// What a block felt in the last exchange.
-    pub fn felt(&self, block: usize) -> Felt {
-        self.surface.felt()[block]
+    pub fn felt(&self, block: usize) -> FluidLoad {
+        self.surface.external_load()[block]
     }
 
     /// Where a block is.
@@ -135,7 +135,7 @@ impl<'a> Pool<'a> {
                 "{what}, Δx {:.4} m, h {} Δx, c₀ {:.1} m/s",
                 setup.spacing, setup.smoothing, setup.sound_speed
             ),
-            cells: particles.numbers().water.into(),
+            cells: particles.counts().fluid.into(),
             steps: particles.steps(),
             seconds: self.seconds,
             stepping: self.stepping,

@@ -9,10 +9,12 @@ use super::{
 };
 use glam::DVec3;
 use riprap::{
-    bodies::Pose,
-    particles::{Neighbours, Particles, particle_setup},
-    scene::Scheme,
-    simulation::block_setup,
+    geometry::Pose,
+    scene::{
+        Scheme,
+        build::{block_setup, particle_setup},
+    },
+    sph::{NeighbourSearch, SphSolver},
 };
 use std::{f64::consts::PI, time::Instant};
 
@@ -80,7 +82,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     let blocks = block_setup(&scene)?;
     let (mut setup, start) = particle_setup(&scene, &blocks)?;
     if stand.software {
-        setup.neighbours = Neighbours::Lists;
+        setup.neighbours = NeighbourSearch::Lists;
     }
     let amplitude = STEEPNESS * DEPTH;
     let velocities: Vec<DVec3> = start
@@ -90,7 +92,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
         .collect();
     let (device, queue) = (&stand.device, &stand.queue);
     let positions = &start.positions;
-    let mut water = Particles::new(
+    let mut water = SphSolver::new(
         device,
         queue,
         setup,
@@ -130,7 +132,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     }
     let trial = Trial {
         setup: format!("standing wave, kH = {:.2}, H/Δx = {layers}", k * DEPTH),
-        cells: water.numbers().water.into(),
+        cells: water.counts().fluid.into(),
         steps,
         seconds: begin.elapsed().as_secs_f64(),
         stepping: stepping.scaled(steps as f64 / timed.max(1) as f64),

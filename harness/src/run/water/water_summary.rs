@@ -1,0 +1,138 @@
+//! Summary of the water of a run.
+
+use super::{super::pace::Pace, SphRun};
+use riprap::{scene::Boundary, sph::Scheme};
+use serde::Serialize;
+use std::fmt;
+
+/// Mach number above which density changes by several percent.
+const MAX_MACH: f64 = 0.2;
+
+/// Tolerated fraction of escaped particles in a domain without an outlet.
+const MAX_ESCAPED_FRACTION: f64 = 0.01;
+
+/// Particles, steps and speeds of a run.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct WaterSummary {
+    /// Fluid particles at the start.
+    pub particles: u32,
+    /// Boundary particles of walls and blocks.
+    pub shell: u32,
+    /// Particles that have left the domain.
+    pub escaped: u32,
+    /// Particle spacing, m.
+    pub spacing: f64,
+    /// Mass of a particle, kg.
+    pub particle_mass: f64,
+    /// Speed of sound, m/s.
+    pub sound_speed: f64,
+    /// Acoustic steps since the start of the scene.
+    pub acoustic_steps: u64,
+    /// Acoustic steps of this run.
+    pub steps_here: u64,
+    /// Acoustic steps of this run that sorted the particles.
+    pub sorts: u64,
+    /// Exchanges between water and blocks in this run.
+    pub exchanges: u64,
+    /// Largest speed at the start or after any acoustic step of this run, m/s.
+    pub max_speed: f64,
+    /// Its Mach number.
+    pub max_mach: f64,
+    /// Updates per second of fluid particles in the domain and of boundary particles, whose pressures each step computes,
+    /// without output and without the first steps, in which drivers compile the kernels.
+    pub updates_a_second: f64,
+}
+
+impl WaterSummary {
+    /// The present summary of `run`.
+    pub fn of(run: &SphRun) -> Self {
+        let particles = run.simulation.particles();
+        let (setup, counts) = (particles.setup(), particles.counts());
+        // The solver reports the speeds after steps only; the readbacks include the start.
+        let max_speed = run.fastest.max(particles.max_speed());
+        Self {
+            particles: counts.fluid,
+            shell: counts.boundary,
+            escaped: particles.escaped(),
+            spacing: setup.spacing,
+            particle_mass: setup.particle_mass(),
+            sound_speed: setup.sound_speed,
+            acoustic_steps: particles.steps(),
+            steps_here: 0,
+            sorts: run.simulation.sorts(),
+            exchanges: run.simulation.exchanges(),
+            max_speed,
+            max_mach: max_speed / setup.sound_speed,
+            updates_a_second: 0.0,
+        }
+    }
+
+    /// The summary of the steps since `first`, with the update rate.
+    pub fn since(self, first: Option<&Self>, pace: &Pace) -> Self {
+        let steps = self.acoustic_steps - first.map_or(0, |first| first.acoustic_steps);
+        let particles = u64::from(self.particles - self.escaped) + u64::from(self.shell);
+        let warm = pace.warm();
+        Self {
+            steps_here: steps,
+            updates_a_second: warm.rate(warm.fluid_steps * particles),
+            ..self
+        }
+    }
+}
+
+impl WaterSummary {
+    /// Warnings about the results of `run`.
+    pub fn warnings(&self, run: &SphRun) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let setup = run.simulation.particles().setup();
+        // The scheme of Mueller has Mach 0.45 at the largest expected speed by design.
+        if setup.scheme == Scheme::Delta && self.max_mach > MAX_MACH {
+            warnings.push(format!(
+                "water reached {:.3} m/s, Mach {:.2}, and its density changes by several percent above Mach {MAX_MACH}; \
+                 set particles.largest_speed to that speed, or check for water that leaks or is squeezed",
+                self.max_speed, self.max_mach
+            ));
+        }
+        let fraction = f64::from(self.escaped) / f64::from(self.particles.max(1));
+        if fraction > MAX_ESCAPED_FRACTION && !has_outlet(run) {
+            warnings.push(format!(
+                "{} of {} particles ({:.1} %) left the domain, which has no open face below or at the sides; check for a \
+                 leak, or for water that splashes out",
+                self.escaped,
+                self.particles,
+                100.0 * fraction
+            ));
+        }
+        warnings
+    }
+}
+
+/// Whether the domain has an open face through which water flows out; through faces above only drops escape.
+fn has_outlet(run: &SphRun) -> bool {
+    let gravity = run.simulation.particles().setup().gravity;
+    let mut faces = run.simulation.scene().boundaries.iter();
+    faces.any(|(face, boundary)| {
+        let down = face.outward() * gravity[face.axis().index()];
+        *boundary == Boundary::Open && down >= 0.0
+    })
+}
+
+impl fmt::Display for WaterSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "  {} fluid particles, {} boundary particles; {} have left the domain",
+            self.particles, self.shell, self.escaped
+        )?;
+        write!(
+            f,
+            "  {} acoustic steps, {} exchanges; {:.2} million particle updates/s, boundary particles included; speed at most \
+             {:.3e} m/s, Mach {:.3}",
+            self.acoustic_steps,
+            self.exchanges,
+            self.updates_a_second / 1e6,
+            self.max_speed,
+            self.max_mach
+        )
+    }
+}

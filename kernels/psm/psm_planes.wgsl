@@ -1,0 +1,49 @@
+// Partially saturated cells: the planes of numbers that blocks and fluid exchange, PLANES for each brick that blocks reach.
+// needs $lanes
+
+const PLANES = 9u;
+// Sum of the solid fractions of all blocks, with a code: see encode_sum.
+const PLANE_SUM = 0u;
+// Mean velocity of the blocks (3).
+const PLANE_VELOCITY = 1u;
+// For the forces on the blocks: beta = B / e, beta a and beta G (3). In fluid cells next to a block these are 1, rho - 1 and
+// the velocity of the fluid.
+const PLANE_BETA = 4u;
+const PLANE_A = 5u;
+const PLANE_G = 6u;
+
+// Added to the sum in a cell that is deep in one of the blocks.
+const DEEP_SUM = 8.0;
+// Added to the sum in a cell of a closed joint, in which several blocks meet.
+const JOINT_SUM = 16.0;
+// The sum of an empty cell next to one that is not.
+const NEAR_SUM = -1.0;
+
+struct SolidSum {
+    // Sum over the blocks; more than 1 where they overlap.
+    fraction: Real,
+    // Next to a block, or in one.
+    near: Mask,
+    // Next to a block and empty.
+    beside: Mask,
+    deep: Mask,
+    joint: Mask,
+}
+
+// The element `local` of plane `n` of a brick of `elements` elements.
+fn plane_element(slot: u32, n: u32, elements: u32, local: u32) -> u32 {
+    return (slot * PLANES + n) * elements + local;
+}
+
+fn encode_sum(fraction: Real, near: Mask, deep: Mask, joint: Mask) -> Real {
+    let code = select(Real(0.0), Real(DEEP_SUM), deep) + select(Real(0.0), Real(JOINT_SUM), joint);
+    let empty = select(Real(0.0), Real(NEAR_SUM), near);
+    return select(empty, fraction + code, fraction > Real(0.0));
+}
+
+fn decode_sum(kept: Real) -> SolidSum {
+    let joint = kept >= Real(JOINT_SUM);
+    let deep = (kept >= Real(DEEP_SUM)) & !joint;
+    let sum = kept - select(select(Real(0.0), Real(DEEP_SUM), deep), Real(JOINT_SUM), joint);
+    return SolidSum(max(sum, Real(0.0)), kept != Real(0.0), kept < Real(0.0), deep, joint);
+}

@@ -1,0 +1,35 @@
+// Gardner & Sitar 2018, fig. 3: the solid fraction of one part in each cell that voxelise has left over.
+// needs workgroup, tables, brick, ball_share, hull_share
+
+@group(0) @binding(1) var<storage, read> tiles: array<Tile>;
+@group(0) @binding(2) var<storage, read> parts: array<Part>;
+@group(0) @binding(4) var<storage, read_write> shares: array<f32>;
+
+struct Edges {
+    count: u32,
+    // Places in `shares`.
+    cells: array<u32>,
+}
+
+@group(0) @binding(5) var<storage, read> edges: Edges;
+
+// The host does not know how many cells there are: each invocation goes on until there are no more.
+@compute @workgroup_size(64)
+fn voxelise_edges(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let stride = 64u * groups.x * groups.y;
+    for (var n = 64u * turn_of(group, groups) + local; n < edges.count; n += stride) {
+        let place = edges.cells[n];
+        let tile = tiles[place / WORKGROUP];
+        let part = parts[tile.part];
+        let cell = tile.cell + vec3<i32>(place_in_brick(place % WORKGROUP));
+        if (part.faces == 0u) {
+            shares[place] = ball_share(part, cell);
+        } else {
+            shares[place] = hull_share(part, centre_from(cell, part.base, part.fraction));
+        }
+    }
+}

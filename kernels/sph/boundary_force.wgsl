@@ -1,0 +1,51 @@
+// Monaghan 2005, Rep. Prog. Phys. 68:1703: force of the water on each boundary particle of the bodies with loads, opposite
+// to the force of these particles on the water.
+// needs invocation, cell_grid, $cell_ranges, $equation_of_state, wendland, clock, $fluid_neighbours, $drag
+
+@group(0) @binding(0) var<storage, read> particles: array<Particle>;
+@group(0) @binding(2) var<storage, read> boundary: array<Particle>;
+// By the index of the boundary particle; those of bodies with loads come first.
+@group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> clock: Clock;
+
+// The particle, its sorted index, its density, and the sum over the water around it.
+var<private> here: Particle;
+var<private> index: u32;
+var<private> density: f32;
+var<private> force: vec3<f32>;
+
+fn visit_fluid(j: u32) {
+    let other = particles[j];
+    let r = separation(here.at, other.at);
+    let square = dot(r, r);
+    let densities = density * (1.0 + other.excess);
+    let push = (pressure_of(other.excess) + here.excess) / densities;
+    if (square < SUPPORT_SQUARED) {
+        let steep = slope(sqrt(square));
+        force += push * steep * r;
+        drag(index, steep / densities, other.velocity);
+    }
+}
+
+@compute @workgroup_size(64)
+fn boundary_force(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = particle_of(invocation(group, groups, local));
+    if (n >= arrayLength(&boundary) || clock.step == 0.0) {
+        return;
+    }
+    here = boundary[n];
+    index = n;
+    if (here.id >= arrayLength(&forces)) {
+        return;
+    }
+    force = vec3(0.0);
+    if (here.at.x >= 0) {
+        density = 1.0 + excess_of(here.excess);
+        visit_fluid_neighbours(n, here.at);
+    }
+    forces[here.id] = vec4(force, 0.0);
+}

@@ -1,0 +1,11 @@
+// Visits the fluid and boundary particles in the neighbour list of one.
+// needs neighbour_list_layout, fluid_neighbours_lists
+
+fn visit_neighbours(n: u32, at: vec3<i32>) {
+    visit_fluid_neighbours(n, at);
+    let first = list_start(n);
+    let counts = neighbour_counts[n];
+    for (var k = counts.x; k < counts.y; k++) {
+        visit_boundary(neighbour_list[first + 64u * k]);
+    }
+}

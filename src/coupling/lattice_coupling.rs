@@ -1,0 +1,242 @@
+//! Blocks coupled to a lattice: their cells in it, and the loads that it returns.
+
+use super::{
+    Ambient, AsyncReadback, Copied, Coupled, ExchangeInterval, FluidLoad, LoadAverage,
+    fluid_load::add_loads,
+};
+use crate::{
+    Error, Result,
+    geometry::{Load, Pose},
+    lattice::Lattice,
+    psm::{FaceLoad, Frame, SolidBlock, SolidCells},
+    rock::Period,
+    scene::{ProbePlace, Scene},
+    units::Units,
+};
+use glam::DVec3;
+
+/// The cells of blocks in a lattice, and the loads of the fluid on these blocks.
+#[derive(Debug)]
+pub(crate) struct LatticeCoupling {
+    pub(super) cells: SolidCells,
+    pub(super) load_readback: AsyncReadback,
+    pub(super) face_readback: AsyncReadback,
+    /// Of the blocks in the fluid; empty before the first exchange.
+    pub(super) face_loads: Vec<Vec<FaceLoad>>,
+    pub(super) ambient: Ambient,
+    pub(super) load_average: LoadAverage,
+    /// Whether each load is averaged with that of the step before.
+    average: bool,
+    /// Number of blocks in the fluid, the first ones.
+    in_fluid: usize,
+    /// Poses of all blocks for which the cells have been computed.
+    pub(super) placed: Option<Vec<Pose>>,
+}
+
+impl LatticeCoupling {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        (scene, units): (&Scene, &Units),
+        blocks: Vec<SolidBlock>,
+        period: Option<Period>,
+    ) -> Result<Self> {
+        let frame = Frame {
+            origin: DVec3::from(scene.domain.origin),
+            units: *units,
+        };
+        Ok(Self {
+            in_fluid: blocks.len(),
+            cells: SolidCells::new(device, lattice, frame, blocks)?,
+            load_readback: AsyncReadback::default(),
+            face_readback: AsyncReadback::default(),
+            face_loads: Vec::new(),
+            ambient: Ambient {
+                density: scene.fluid.density,
+                acceleration: scene.fluid.acceleration.clone(),
+                gravity: DVec3::from(scene.rock.gravity),
+                period,
+            },
+            load_average: LoadAverage::default(),
+            average: scene.coupling.average,
+            placed: None,
+        })
+    }
+
+    /// Places the blocks at `poses` and records the computation of their cells, unless that is up to date.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device runs out of memory for the cells; the simulation must then be created anew.
+    pub async fn place(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        encoder: &mut wgpu::CommandEncoder,
+        poses: &[Pose],
+    ) -> Result<()> {
+        if self.placed.as_deref() == Some(poses) {
+            return Ok(());
+        }
+        self.placed = None;
+        let in_fluid = self.in_fluid;
+        // A failed allocation also invalidates the bind groups that contain its buffer.
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let placed = self.cells.place(device, queue, lattice, &poses[..in_fluid]);
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = validity.await.or(memory.await);
+        placed?;
+        if let Some(error) = refused {
+            return Err(Error::Device(format!(
+                "it does not hold the cells of {in_fluid} blocks in the fluid ({error}); use fewer or smaller ones, or \
+                 a larger cell"
+            )));
+        }
+        self.cells
+            .record_cells(&mut encoder.begin_compute_pass(&Default::default()));
+        self.placed = Some(poses.to_vec());
+        Ok(())
+    }
+
+    /// Whether an exchange takes place at the end of the step `step` (counted from 1) of an advance that ends with the
+    /// step `last`.
+    pub fn exchanges_at(&self, interval: ExchangeInterval, step: u64, last: u64) -> bool {
+        match interval {
+            // The loads move nothing; output reads them after the last step.
+            ExchangeInterval::Static => step == last && self.cells.wrench_count() > 0,
+            ExchangeInterval::Asleep(interval) | ExchangeInterval::Awake(interval) => {
+                step.is_multiple_of(interval)
+            }
+        }
+    }
+
+    /// Whether the loads of the step `step` (counted from 1) are needed: every step while a block moves; otherwise the
+    /// step of an exchange and, for the average, the step before it.
+    pub fn needs_loads(&self, interval: ExchangeInterval, step: u64, last: u64) -> bool {
+        matches!(interval, ExchangeInterval::Awake(_))
+            || self.exchanges_at(interval, step, last)
+            || self.average && self.exchanges_at(interval, step + 1, last)
+    }
+
+    /// Records the sums of the loads on the blocks in the step `step`, and their copy to the host.
+    pub fn record_loads(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        step: u64,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        self.cells.record_loads(&mut pass);
+        drop(pass);
+        let sums = Copied {
+            buffer: self.cells.wrenches(),
+            count: self.cells.wrench_count(),
+        };
+        self.load_readback.record(device, encoder, sums, step);
+    }
+
+    /// Waits for the recorded loads and adds them to the average since the last exchange.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn read_loads(&mut self) -> Result<()> {
+        for (step, sums) in self.load_readback.finish().await? {
+            let poses = self.placed.iter().flatten();
+            let flow = |(load, pose): (Load, &Pose)| {
+                add_loads(load, self.ambient.entrained_weight(&load, pose.centre))
+            };
+            let loads = self.cells.loads(&sums)?.into_iter().zip(poses);
+            self.load_average
+                .add(step, loads.map(flow).collect(), self.average);
+        }
+        self.read_faces().await
+    }
+
+    /// Returns the mean loads on the blocks since the last exchange, and starts a new average.
+    pub fn exchange(&mut self) -> Vec<FluidLoad> {
+        let flows = self.load_average.take().unwrap_or_default();
+        let load = |flow: Load| FluidLoad {
+            flow,
+            buoyancy: self.ambient.buoyancy(&flow),
+        };
+        flows.into_iter().map(load).collect()
+    }
+
+    /// Records the sums of the loads on single faces in the step `step`, and their copy to the host; nothing unless a
+    /// block requests them.
+    pub fn record_faces(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        step: u64,
+    ) {
+        let Some(buffer) = self.cells.face_sums() else {
+            return;
+        };
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        self.cells.record_faces(&mut pass);
+        drop(pass);
+        let sums = Copied {
+            buffer,
+            count: self.cells.face_sum_count(),
+        };
+        self.face_readback.record(device, encoder, sums, step);
+    }
+
+    /// Waits for the recorded loads on faces; they are those at the beginning of the step.
+    async fn read_faces(&mut self) -> Result<()> {
+        for (_, sums) in self.face_readback.finish().await? {
+            let poses = self.placed.iter().flatten();
+            let loads = self.cells.face_loads(&sums)?;
+            let at_faces = |(loads, pose): (Vec<FaceLoad>, &Pose)| {
+                let load = |load: FaceLoad| {
+                    let body_force = self.ambient.body_force(load.centre);
+                    load.at_face(body_force, pose.centre)
+                };
+                loads.into_iter().map(load).collect()
+            };
+            self.face_loads = loads.into_iter().zip(poses).map(at_faces).collect();
+        }
+        Ok(())
+    }
+}
+
+impl Coupled {
+    /// The loads of the fluid on the faces of a block at the last exchange, part by part; empty unless a probe requests
+    /// them, and before the first exchange.
+    pub fn face_loads(&self, block: usize) -> &[FaceLoad] {
+        if self.face_probes.get(block) != Some(&true) {
+            return &[];
+        }
+        let loads = self.coupling.face_loads.get(block);
+        loads.map_or(&[], Vec::as_slice)
+    }
+}
+
+/// What the probes of a scene request about a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ProbeRequest {
+    /// Whether a probe follows the block.
+    pub load: bool,
+    /// Whether one needs the loads on its faces, for a table of them or for factors of safety.
+    pub faces: bool,
+}
+
+impl ProbeRequest {
+    pub fn of(scene: &Scene, name: &str) -> Self {
+        let faces = |place: &ProbePlace| match place {
+            ProbePlace::Block {
+                block,
+                faces,
+                safety,
+            } if block == name => Some(*faces || *safety),
+            _ => None,
+        };
+        let probes = || scene.probes.iter().filter_map(|probe| faces(&probe.place));
+        Self {
+            load: probes().next().is_some(),
+            faces: probes().any(|faces| faces),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Shapes of blocks: convex polyhedra, compounds, spheres, and rock masses cut by joints.
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::geometry::{JointSet, Polyhedron, RockMass, Scatter};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // A wedge from its corners; its centroid becomes the origin.
+//! let (wedge, centre) = Polyhedron::from_vertices(&[
+//!     DVec3::ZERO,
+//!     DVec3::new(2.0, 0.0, 0.0),
+//!     DVec3::new(0.0, 1.0, 0.0),
+//!     DVec3::new(0.0, 0.0, 1.0),
+//! ])?;
+//! assert!((wedge.volume() - 1.0 / 3.0).abs() < 1e-15);
+//! assert!(centre.distance(DVec3::new(0.5, 0.25, 0.25)) < 1e-15);
+//!
+//! // A cube of 4 m cut every 1 m by joints that fall by 60° to the east.
+//! let cube = Polyhedron::cuboid(DVec3::splat(4.0))?;
+//! let mass = RockMass {
+//!     joints: vec![JointSet {
+//!         dip: 60.0,
+//!         dip_direction: 90.0,
+//!         spacing: 1.0,
+//!         scatter: Scatter::None,
+//!         origin: DVec3::ZERO,
+//!         seed: 0,
+//!         persistence: None,
+//!     }],
+//!     ..RockMass::new(vec![cube.faces().to_vec()])
+//! };
+//! let cut = mass.cut()?;
+//! assert_eq!(cut.blocks.len(), 6);
+//! # Ok(())
+//! # }
+//! ```
+
+mod cell;
+mod closed;
+mod compass;
+mod compound;
+mod convex_parts;
+mod from_half_spaces;
+mod from_mesh;
+mod from_vertices;
+mod half_space;
+mod joint_set;
+mod mesh;
+mod moments;
+mod overlap;
+mod polygons;
+mod polyhedron;
+mod pose;
+mod random;
+mod rock_mass;
+mod settle;
+mod shape;
+mod solids;
+mod winding;
+
+pub use compass::Compass;
+pub use half_space::HalfSpace;
+pub use joint_set::{JointSet, Persistence, Scatter};
+pub use mesh::TriangleMesh;
+pub use polyhedron::Polyhedron;
+pub(crate) use pose::outer;
+pub use pose::{Load, Pose, skew};
+pub(crate) use random::uniform;
+pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
+pub use shape::{Form, Part, Shape};
+pub use winding::WindingTree;

@@ -1,0 +1,180 @@
+//! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
+
+use crate::{
+    Error, Result,
+    rock::{integrate::axial, law::inner},
+};
+use glam::{DMat3, DQuat, DVec3};
+
+/// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
+/// one any matrix, so that the velocity of a point is the same formula for both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centroid, m.
+    pub centre: DVec3,
+    /// F: a point X of the block, m from its centroid in its own frame, is at `centre` + F X.
+    pub deformation: DMat3,
+    /// Velocity of the centroid, m/s.
+    pub velocity: DVec3,
+    /// Ḟ, 1/s.
+    pub deformation_rate: DMat3,
+}
+
+impl Pose {
+    /// A rigid block turned by `rotation` that moves with `velocity` (m/s) and turns with `spin`
+    /// (rad/s, about the axes of the world).
+    pub fn rigid(centre: DVec3, rotation: DQuat, velocity: DVec3, spin: DVec3) -> Self {
+        let deformation = DMat3::from_quat(rotation);
+        Self {
+            centre,
+            deformation,
+            velocity,
+            deformation_rate: skew(spin) * deformation,
+        }
+    }
+
+    /// Whether it is a place and a motion at all.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.centre.is_finite()
+            && self.deformation.is_finite()
+            && self.velocity.is_finite()
+            && self.deformation_rate.is_finite()
+    }
+
+    /// Whether a block keeps a volume in it, and is not turned inside out.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] at `place` if not.
+    pub(crate) fn check_volume(&self, place: impl FnOnce() -> String) -> Result<()> {
+        let determinant = self.deformation.determinant();
+        if determinant > 0.0 {
+            return Ok(());
+        }
+        let message = format!(
+            "the determinant of its deformation F is {determinant}, which leaves no volume; give a matrix whose \
+             determinant is greater than 0, for a rigid block a rotation"
+        );
+        Err(Error::scene(place(), message))
+    }
+
+    /// Place of the point X of the block, m.
+    pub fn point(&self, x: DVec3) -> DVec3 {
+        self.centre + self.deformation * x
+    }
+
+    /// Where it is `time` (s) later if it goes on evenly.
+    pub fn after(&self, time: f64) -> Self {
+        Self {
+            centre: self.centre + time * self.velocity,
+            deformation: self.deformation + self.deformation_rate * time,
+            ..*self
+        }
+    }
+
+    /// What of it lies in the plane at `y` (m), where nothing varies along y: all points of it are in that plane.
+    pub(crate) fn in_plane(&self, y: f64) -> Self {
+        Self {
+            centre: self.centre.with_y(y),
+            velocity: in_plane(self.velocity),
+            deformation: plane_part(self.deformation),
+            deformation_rate: plane_part(self.deformation_rate),
+        }
+    }
+
+    /// Velocity of the point X of the block, m/s.
+    pub fn point_velocity(&self, x: DVec3) -> DVec3 {
+        self.velocity + self.deformation_rate * x
+    }
+}
+
+/// The matrix W with W x = w × x.
+pub fn skew(w: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, w.z, -w.y),
+        DVec3::new(-w.z, 0.0, w.x),
+        DVec3::new(w.y, -w.x, 0.0),
+    )
+}
+
+fn in_plane(v: DVec3) -> DVec3 {
+    v.with_y(0.0)
+}
+
+/// Without row and column of y.
+fn plane_part(m: DMat3) -> DMat3 {
+    DMat3::from_cols(in_plane(m.x_axis), DVec3::ZERO, in_plane(m.z_axis))
+}
+
+/// a ⊗ b, entry i, j being a_i b_j.
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// What a fluid does to a block in a step, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Force, N.
+    pub force: DVec3,
+    /// Σ f ⊗ r (entry i, j is f_i r_j), r from the centroid, N m; the torque is its skew part.
+    pub moment: DMat3,
+    /// Volume in which the fluid moves with the block, ΣB, m³.
+    pub entrained: f64,
+    /// Volume of the block in which the fluid does not move with it, Σ(ε − B), m³. A body force b on the fluid is missing
+    /// from `force` by ρ b ΣB, and the buoyancy −ρ g Σε is that of both volumes.
+    pub missing: f64,
+    /// First moment of the entrained volume about the centroid, m⁴.
+    pub entrained_moment: DVec3,
+    /// First moment of that volume about the centroid, m⁴.
+    pub missing_moment: DVec3,
+}
+
+impl Default for Load {
+    /// None. Not derived: the default of a matrix is the identity.
+    fn default() -> Self {
+        Self {
+            force: DVec3::ZERO,
+            moment: DMat3::ZERO,
+            entrained: 0.0,
+            missing: 0.0,
+            entrained_moment: DVec3::ZERO,
+            missing_moment: DVec3::ZERO,
+        }
+    }
+}
+
+impl Load {
+    /// A force (N) at the offset `r` (m) from the centroid.
+    pub fn at(force: DVec3, r: DVec3) -> Self {
+        Self {
+            force,
+            moment: outer(force, r),
+            ..Self::default()
+        }
+    }
+
+    /// What of it lies in the plane of x and z, where nothing varies along y.
+    pub(crate) fn in_plane(&self) -> Self {
+        Self {
+            force: in_plane(self.force),
+            moment: plane_part(self.moment),
+            ..*self
+        }
+    }
+
+    /// Work (J) on a block that goes evenly from one pose to another under this load: F·Δc + Σ f ⊗ r : ΔF F⁻¹, with F in
+    /// the middle.
+    pub fn work(&self, from: &Pose, to: &Pose) -> f64 {
+        let change = to.deformation - from.deformation;
+        let way = self.force.dot(to.centre - from.centre);
+        if change == DMat3::ZERO {
+            return way;
+        }
+        let middle = 0.5 * (from.deformation + to.deformation);
+        way + inner(self.moment, change * middle.inverse())
+    }
+
+    /// Torque about the centroid, Σ r × f, N m.
+    pub fn torque(&self) -> DVec3 {
+        axial(self.moment)
+    }
+}

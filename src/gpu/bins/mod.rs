@@ -1,0 +1,16 @@
+//! Building blocks of searches on the device: sums of all before, and cells with what lies in them.
+
+mod boxes;
+mod buffers;
+mod cells;
+mod scan;
+
+pub use boxes::{DeviceBox, Level};
+pub(crate) use boxes::{MAX_LEVELS, NUMBER_BITS};
+pub(crate) use buffers::{FEWER_BOXES, at_most, storage, uniform};
+pub(crate) use cells::buckets;
+pub use cells::{Bins, BinsOf};
+pub use scan::{Scan, ScanOf};
+
+/// Invocations of a workgroup of every kernel of bins, scans and the broadphase.
+pub const WORKGROUP: u32 = 64;

@@ -1,0 +1,355 @@
+//! A compute kernel on the caller's device: bound by name, recorded into the caller's pass.
+
+use crate::{
+    Error, Result,
+    gpu::{link::Linked, work::Work},
+};
+use std::borrow::Cow;
+
+/// A pipeline with the names of its bindings.
+#[derive(Debug)]
+pub struct Kernel {
+    entry: String,
+    file: String,
+    slots: Vec<(String, String)>,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    bindings: Vec<Binding>,
+    size: [u32; 3],
+    work: Work,
+}
+
+/// A storage or uniform buffer that a kernel wants.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// Name of the variable in WGSL.
+    pub name: String,
+    /// `@binding` number, in group 0.
+    pub number: u32,
+    /// How the kernel uses it.
+    pub kind: wgpu::BufferBindingType,
+}
+
+/// A linked program on a device. Its kernels share one shader module.
+#[derive(Debug)]
+pub struct Shader {
+    linked: Linked,
+    module: wgpu::ShaderModule,
+}
+
+impl Shader {
+    /// Brings a linked program to the device.
+    pub fn new(device: &wgpu::Device, linked: Linked) -> Self {
+        Self {
+            module: shader_module(device, &linked),
+            linked,
+        }
+    }
+
+    /// Compiles `entry`, as [`Kernel::new`] does.
+    ///
+    /// # Errors
+    /// Those of [`Kernel::new`].
+    pub fn kernel(
+        &self,
+        device: &wgpu::Device,
+        entry: &str,
+        constants: &[(&str, f64)],
+    ) -> Result<Kernel> {
+        compile(device, &self.linked, &self.module, entry, constants)
+    }
+
+    /// The program.
+    pub fn linked(&self) -> &Linked {
+        &self.linked
+    }
+}
+
+/// The module as naga has it: wgpu need not parse the text again.
+fn shader_module(device: &wgpu::Device, linked: &Linked) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(&linked.file),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module.clone())),
+    })
+}
+
+impl Kernel {
+    /// Compiles `entry` of a linked program. `constants` sets its WGSL overrides: exactly those that it declares, but
+    /// that one with a default may be left out.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] if the device allows fewer bindings or smaller workgroups,
+    /// [`Error::Shader`] if there is no such entry point, [`Error::Binding`] if a constant is not declared, is missing,
+    /// or has a value that no 32-bit number has.
+    pub fn new(
+        device: &wgpu::Device,
+        linked: &Linked,
+        entry: &str,
+        constants: &[(&str, f64)],
+    ) -> Result<Self> {
+        compile(
+            device,
+            linked,
+            &shader_module(device, linked),
+            entry,
+            constants,
+        )
+    }
+
+    /// Name of the entry point.
+    pub fn entry(&self) -> &str {
+        &self.entry
+    }
+
+    /// The file of the entry point, without folder and ending.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Its slots and the files that fill them.
+    pub fn slots(&self) -> &[(String, String)] {
+        &self.slots
+    }
+
+    /// Invocations of a workgroup.
+    pub fn invocations(&self) -> u32 {
+        self.size.iter().product()
+    }
+
+    /// What an invocation computes and moves.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// What must be bound, in the order of the binding numbers.
+    pub fn bindings(&self) -> &[Binding] {
+        &self.bindings
+    }
+
+    /// Binds whole buffers by the names that they have in WGSL; names the kernel does not use are
+    /// passed over, so that one list serves all variants of a kernel.
+    ///
+    /// # Errors
+    /// [`Error::Binding`] if a buffer is missing.
+    pub fn bind(
+        &self,
+        device: &wgpu::Device,
+        buffers: &[(&str, &wgpu::Buffer)],
+    ) -> Result<wgpu::BindGroup> {
+        let entries = self
+            .bindings
+            .iter()
+            .map(|b| {
+                let named = buffers.iter().find(|(name, _)| *name == b.name);
+                let (_, buffer) = named.ok_or_else(|| Error::Binding {
+                    kernel: self.entry.clone(),
+                    binding: b.name.clone(),
+                    message: "no buffer was given under this name".into(),
+                })?;
+                Ok(wgpu::BindGroupEntry {
+                    binding: b.number,
+                    resource: buffer.as_entire_binding(),
+                })
+            })
+            .collect::<Result<Vec<_>>>()?;
+        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.entry),
+            layout: &self.layout,
+            entries: &entries,
+        }))
+    }
+
+    /// Records a dispatch of `groups` workgroups, folded into two dimensions where one does not
+    /// hold them. Kernels count `workgroup_id.x + workgroup_id.y * num_workgroups.x`.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, bind: &wgpu::BindGroup, groups: u32) {
+        if groups == 0 {
+            return;
+        }
+        self.record_grid(pass, bind, fold(groups));
+    }
+
+    /// Records a dispatch of x × y workgroups, for kernels that count them row by row.
+    pub fn record_grid(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        bind: &wgpu::BindGroup,
+        [x, y]: [u32; 2],
+    ) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, bind, &[]);
+        pass.dispatch_workgroups(x, y, 1);
+    }
+}
+
+fn compile(
+    device: &wgpu::Device,
+    linked: &Linked,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    constants: &[(&str, f64)],
+) -> Result<Kernel> {
+    check_constants(linked, entry, constants)?;
+    let bindings = bindings(linked, entry)?;
+    let storage = bindings
+        .iter()
+        .filter(|b| matches!(b.kind, wgpu::BufferBindingType::Storage { .. }))
+        .count() as u64;
+    let limits = device.limits();
+    within(
+        "storage buffers a shader stage",
+        storage,
+        limits.max_storage_buffers_per_shader_stage.into(),
+    )?;
+    // wgpu takes a workgroup that is too large without a word.
+    let size = workgroup_size(linked, entry);
+    within(
+        "invocations a workgroup",
+        size.iter().map(|&n| u64::from(n)).product(),
+        limits.max_compute_invocations_per_workgroup.into(),
+    )?;
+    let entries: Vec<_> = bindings
+        .iter()
+        .map(|b| wgpu::BindGroupLayoutEntry {
+            binding: b.number,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: b.kind,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(entry),
+        entries: &entries,
+    });
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(entry),
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&pipeline_layout),
+        module,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants,
+            zero_initialize_workgroup_memory: false,
+        },
+        cache: None,
+    });
+    Ok(Kernel {
+        entry: entry.into(),
+        file: linked.file.clone(),
+        slots: linked.slots.clone().into_iter().collect(),
+        pipeline,
+        layout,
+        bindings,
+        size,
+        work: Work::of(linked, entry)?,
+    })
+}
+
+/// Workgroups that WebGPU promises in one dimension.
+pub const MAX_GROUPS: u32 = 65_535;
+
+/// The smallest grid x × y of at least `groups` workgroups with both sides in the limit.
+pub fn fold(groups: u32) -> [u32; 2] {
+    let y = groups.div_ceil(MAX_GROUPS);
+    [groups.div_ceil(y.max(1)), y]
+}
+
+fn within(name: &str, wants: u64, has: u64) -> Result<()> {
+    if wants <= has {
+        return Ok(());
+    }
+    Err(Error::Limit {
+        name: name.into(),
+        wants,
+        has,
+        remedy: "request the device with the limits that Needs names, or use another adapter"
+            .into(),
+    })
+}
+
+/// Whether `constants` are those that the program declares, each a number of 32 bits.
+fn check_constants(linked: &Linked, entry: &str, constants: &[(&str, f64)]) -> Result<()> {
+    let refused = |name: &str, message: String| {
+        Err(Error::Binding {
+            kernel: entry.into(),
+            binding: name.into(),
+            message,
+        })
+    };
+    for (name, value) in constants {
+        if !linked.declares(name) {
+            let message = "the kernel declares no such constant; look at the spelling";
+            return refused(name, message.into());
+        }
+        if !(*value as f32).is_finite() {
+            let message = format!("its value is {value}, no number of 32 bits; look at the setup");
+            return refused(name, message);
+        }
+    }
+    let required = linked
+        .module
+        .overrides
+        .iter()
+        .filter(|(_, o)| o.init.is_none());
+    for name in required.filter_map(|(_, o)| o.name.as_deref()) {
+        if !constants.iter().any(|(given, _)| *given == name) {
+            return refused(
+                name,
+                "the kernel declares this constant, and no value is given".into(),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The size of the workgroup of `entry`, in invocations; overrides count as given in the text.
+fn workgroup_size(linked: &Linked, entry: &str) -> [u32; 3] {
+    let found = linked.module.entry_points.iter().find(|e| e.name == entry);
+    found.map_or([1; 3], |e| e.workgroup_size)
+}
+
+/// The buffers of group 0 that `entry` uses, by binding number.
+///
+/// # Errors
+/// [`Error::Shader`] if there is no such entry point.
+pub fn bindings(linked: &Linked, entry: &str) -> Result<Vec<Binding>> {
+    let module = &linked.module;
+    let index = module
+        .entry_points
+        .iter()
+        .position(|e| e.name == entry)
+        .ok_or_else(|| Error::Shader {
+            file: entry.into(),
+            line: 0,
+            message: "no entry point has this name".into(),
+        })?;
+    let info = linked.info.get_entry_point(index);
+    let mut found: Vec<Binding> = module
+        .global_variables
+        .iter()
+        .filter(|(handle, _)| !info[*handle].is_empty())
+        .filter_map(|(_, variable)| {
+            let kind = match variable.space {
+                naga::AddressSpace::Uniform => wgpu::BufferBindingType::Uniform,
+                naga::AddressSpace::Storage { access } => wgpu::BufferBindingType::Storage {
+                    read_only: !access.contains(naga::StorageAccess::STORE),
+                },
+                _ => return None,
+            };
+            Some(Binding {
+                name: variable.name.clone()?,
+                number: variable.binding.as_ref()?.binding,
+                kind,
+            })
+        })
+        .collect();
+    found.sort_by_key(|b| b.number);
+    Ok(found)
+}

@@ -1,0 +1,52 @@
+//! The files of `kernels/`, by name.
+
+/// A name and its text.
+macro_rules! sources {
+    ($($folder:literal: $($name:literal),* $(,)?);* $(;)?) => {
+        &[$($(($name, include_str!(concat!("../../../kernels/", $folder, "/", $name, ".wgsl")))),*),*]
+    };
+}
+
+/// Every kernel file: its name without folder and ending, and its text.
+pub const SOURCES: &[(&str, &str)] = sources! {
+    "lattice":
+        "beside_flags", "beside_none", "cell_force_constant", "cell_force_field",
+        "cell_force_none", "cell_gradient", "cells_flagged", "cells_plain", "collide_stream",
+        "derive", "eddy_none", "eddy_wale", "equilibrium_product", "equilibrium_second_order",
+        "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
+        "guard_on", "guo", "incoming", "initialise", "inside_kept", "inside_solids", "keep_none", "keep_velocity", "lanes_1",
+        "lanes_2", "lanes_4", "lattice", "links", "macroscopic", "moments", "moving_wall",
+        "odd_bulk", "odd_solids", "odd_walls", "operator_holdych", "operator_noble", "operator_superposition",
+        "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
+        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "saturation_cells", "saturation_none", "scalar_grid", "store_f16", "store_f32",
+        "stream", "sums", "velocity", "wale", "wall_rates", "weights", "where_all", "where_listed",
+        "word_f16_2", "word_f16_4", "word_f16_4_wide";
+    "measure":
+        "copy_four_vectors", "copy_scalar", "copy_vector", "multiply_add", "stream_only";
+    "gpu":
+        "bin_count", "bin_scatter", "invocation", "saturate", "scan_spread", "scan_sum";
+    "broadphase":
+        "boxes", "found_count", "found_write", "pairs";
+    "psm":
+        "angle", "axes", "ball_power", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
+        "hull_share", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
+        "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tight", "tightness", "tile_sum_parallel",
+        "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
+    "sph":
+        "accelerate", "advance_clock", "advect", "apply_penalty", "bodies", "body_load", "body_sums",
+        "boundary_force", "boundary_neighbour_lists", "boundary_position", "boundary_pressure", "cell_grid",
+        "cell_ranges_open", "cell_ranges_periodic", "check_capacity", "clock", "clock_atomic", "drag_laminar",
+        "drag_none", "drift", "equation_of_state_linear", "equation_of_state_tait", "extrapolated_pressure",
+        "fluid_neighbours_cells", "fluid_neighbours_lists", "list_fluid_neighbours", "mueller_accelerate",
+        "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "neighbour_list_layout",
+        "neighbour_lists", "neighbours_cells", "neighbours_lists", "penalty", "pressure_probes",
+        "reduce_limits", "reduce_particle_limits", "sort_count", "sort_reorder", "sort_scatter",
+        "sort_starts", "viscous_laminar", "viscous_none", "wall_velocity_no_slip", "wall_velocity_none",
+        "wall_work", "wendland";
+};
+
+/// The text of the file `name`.
+pub fn source(name: &str) -> Option<&'static str> {
+    let found = SOURCES.iter().find(|(known, _)| *known == name);
+    found.map(|(_, text)| *text)
+}

@@ -1,0 +1,11 @@
+//! Device side of every kernel: linking of WGSL files, pipelines, buffers, readback, timing, and the sorting primitives that
+//! SPH and the broadphase share.
+
+pub mod bins;
+pub(crate) mod filled;
+pub mod kernel;
+pub mod layout;
+pub mod link;
+pub mod readback;
+pub mod timer;
+pub mod work;

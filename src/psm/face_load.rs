@@ -1,0 +1,288 @@
+//! The load of a fluid on one plane face of a block.
+
+use super::{FACE_LOAD, Frame};
+use crate::{
+    geometry::{Form, Part, Polyhedron, Pose, outer},
+    rock::contact::clip,
+};
+use glam::{DMat3, DVec3};
+
+/// A plane face of a block where it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaneFace {
+    /// Number of the part among those of the block.
+    pub part: usize,
+    /// Number of the face among those of the part.
+    pub face: usize,
+    /// Its centroid, m.
+    pub centre: DVec3,
+    /// Outward unit normal.
+    pub normal: DVec3,
+    /// m².
+    pub area: f64,
+}
+
+/// What a fluid does to one plane face of a block, from the cells of the layer beside it: what a face of less
+/// than some cells shows is coarse. Without a cell of fluid beside it, it has no load.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceLoad {
+    /// The face.
+    pub face: PlaneFace,
+    /// What of the face lies in the domain, m², and in no seam with another part of its block: its area where nothing
+    /// sticks out or is covered. Of a part longer than a period it is that of one period, as the load on a block is.
+    pub inside: f64,
+    /// Centroid of that, m; of the face where it is all seam.
+    pub centre: DVec3,
+    /// Area with fluid beside it, m²: `inside` times the share of the cells beside it that hold fluid alone.
+    pub wetted: f64,
+    /// Force on the wetted area, N: minus its pressure times the normal, and shear.
+    pub force: DVec3,
+    /// Moment of this force about the centroid of the block, N m.
+    pub moment: DVec3,
+    /// Mean of the feet on the face of the centres of the cells from which this follows, m: on grids of few cells not
+    /// the centroid of what is wet.
+    pub foot: DVec3,
+    /// Mean of the squares of their places about that, m².
+    pub spread: DMat3,
+    /// Slope along the face of the pressure in them, Pa/m; by it the force is that at [`FaceLoad::acts_at`], not at `foot`.
+    pub slope: DVec3,
+    /// Mean height over the face of the centres of the cells from which this follows, m.
+    pub height: f64,
+    /// Number of these cells.
+    pub cells: u32,
+}
+
+impl FaceLoad {
+    /// Mean pressure on the wetted area, Pa, that pushes onto the rock where it is positive; NaN without fluid
+    /// beside it.
+    pub fn pressure(&self) -> f64 {
+        -self.force.dot(self.face.normal) / self.wetted
+    }
+
+    /// Mean shear stress on the wetted area, Pa; NaN without fluid beside it.
+    pub fn shear(&self) -> DVec3 {
+        let normal = self.face.normal;
+        (self.force - self.force.dot(normal) * normal) / self.wetted
+    }
+
+    /// Where on the face a force acts that has no moment beside that of the mean traction, m: the centroid of a face
+    /// that is wet all over but for seams, else the mean foot of the cells beside it.
+    pub fn acts_at(&self) -> DVec3 {
+        match self.wetted == self.inside {
+            true => self.centre,
+            false => self.foot,
+        }
+    }
+
+    /// By how much the push at [`FaceLoad::acts_at`] is more than that of the pressure at `foot`, N.
+    pub(crate) fn shifted(&self) -> f64 {
+        self.wetted * self.slope.dot(self.acts_at() - self.foot)
+    }
+
+    /// From what the device added up, [`FACE_LOAD`] numbers, of a block with the centroid `block` (m), what of the face
+    /// lies in the domain, and what of that in `seams`.
+    pub(super) fn new(
+        frame: &Frame,
+        (face, block): (PlaneFace, DVec3),
+        (corners, seams): (&[DVec3], &[Vec<DVec3>]),
+        sums: &[f32],
+    ) -> Self {
+        let (centre, inside) = outside(corners, seams, face.centre);
+        let at = |n: usize| f64::from(sums[n]);
+        let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
+        let [cells, beside] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
+        if cells == 0.0 {
+            return Self {
+                face,
+                inside,
+                centre,
+                ..Self::default()
+            };
+        }
+        let wetted = inside * (cells / beside);
+        let cell = frame.units.cell;
+        // The traction of a cell acts on its share of the wetted area.
+        let share = wetted / (cells * cell * cell);
+        let force = vector(0) * share * frame.units.force_from_lattice(1.0);
+        let moment = vector(3) * share * frame.units.torque_from_lattice(1.0);
+        let foot = vector(7) / cells * cell;
+        let [across, aside] = [vector(10), vector(13)].map(|sum| sum / cells * cell * cell);
+        let squares = DMat3::from_cols(
+            DVec3::new(across.x, aside.z, aside.y),
+            DVec3::new(aside.z, across.y, aside.x),
+            DVec3::new(aside.y, aside.x, across.z),
+        );
+        // All feet lie in the face: what is across it is rounding.
+        let along = DMat3::IDENTITY - outer(face.normal, face.normal);
+        let mut load = Self {
+            face,
+            inside,
+            centre,
+            wetted,
+            force,
+            moment,
+            foot: block + foot,
+            spread: along * (squares - outer(foot, foot)) * along,
+            slope: DVec3::ZERO,
+            height: at(6) / cells * cell,
+            cells: cells as u32,
+        };
+        // Beside a seam the first cells are those that it leaves free. What spreads less than a cell has no slope.
+        let couple = load.moment - (load.foot - block).cross(force);
+        let own = DMat3::IDENTITY * (cell * cell / 12.0);
+        load.slope = (load.spread + own).inverse() * -face.normal.cross(couple) / wetted;
+        load.force -= load.shifted() * face.normal;
+        load.moment = couple + (load.acts_at() - block).cross(load.force);
+        load
+    }
+
+    /// With the pressure that a body force of `weight` (N/m³) adds between the cells and the face: at a wall the
+    /// pressure rises along its normal by the body force.
+    pub(crate) fn at_face(mut self, weight: DVec3, block: DVec3) -> Self {
+        let normal = self.face.normal;
+        let force = weight.dot(normal) * self.height * self.wetted * normal;
+        self.force += force;
+        self.moment += (self.acts_at() - block).cross(force);
+        self
+    }
+}
+
+/// Share of a face below which what seams leave of it is rounding.
+const SLIVER: f64 = 1e-9;
+
+/// Centroid and area of what `seams` leave of a polygon; the centroid `middle` where that is nothing.
+fn outside(corners: &[DVec3], seams: &[Vec<DVec3>], middle: DVec3) -> (DVec3, f64) {
+    let (centre, whole) = area_of(corners);
+    let whole = whole.length();
+    let (mut area, mut moment) = (whole, whole * centre);
+    for seam in seams {
+        let (centre, covered) = area_of(seam);
+        area -= covered.length();
+        moment -= covered.length() * centre;
+    }
+    if seams.is_empty() {
+        return (centre, whole);
+    }
+    match area > SLIVER * whole {
+        true => (moment / area, area),
+        false => (middle, 0.0),
+    }
+}
+
+/// The plane faces of a part, the number `part` of its block, at a pose.
+pub fn plane_faces(part: usize, of: &Part, pose: &Pose) -> Vec<PlaneFace> {
+    let Form::Convex(shape) = &of.form else {
+        return Vec::new();
+    };
+    let face = |face: usize| {
+        let corners = corners(shape, face, of.offset, pose);
+        let (centre, vector) = area_of(&corners);
+        PlaneFace {
+            part,
+            face,
+            centre,
+            normal: vector.normalize_or_zero(),
+            area: vector.length(),
+        }
+    };
+    (0..shape.faces().len()).map(face).collect()
+}
+
+/// A box, infinite where it does not end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Lower corner, m.
+    pub low: DVec3,
+    /// Upper corner, m.
+    pub high: DVec3,
+}
+
+impl Window {
+    /// What of a plane polygon lies in it.
+    pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
+        for axis in 0..3 {
+            let [low, high] = [self.low[axis], self.high[axis]];
+            if low.is_finite() {
+                clip(&mut corners, |x| low - x[axis]);
+            }
+            if high.is_finite() {
+                clip(&mut corners, |x| x[axis] - high);
+            }
+        }
+        corners
+    }
+}
+
+/// Corners of a face at a pose, m, counter-clockwise seen from outside.
+pub fn corners(shape: &Polyhedron, face: usize, offset: DVec3, pose: &Pose) -> Vec<DVec3> {
+    let corner = |&v: &u32| pose.point(offset + shape.vertices()[v as usize]);
+    shape.loops()[face].iter().map(corner).collect()
+}
+
+/// Centroid and area of a plane polygon, the area as a vector along its normal.
+pub fn area_of(corners: &[DVec3]) -> (DVec3, DVec3) {
+    let Some(&first) = corners.first() else {
+        return Default::default();
+    };
+    let triangles = || {
+        corners
+            .windows(2)
+            .map(|pair| [pair[0] - first, pair[1] - first])
+    };
+    let vector: DVec3 = triangles().map(|[a, b]| 0.5 * a.cross(b)).sum();
+    let along = vector.normalize_or_zero();
+    let moment: DVec3 = triangles()
+        .map(|[a, b]| 0.5 * a.cross(b).dot(along) * (a + b) / 3.0)
+        .sum();
+    let area = vector.length();
+    let centre = if area > 0.0 {
+        moment / area
+    } else {
+        DVec3::ZERO
+    };
+    (first + centre, vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_cuts_what_sticks_out_and_leaves_the_rest_as_it_is() {
+        let square = |x: f64| {
+            [(0.1, 0.2), (0.7, 0.2), (0.7, 0.9), (0.1, 0.9)]
+                .map(|(u, v)| DVec3::new(x + u, v, 0.3))
+                .to_vec()
+        };
+        let window = Window {
+            low: DVec3::new(0.0, f64::NEG_INFINITY, 0.0),
+            high: DVec3::new(1.0, f64::INFINITY, 1.0),
+        };
+        assert_eq!(window.clipped(square(0.0)), square(0.0));
+        let (centre, area) = area_of(&window.clipped(square(0.5)));
+        assert!((area - DVec3::Z * 0.28).length() < 1e-15);
+        assert!((centre - DVec3::new(0.8, 0.55, 0.3)).length() < 1e-15);
+        assert_eq!(window.clipped(square(2.0)), []);
+    }
+
+    #[test]
+    fn faces_of_a_turned_box_close_it() {
+        let shape = Polyhedron::cuboid(DVec3::new(2.0, 3.0, 4.0)).unwrap();
+        let turn = glam::DQuat::from_rotation_y(0.7);
+        let pose = Pose::rigid(DVec3::ONE, turn, DVec3::ZERO, DVec3::ZERO);
+        let part = Part {
+            form: Form::Convex(shape),
+            offset: DVec3::X,
+        };
+        let faces = plane_faces(0, &part, &pose);
+        let area: f64 = faces.iter().map(|face| face.area).sum();
+        assert!((area - 2.0 * (6.0 + 8.0 + 12.0)).abs() < 1e-12);
+        let volume: f64 = faces
+            .iter()
+            .map(|face| face.area * face.normal.dot(face.centre - DVec3::ONE) / 3.0)
+            .sum();
+        assert!((volume - 24.0).abs() < 1e-12, "{volume}");
+        let middle = faces.iter().map(|face| face.centre).sum::<DVec3>() / 6.0;
+        assert!((middle - pose.point(DVec3::X)).length() < 1e-12);
+    }
+}

@@ -1,0 +1,169 @@
+//! The kernels of loads on faces, and the memory that only they have.
+
+use super::{
+    FACE_LOAD, FaceJob, Plan, Tile,
+    kernels::{Growing, Kernels, made},
+    plan::SKIN,
+    program,
+    tiles::{Outline, imaged},
+};
+use crate::{Result, gpu::kernel::Kernel, lattice::Lattice};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Names of the buffers in WGSL.
+const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
+/// What the first kernel reads of those of blocks.
+const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "shares"];
+/// How far the centre of a cell that counts is from the plane of a face, at most, cells: half the diagonal of a
+/// cell and the thickness of the layer.
+const REACH: f64 = 1.9;
+
+/// Sums over the cells beside the faces of the blocks that ask.
+#[derive(Debug)]
+pub(super) struct FaceSums {
+    /// Blocks that ask, in the order of the device, ascending.
+    pub requested: Vec<usize>,
+    reduce: Kernel,
+    sum: Kernel,
+    binds: Option<[wgpu::BindGroup; 2]>,
+    buffers: [Growing; 4],
+    jobs: Vec<FaceJob>,
+    face_first: Vec<u32>,
+    /// Of the blocks that ask: along which axes they have images.
+    imaged: HashMap<usize, [bool; 3]>,
+}
+
+impl FaceSums {
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, requested: Vec<usize>) -> Result<Self> {
+        let grid = lattice.grid();
+        let linked = program::reduce_faces(grid).link()?;
+        let mut constants = linked.constants_of(&program::constants(grid));
+        constants.push(("VISCOSITY", lattice.setup().nu));
+        Ok(Self {
+            requested,
+            reduce: Kernel::new(device, &linked, "reduce_faces", &constants)?,
+            sum: Kernel::new(device, &program::sum_faces().link()?, "sum_faces", &[])?,
+            binds: None,
+            buffers: NAMES.map(|name| Growing::new(device, name)),
+            jobs: Vec::new(),
+            face_first: Vec::new(),
+            imaged: HashMap::new(),
+        })
+    }
+
+    /// Lays down which tiles each face looks at, makes room for that, and uploads it; `outlines` are those of the
+    /// parts of all blocks.
+    pub fn lay(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        (lattice, kernels): (&Lattice, &Kernels),
+        (plan, first_part): (&Plan, &[u32]),
+        outlines: &[Vec<Outline>],
+    ) -> Result<()> {
+        self.jobs.clear();
+        self.face_first.clear();
+        self.face_first.push(0);
+        let grid = lattice.grid();
+        let brick = grid.brick.map(f64::from);
+        let periodic = lattice.setup().periodic_axes();
+        self.imaged.clear();
+        for &block in &self.requested {
+            let tiles = plan.tiles_of(block);
+            let imaged = imaged(&outlines[block], grid.cells, periodic);
+            self.imaged.insert(block, imaged);
+            for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
+                for (face, plane) in (0..).zip(&outline.faces) {
+                    let sees = |tile: &u32| {
+                        let tile = &plan.tiles[*tile as usize];
+                        tile.part == part && reaches(tile, brick, outline.centre, plane)
+                    };
+                    let job = |tile| FaceJob { tile, face };
+                    self.jobs.extend(tiles.clone().filter(sees).map(job));
+                    self.face_first.push(self.jobs.len() as u32);
+                }
+            }
+        }
+        let words = |n: usize| 4 * n as u64;
+        let faces = self.face_first.len() - 1;
+        let bytes = [
+            (size_of::<FaceJob>() * self.jobs.len()) as u64,
+            words(self.face_first.len()),
+            words(FACE_LOAD * self.jobs.len()),
+            words(FACE_LOAD * faces),
+        ];
+        for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
+            buffer.hold(device, bytes)?;
+        }
+        // Their lengths say how many jobs and faces there are.
+        for (buffer, bytes) in self.buffers.iter_mut().zip(bytes).take(2) {
+            if buffer.buffer.size() != bytes && bytes > 0 {
+                buffer.buffer = made(device, buffer.label, bytes);
+            }
+        }
+        let own = || {
+            NAMES
+                .iter()
+                .zip(&self.buffers)
+                .map(|(name, b)| (*name, &b.buffer))
+        };
+        let shared = SHARED.iter().map(|name| (*name, kernels.buffer(name)));
+        let saturation = lattice.saturation().map(|buffer| ("saturation", buffer));
+        let named: Vec<_> = own().chain(shared).chain(saturation).collect();
+        self.binds = Some([
+            self.reduce.bind(device, &named)?,
+            self.sum.bind(device, &own().collect::<Vec<_>>())?,
+        ]);
+        queue.write_buffer(&self.buffers[0].buffer, 0, bytemuck::cast_slice(&self.jobs));
+        let first = bytemuck::cast_slice(&self.face_first);
+        queue.write_buffer(&self.buffers[1].buffer, 0, first);
+        Ok(())
+    }
+
+    /// Along which axes a block that asks had images when its tiles were laid down.
+    pub fn imaged(&self, block: usize) -> [bool; 3] {
+        self.imaged.get(&block).copied().unwrap_or_default()
+    }
+
+    /// Records the sums.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
+        let Some([reduce, sum]) = &self.binds else {
+            return;
+        };
+        if !self.jobs.is_empty() {
+            self.reduce.record(pass, reduce, self.jobs.len() as u32);
+        }
+        let numbers = self.count() as u32;
+        if numbers > 0 {
+            self.sum.record(pass, sum, numbers.div_ceil(64));
+        }
+    }
+
+    /// The sums, [`FACE_LOAD`] numbers a face.
+    pub fn loads(&self) -> &wgpu::Buffer {
+        &self.buffers[3].buffer
+    }
+
+    /// How many numbers there are.
+    pub fn count(&self) -> usize {
+        FACE_LOAD * self.face_first.len().saturating_sub(1)
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.buffers
+            .iter()
+            .map(|growing| growing.buffer.size())
+            .sum()
+    }
+}
+
+/// Whether a cell of a tile may be beside a face of the part about `centre`, until tiles are looked for anew: it may
+/// have gone as far as the skin before and after.
+fn reaches(tile: &Tile, brick: [f64; 3], centre: DVec3, (normal, distance): &(DVec3, f64)) -> bool {
+    let half = 0.5 * DVec3::from_array(brick);
+    let middle = DVec3::from_array(tile.cell.map(f64::from)) + half - centre;
+    let height = normal.dot(middle) - distance;
+    height.abs() <= normal.abs().dot(half) + REACH + 2.0 * SKIN
+}

@@ -1,0 +1,282 @@
+//! The kernels of blocks in the fluid, and the memory that they share.
+
+use super::{Plan, Tile, WHOLE, WRENCH, Walk, program};
+use crate::{
+    Error, Result,
+    gpu::{
+        kernel::{Kernel, MAX_GROUPS, fold},
+        link::Program,
+    },
+    lattice::Lattice,
+};
+
+/// A buffer that is made anew when it must hold more.
+#[derive(Debug)]
+pub(super) struct Growing {
+    pub buffer: wgpu::Buffer,
+    pub label: &'static str,
+}
+
+impl Growing {
+    pub fn new(device: &wgpu::Device, label: &'static str) -> Self {
+        Self {
+            buffer: made(device, label, 256),
+            label,
+        }
+    }
+
+    /// Makes room, and half as much again where there is none; says whether the buffer is another one.
+    pub fn hold(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool> {
+        if bytes <= self.buffer.size() {
+            return Ok(false);
+        }
+        let limits = device.limits();
+        let most = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size);
+        if bytes > most {
+            return Err(Error::Limit {
+                name: format!("bytes of one storage binding ({})", self.label),
+                wants: bytes,
+                has: most,
+                remedy:
+                    "use fewer or smaller blocks in the fluid, a larger cell, or another adapter"
+                        .into(),
+            });
+        }
+        self.buffer = made(device, self.label, (bytes + bytes / 2).min(most) / 4 * 4);
+        Ok(true)
+    }
+}
+
+/// Turns of the loops of `hull_share` for a part of so many faces: through all of them, and again for each column.
+fn turns(faces: u32) -> u64 {
+    let faces = u64::from(faces.max(1));
+    let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
+    faces + columns * (1 + columns * (1 + faces))
+}
+
+pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+/// Names of the buffers in WGSL.
+const NAMES: [&str; 13] = [
+    "tiles",
+    "parts",
+    "faces",
+    "motions",
+    "shares",
+    "lane_first",
+    "lane_tiles",
+    "block_first",
+    "partials",
+    "wrenches",
+    "tile_work",
+    "lane_work",
+    "edges",
+];
+
+/// The kernels in the order in which they run, with the list that some go through.
+const KERNELS: [(&str, Option<&str>); 5] = [
+    ("voxelise", Some("tile_work")),
+    ("voxelise_edges", None),
+    ("saturate_cells", Some("lane_work")),
+    ("reduce_tiles", None),
+    ("reduce_blocks", None),
+];
+/// Cells of tiles for each at an edge, of blocks of some ten cells: where there are more, an invocation of
+/// `voxelise_edges` does several.
+const CELLS_AN_EDGE: u64 = 16;
+/// Turns of all loops of an invocation together that every adapter does: some end them after 65 535 without a word.
+const TURNS: u64 = 60_000;
+/// A place in a list that is not used.
+const NOTHING: u32 = u32::MAX;
+/// Most workgroups that folding a dispatch of 2³² adds.
+const SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
+
+/// Kernels with their memory.
+#[derive(Debug)]
+pub(super) struct Kernels {
+    kernels: Vec<Kernel>,
+    binds: Vec<wgpu::BindGroup>,
+    buffers: Vec<Growing>,
+    workgroup: u64,
+    /// Workgroups of the coming dispatches, in the order of `KERNELS`.
+    groups: [u32; 5],
+    walk: Walk,
+    /// Most cells that an invocation of `voxelise_edges` may do.
+    at_once: u64,
+}
+
+impl Kernels {
+    /// For parts of at most `faces` faces.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, faces: u32) -> Result<Self> {
+        let grid = lattice.grid();
+        // Barriers are slow where a CPU walks through the invocations of a workgroup.
+        let walk = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => Walk::Serial,
+            _ => Walk::Parallel,
+        };
+        let programs = [
+            program::voxelise(grid, walk),
+            program::voxelise_edges(grid),
+            program::saturate_cells(grid, walk),
+            program::reduce_tiles(grid, walk),
+            program::reduce_blocks(),
+        ];
+        let constants = program::constants(grid);
+        let kernel = |((entry, _), program): (&(&str, Option<&str>), Program)| {
+            let linked = program.link()?;
+            Kernel::new(device, &linked, entry, &linked.constants_of(&constants))
+        };
+        let kernels = KERNELS.iter().zip(programs).map(kernel);
+        let mut kernels = Self {
+            kernels: kernels.collect::<Result<_>>()?,
+            binds: Vec::new(),
+            buffers: NAMES.map(|name| Growing::new(device, name)).into(),
+            workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
+            groups: [0; 5],
+            walk,
+            at_once: (TURNS / turns(faces)).clamp(1, CELLS_AN_EDGE),
+        };
+        kernels.bind(device, lattice)?;
+        Ok(kernels)
+    }
+
+    /// Buffers by their names.
+    pub fn buffer(&self, name: &str) -> &wgpu::Buffer {
+        let at = NAMES
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or_default();
+        &self.buffers[at].buffer
+    }
+
+    /// Makes room for a plan of `loaded` blocks with loads.
+    pub fn hold(
+        &mut self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        plan: &Plan,
+        [parts, faces, blocks, loaded]: [usize; 4],
+    ) -> Result<()> {
+        let words = |n: usize| 4 * n as u64;
+        let tiles = plan.tiles.len();
+        let bytes = [
+            (size_of::<Tile>() * tiles) as u64,
+            (size_of::<super::Part>() * parts) as u64,
+            (16 * faces) as u64,
+            (size_of::<super::Motion>() * blocks) as u64,
+            words(tiles) * self.workgroup,
+            words(plan.lane_first.len()),
+            words(tiles),
+            words(loaded + 1),
+            words(WRENCH * tiles),
+            words(WRENCH * loaded),
+            words(tiles + SURPLUS),
+            words(plan.lane_count() + SURPLUS),
+            words(tiles) * self.workgroup + 4,
+        ];
+        for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
+            buffer.hold(device, bytes)?;
+        }
+        // Its length says how many blocks there are.
+        let first = &mut self.buffers[7];
+        if first.buffer.size() != words(loaded + 1) {
+            first.buffer = made(device, first.label, words(loaded + 1));
+        }
+        self.bind(device, lattice)
+    }
+
+    /// The saturation belongs to the lattice, which may have made another one.
+    fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
+        let Some(saturation) = lattice.saturation() else {
+            let message = "the lattice has no solid operator, so that no block may be in it";
+            return Err(Error::scene("numerics.solid_operator", message));
+        };
+        let named: Vec<_> = NAMES
+            .iter()
+            .zip(&self.buffers)
+            .map(|(name, growing)| (*name, &growing.buffer))
+            .chain([("saturation", saturation)])
+            .collect();
+        let bind = |(kernel, (_, work)): (&Kernel, &(&str, Option<&str>))| {
+            let mut named = named.clone();
+            named.extend(work.map(|work| ("work", self.buffer(work))));
+            kernel.bind(device, &named)
+        };
+        self.binds = self
+            .kernels
+            .iter()
+            .zip(&KERNELS)
+            .map(bind)
+            .collect::<Result<_>>()?;
+        Ok(())
+    }
+
+    /// Gives the kernels of cells their work: numbers of tiles, and of lanes of bricks; `anew` where these are others than
+    /// before.
+    pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
+        let mark = if anew { WHOLE } else { 0 };
+        for (n, list) in [(0, tiles), (2, lanes)] {
+            self.groups[n] = list.len() as u32;
+            if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
+                // A folded dispatch has a few workgroups too many, which find nothing to do.
+                let [x, y] = fold(list.len() as u32);
+                let mut list: Vec<u32> = list.iter().map(|number| number | mark).collect();
+                list.resize(x as usize * y as usize, NOTHING);
+                queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
+            }
+        }
+        let cells = tiles.len() as u64 * self.workgroup;
+        self.groups[1] = cells.div_ceil(64 * self.at_once) as u32;
+        queue.write_buffer(self.buffer("edges"), 0, &[0; 4]);
+    }
+
+    /// Gives the sums their work: the first tiles and blocks.
+    pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
+        self.groups[3] = self.walk.groups(tiles);
+        self.groups[4] = blocks as u32;
+    }
+
+    /// Records the kernels `which`, those of them that have work.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, which: std::ops::Range<usize>) {
+        for n in which {
+            if self.groups[n] > 0 {
+                self.kernels[n].record(pass, &self.binds[n], self.groups[n]);
+            }
+        }
+    }
+
+    /// All of them in their order, each with the workgroups of the coming dispatch.
+    pub fn all(&self) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.kernels.iter().zip(self.groups)
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        self.buffers
+            .iter()
+            .map(|growing| growing.buffer.size())
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TURNS, turns};
+    use crate::psm::MOST_FACES;
+
+    #[test]
+    fn a_cell_of_any_part_takes_fewer_turns_than_there_are() {
+        assert!((1..=MOST_FACES).all(|faces| turns(faces) <= TURNS));
+    }
+}

@@ -1,0 +1,135 @@
+//! What the device adds up of blocks in a fluid, and the loads that follow from it.
+
+use super::{
+    FACE_LOAD, FaceLoad, Frame, PlaneFace, SolidCells, WRENCH, Window, corners,
+    face_load::plane_faces, face_sums::FaceSums,
+};
+use crate::{
+    Error, Result,
+    geometry::{Form, Load},
+    rock::contact::Placed,
+};
+use glam::DVec3;
+
+/// Gap between the parts of a block, cells, below which there is a seam: `SEAM_GAP` of the kernel.
+const SEAM_GAP: f64 = 1e-3;
+
+impl SolidCells {
+    /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_saturated`].
+    pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernels.record(pass, 3..5);
+    }
+
+    /// The sums, [`WRENCH`] f32 for each block with loads: see [`SolidCells::loads`]. Another buffer after
+    /// [`SolidCells::place`], if it had to grow.
+    pub fn wrenches(&self) -> &wgpu::Buffer {
+        self.kernels.buffer("wrenches")
+    }
+
+    /// How many numbers of [`SolidCells::wrenches`] hold sums.
+    pub fn wrench_count(&self) -> usize {
+        WRENCH * self.loaded
+    }
+
+    /// The loads on all blocks from the numbers of [`SolidCells::wrenches`]: what the fluid did to the solid
+    /// in its cells, without what a body force in these cells and the weight of the water add, and with the inertia of
+    /// the fluid in them: [`Ambient`](crate::coupling::Ambient) and [`InteriorInertia`](crate::coupling::InteriorInertia) make of
+    /// it the load on rock. Blocks without loads have none.
+    ///
+    /// # Errors
+    /// If there are too few numbers.
+    pub fn loads(&self, wrenches: &[f32]) -> Result<Vec<Load>> {
+        if wrenches.len() < self.wrench_count() {
+            let message = format!("{} numbers, not {}", wrenches.len(), self.wrench_count());
+            return Err(Error::scene("wrenches", message));
+        }
+        let load = |&place: &usize| match wrenches.get(WRENCH * place..WRENCH * (place + 1)) {
+            Some(wrench) if place < self.loaded => self.frame.load(wrench),
+            _ => Load::default(),
+        };
+        Ok(self.number.iter().map(load).collect())
+    }
+
+    /// Records the sums of what the fluid does to single faces, after [`crate::lattice::Lattice::record_saturated`]; nothing where
+    /// nobody asks.
+    pub fn record_faces(&self, pass: &mut wgpu::ComputePass<'_>) {
+        if let Some(faces) = &self.face_sums {
+            faces.record(pass);
+        }
+    }
+
+    /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that ask: see [`SolidCells::face_loads`]. None where
+    /// nobody asks; another buffer after [`SolidCells::place`], if it had to grow.
+    pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
+        self.face_sums.as_ref().map(FaceSums::loads)
+    }
+
+    /// How many numbers of [`SolidCells::face_sums`] hold sums.
+    pub fn face_sum_count(&self) -> usize {
+        self.face_sums.as_ref().map_or(0, FaceSums::count)
+    }
+
+    /// The loads on the faces of all blocks where they were placed last, from the numbers of
+    /// [`SolidCells::face_sums`]; blocks that do not ask have none, nor have spheres. Pressures are those in the cells
+    /// beside a face, without what a body force adds on the way to it.
+    ///
+    /// # Errors
+    /// If there are too few numbers.
+    pub fn face_loads(&self, sums: &[f32]) -> Result<Vec<Vec<FaceLoad>>> {
+        let mut loads = vec![Vec::new(); self.blocks.len()];
+        let Some(faces) = &self.face_sums else {
+            return Ok(loads);
+        };
+        if sums.len() < faces.count() || self.poses.is_empty() {
+            let message = format!("{} numbers, not {}", sums.len(), faces.count());
+            return Err(Error::scene("face_sums", message));
+        }
+        let mut sums = sums.chunks_exact(FACE_LOAD);
+        for &block in &faces.requested {
+            let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
+            let parts = shape.parts().iter().enumerate();
+            let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
+            let window = self.window(faces.imaged(block));
+            let placed: Vec<_> = shape.parts().iter().map(|p| Placed::of(p, pose)).collect();
+            let load = |(face, sums): (PlaneFace, _)| {
+                let part = &shape.parts()[face.part];
+                let corners = match &part.form {
+                    Form::Convex(of) => corners(of, face.face, part.offset, pose),
+                    Form::Sphere { .. } => Vec::new(),
+                };
+                let corners = window.clipped(corners);
+                let over = self.frame.units.cell * SEAM_GAP * face.normal;
+                let seam = |(number, other): (usize, &Placed)| {
+                    let raised = corners.iter().map(|x| x + over).collect();
+                    let seam = match number == face.part {
+                        true => Vec::new(),
+                        false => other.clipped(raised),
+                    };
+                    (!seam.is_empty()).then_some(seam)
+                };
+                let seams: Vec<_> = placed.iter().enumerate().filter_map(seam).collect();
+                let polygons = (&corners[..], &seams[..]);
+                FaceLoad::new(&self.frame, (face, pose.centre), polygons, sums)
+            };
+            loads[block] = its.zip(&mut sums).map(load).collect();
+        }
+        let given = self.number.iter();
+        Ok(given
+            .map(|&place| std::mem::take(&mut loads[place]))
+            .collect())
+    }
+
+    /// The domain, without end along the axes along which a block is `imaged`.
+    fn window(&self, imaged: [bool; 3]) -> Window {
+        let (cells, _) = self.domain();
+        let Frame { origin, units } = self.frame;
+        let size = units.cell * DVec3::from_array(cells.map(f64::from));
+        let or = |at: DVec3, end: f64| {
+            DVec3::from_array([0, 1, 2].map(|axis| if imaged[axis] { end } else { at[axis] }))
+        };
+        Window {
+            low: or(origin, f64::NEG_INFINITY),
+            high: or(origin + size, f64::INFINITY),
+        }
+    }
+}

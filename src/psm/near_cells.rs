@@ -1,0 +1,181 @@
+//! Which cells lie in a convex part, or close to it.
+
+use super::tiles::Outline;
+use crate::lattice::in_plane;
+use glam::DVec3;
+
+/// A cell whose centre lies in a part or close to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearCell {
+    /// Its place in an array over the domain, x fastest.
+    pub index: u32,
+    /// How far its centre lies from the part, cells; negative inside. Beyond an edge or a corner the
+    /// distance from the nearest plane, which is less.
+    pub distance: f64,
+    /// Outward normal there.
+    pub normal: DVec3,
+}
+
+/// The cells of a domain of `cells` cells that lie at most `reach` cells from a part, those of its periodic
+/// images included where an axis is periodic.
+pub fn near_cells(
+    outline: &Outline,
+    reach: f64,
+    cells: [u32; 3],
+    periodic: [bool; 3],
+    found: &mut Vec<NearCell>,
+) {
+    let [y, z] = [1, 2].map(|axis| reached(outline, reach, cells, periodic, axis));
+    let (ny, nz) = (i64::from(cells[1]), i64::from(cells[2]));
+    for &z in &z {
+        for &y in &y {
+            let Some((from, to)) = row(outline, reach, y, z) else {
+                continue;
+            };
+            for x in inside(from, to, cells[0], periodic[0]) {
+                let middle = DVec3::new(x as f64, y as f64, z as f64) + 0.5;
+                let (distance, normal) = height(outline, middle - outline.centre);
+                let at = [
+                    x.rem_euclid(cells[0].into()),
+                    y.rem_euclid(ny),
+                    z.rem_euclid(nz),
+                ];
+                found.push(NearCell {
+                    index: (at[0] + i64::from(cells[0]) * (at[1] + ny * at[2])) as u32,
+                    distance,
+                    normal,
+                });
+            }
+        }
+    }
+}
+
+/// Places of the cells on an axis that the box of a part, grown by `reach`, holds.
+fn reached(
+    outline: &Outline,
+    reach: f64,
+    cells: [u32; 3],
+    periodic: [bool; 3],
+    axis: usize,
+) -> Vec<i64> {
+    let low = outline.centre[axis] + outline.low[axis] - reach;
+    let high = outline.centre[axis] + outline.high[axis] + reach;
+    inside(low, high, cells[axis], periodic[axis]).collect()
+}
+
+/// Places of the cells of an axis whose middle lies between two, beyond the domain only where it is
+/// periodic.
+fn inside(low: f64, high: f64, cells: u32, periodic: bool) -> std::ops::RangeInclusive<i64> {
+    let (first, last) = ((low - 0.5).ceil() as i64, (high - 0.5).floor() as i64);
+    match periodic {
+        true => first..=last,
+        false => first.max(0)..=last.min(i64::from(cells) - 1),
+    }
+}
+
+/// The part of the row of cells through `y` and `z` that lies at most `reach` from a part.
+fn row(outline: &Outline, reach: f64, y: i64, z: i64) -> Option<(f64, f64)> {
+    let (b, c) = in_plane(0);
+    let mut at = DVec3::ZERO;
+    at[b] = y as f64 + 0.5 - outline.centre[b];
+    at[c] = z as f64 + 0.5 - outline.centre[c];
+    let (mut from, mut to) = (outline.low.x - reach, outline.high.x + reach);
+    if outline.faces.is_empty() {
+        let half = (outline.radius + reach).powi(2) - at.length_squared();
+        let half = (half >= 0.0).then(|| half.sqrt())?;
+        (from, to) = (-half, half);
+    }
+    for (normal, distance) in &outline.faces {
+        let left = distance + reach - normal.dot(at);
+        if normal.x > 0.0 {
+            to = to.min(left / normal.x);
+        } else if normal.x < 0.0 {
+            from = from.max(left / normal.x);
+        } else if left < 0.0 {
+            return None;
+        }
+    }
+    (from <= to).then_some((from + outline.centre.x, to + outline.centre.x))
+}
+
+/// Distance of a point from a part, and the normal there.
+fn height(outline: &Outline, point: DVec3) -> (f64, DVec3) {
+    if outline.faces.is_empty() {
+        let length = point.length();
+        let normal = point.try_normalize().unwrap_or(DVec3::X);
+        return (length - outline.radius, normal);
+    }
+    let faces = outline.faces.iter();
+    faces
+        .map(|(normal, distance)| (normal.dot(point) - distance, *normal))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or((f64::INFINITY, DVec3::X))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells_of(outline: &Outline, reach: f64, periodic: [bool; 3]) -> Vec<NearCell> {
+        let mut found = Vec::new();
+        near_cells(outline, reach, [12, 10, 8], periodic, &mut found);
+        found
+    }
+
+    fn cube(centre: DVec3, half: f64) -> Outline {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        Outline {
+            centre,
+            low: DVec3::splat(-half),
+            high: DVec3::splat(half),
+            faces: axes.iter().flat_map(|n| [(*n, half), (-n, half)]).collect(),
+            radius: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_cube_covers_its_cells_and_reaches_those_around_it() {
+        let cube = cube(DVec3::splat(4.0), 2.0);
+        let covered = cells_of(&cube, 0.0, [false; 3]);
+        assert_eq!(covered.len(), 4 * 4 * 4);
+        assert!(covered.iter().all(|near| near.distance <= -0.5));
+        let around = cells_of(&cube, 1.0, [false; 3]);
+        assert_eq!(around.len(), 6 * 6 * 6);
+        let beside: Vec<_> = around.iter().filter(|near| near.distance > 0.0).collect();
+        assert_eq!(beside.len(), 6 * 6 * 6 - 4 * 4 * 4);
+        assert!(beside.iter().all(|near| near.distance == 0.5));
+    }
+
+    #[test]
+    fn what_leaves_a_periodic_domain_comes_in_on_the_other_side() {
+        let cube = cube(DVec3::new(0.0, 4.0, 4.0), 2.0);
+        assert_eq!(cells_of(&cube, 0.0, [false; 3]).len(), 2 * 4 * 4);
+        let both = cells_of(&cube, 0.0, [true, false, false]);
+        assert_eq!(both.len(), 4 * 4 * 4);
+        let x: Vec<u32> = both[..4].iter().map(|near| near.index % 12).collect();
+        assert_eq!(x, [10, 11, 0, 1]);
+    }
+
+    #[test]
+    fn a_sphere_covers_what_lies_within_its_radius() {
+        let centre = DVec3::new(5.3, 4.9, 4.1);
+        let sphere = Outline {
+            centre,
+            low: DVec3::splat(-2.7),
+            high: DVec3::splat(2.7),
+            radius: 2.7,
+            ..Outline::default()
+        };
+        let covered = cells_of(&sphere, 0.0, [false; 3]);
+        let all = (0..12 * 10 * 8).filter(|at| {
+            let cell = DVec3::new(
+                f64::from(at % 12),
+                f64::from(at / 12 % 10),
+                f64::from(at / 120),
+            );
+            (cell + 0.5 - centre).length() <= 2.7
+        });
+        let cells: Vec<u32> = covered.iter().map(|near| near.index).collect();
+        assert_eq!(cells, all.collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,119 @@
+//! Which files and numbers make the kernels of immersed blocks.
+
+use crate::{gpu::link::Program, lattice::Grid};
+
+/// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
+/// cell that many faces cut takes four columns through all of them.
+pub const MOST_FACES: u32 = 8192;
+
+/// Storage buffers of the kernel that has the most of them, `reduce_faces`.
+pub const MOST_BINDINGS: u32 = 8;
+
+/// Added to a number in `work`: all of its cells are to be done, as where nothing stands in memory yet, not only those
+/// that parts can reach.
+pub const WHOLE: u32 = 1 << 31;
+
+/// Who goes through the cells of a tile. Both give the same numbers, sums up to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walk {
+    /// As few invocations as fill a vector, and one that adds up, without barriers: for CPU adapters, which fetch what
+    /// holds for the whole tile for each invocation anew.
+    Serial,
+    /// An invocation a cell, and 64 that add up: for GPUs.
+    Parallel,
+}
+
+/// Invocations that a CPU adapter goes through as one vector.
+const VECTOR: u32 = 8;
+
+impl Walk {
+    /// Workgroups of `reduce_tiles` for a number of tiles.
+    pub fn groups(self, tiles: u32) -> u32 {
+        match self {
+            Self::Serial => tiles.div_ceil(64),
+            Self::Parallel => tiles,
+        }
+    }
+}
+
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
+/// which the first word must be 0 before, and which has room for a word more than `shares`.
+pub fn voxelise(grid: &Grid, walk: Walk) -> Program {
+    walked("voxelise", grid, walk)
+}
+
+/// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
+/// `parts`, `faces`, `shares`, `edges`.
+pub fn voxelise_edges(grid: &Grid) -> Program {
+    base("voxelise_edges", grid)
+}
+
+/// `saturate_cells`: a workgroup a lane of a saturated brick, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
+/// `motions`, `lane_first`, `lane_tiles`, `shares`, `saturation`.
+pub fn saturate_cells(grid: &Grid, walk: Walk) -> Program {
+    walked("saturate_cells", grid, walk)
+}
+
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
+/// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
+pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
+    let file = match walk {
+        Walk::Serial => "tile_sum_serial",
+        Walk::Parallel => "tile_sum_parallel",
+    };
+    base("reduce_tiles", grid).slot("tile_sum", file)
+}
+
+/// `reduce_blocks`: a workgroup a block. Binds `block_first`, `partials`, `wrenches`.
+pub fn reduce_blocks() -> Program {
+    Program::new("reduce_blocks")
+}
+
+/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells beside it, from where cells no longer
+/// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
+/// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
+/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `shares`, `saturation`, and
+/// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
+/// faces.
+pub fn reduce_faces(grid: &Grid) -> Program {
+    base("reduce_faces", grid)
+}
+
+/// `sum_faces`: an invocation a number of a face, 64 a workgroup. Binds `face_first` (jobs before each
+/// face, and all), `face_partials`, `face_loads`.
+pub fn sum_faces() -> Program {
+    Program::new("sum_faces")
+}
+
+/// The numbers that all of them take from the grid.
+pub fn constants(grid: &Grid) -> Vec<(&'static str, f64)> {
+    vec![
+        ("BRICK_X", grid.brick[0].into()),
+        ("BRICK_Y", grid.brick[1].into()),
+        ("LANES_OF_ELEMENT", grid.lanes.into()),
+    ]
+}
+
+fn base(entry: &str, grid: &Grid) -> Program {
+    let cells = cells(grid);
+    Program::new(entry)
+        .text("workgroup", format!("const WORKGROUP = {cells}u;\n"))
+        .slot("lanes", "lanes_1")
+}
+
+/// The same of a kernel whose invocations share the cells of a tile.
+fn walked(entry: &str, grid: &Grid, walk: Walk) -> Program {
+    let cells = cells(grid);
+    let invocations = match walk {
+        Walk::Serial => cells.min(VECTOR),
+        Walk::Parallel => cells,
+    };
+    let text = format!("const WORKGROUP = {cells}u;\nconst INVOCATIONS = {invocations}u;\n");
+    Program::new(entry)
+        .text("workgroup", text)
+        .slot("lanes", "lanes_1")
+}
+
+fn cells(grid: &Grid) -> u32 {
+    grid.brick.iter().product()
+}

@@ -1,0 +1,382 @@
+//! Blocks in a fluid on the device.
+
+use super::{
+    Frame, MOST_FACES, Motion, Part, Plan,
+    face_sums::FaceSums,
+    frame::FARTHEST,
+    kernels::Kernels,
+    outline::{outline, rows},
+    tiles::{Outline, Tiling},
+};
+use crate::{
+    Error, Result,
+    geometry::{Form, Pose, Shape},
+    gpu::kernel::Kernel,
+    lattice::Lattice,
+};
+use std::sync::Arc;
+
+/// A block that is put into a fluid.
+#[derive(Clone, Debug)]
+pub struct SolidBlock {
+    /// Its shape, m.
+    pub shape: Arc<Shape>,
+    /// Whether somebody wants to know what the fluid does to it.
+    pub loaded: bool,
+    /// Whether somebody wants to know what it does to each of its faces.
+    pub faces: bool,
+}
+
+/// What was computed anew since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CellWork {
+    /// Tiles whose solid fractions were.
+    pub tiles: u64,
+    /// Lanes of bricks whose saturation was.
+    pub lanes: u64,
+    /// Times that the tiles of blocks were looked for.
+    pub searches: u64,
+}
+
+/// Blocks in a fluid, as partially saturated cells.
+///
+/// A step is [`SolidCells::place`] with the poses of the blocks, [`SolidCells::record_cells`],
+/// [`Lattice::record_saturated`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
+/// [`SolidCells::wrenches`] holds what [`SolidCells::loads`] makes loads of, and with [`SolidCells::record_faces`] beside
+/// the loads [`SolidCells::face_sums`] what [`SolidCells::face_loads`] does. Poses, motions and loads are SI.
+#[derive(Debug)]
+pub struct SolidCells {
+    pub(super) frame: Frame,
+    tiling: Tiling,
+    /// In the order of the device: those with loads first.
+    pub(super) blocks: Vec<SolidBlock>,
+    /// Place of each block in that order.
+    pub(super) number: Vec<usize>,
+    pub(super) loaded: usize,
+    /// First part of each block, and first face of each part.
+    first_part: Vec<u32>,
+    first_face: Vec<u32>,
+    faces: usize,
+    pub(super) poses: Vec<Pose>,
+    outlines: Vec<Vec<Outline>>,
+    plan: Plan,
+    pub(super) kernels: Kernels,
+    /// None where nobody asks for faces.
+    pub(super) face_sums: Option<FaceSums>,
+    work: CellWork,
+}
+
+impl SolidCells {
+    /// Puts blocks into the lattice, which must have a solid operator; they are nowhere until
+    /// [`SolidCells::place`].
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
+    pub fn new(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        frame: Frame,
+        blocks: Vec<SolidBlock>,
+    ) -> Result<Self> {
+        frame.check()?;
+        let mut order: Vec<usize> = (0..blocks.len()).collect();
+        order.sort_by_key(|&block| !blocks[block].loaded);
+        let mut number = vec![0; blocks.len()];
+        for (place, &block) in order.iter().enumerate() {
+            number[block] = place;
+        }
+        let blocks: Vec<_> = order.iter().map(|&block| blocks[block].clone()).collect();
+        let (mut first_part, mut first_face) = (vec![0], vec![0]);
+        let (mut faces, mut most) = (0, 0);
+        for block in &blocks {
+            for part in block.shape.parts() {
+                if let Form::Convex(shape) = &part.form {
+                    let count = shape.faces().len() as u32;
+                    if count > MOST_FACES {
+                        return Err(Error::Limit {
+                            name: "faces of a convex part in a fluid".into(),
+                            wants: count.into(),
+                            has: MOST_FACES.into(),
+                            remedy: "simplify its mesh".into(),
+                        });
+                    }
+                    faces += count;
+                    most = most.max(count);
+                }
+                first_face.push(faces);
+            }
+            first_part.push(first_face.len() as u32 - 1);
+        }
+        let requests = |block: &usize| blocks[*block].faces;
+        let requested: Vec<usize> = (0..blocks.len()).filter(requests).collect();
+        let face_sums = match requested.is_empty() {
+            true => None,
+            false => Some(FaceSums::new(device, lattice, requested)?),
+        };
+        Ok(Self {
+            face_sums,
+            tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
+            loaded: blocks.iter().filter(|block| block.loaded).count(),
+            plan: Plan::new(blocks.len()),
+            kernels: Kernels::new(device, lattice, most)?,
+            frame,
+            number,
+            first_part,
+            first_face,
+            faces: faces as usize,
+            poses: Vec::new(),
+            outlines: vec![Vec::new(); blocks.len()],
+            blocks,
+            work: CellWork::default(),
+        })
+    }
+
+    /// Puts the blocks where they are now, one pose each, for the coming steps: uploads what has changed
+    /// and lays down what is to be computed anew.
+    ///
+    /// # Errors
+    /// If the number of poses differs, one is not finite, leaves no volume or is farther away than cells are counted, or the device
+    /// does not hold the cells; then nothing is in place, and the next call does everything anew.
+    pub fn place(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        poses: &[Pose],
+    ) -> Result<()> {
+        if poses.len() != self.blocks.len() {
+            let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
+            return Err(Error::scene("poses", message));
+        }
+        let nowhere = |pose: &Pose| !pose.is_finite();
+        if let Some(bad) = poses.iter().position(nowhere) {
+            return Err(Error::NotFinite {
+                block: format!("block {bad}"),
+                time: lattice.step() as f64 * self.frame.units.time_step,
+                remedy: "look at its load and its drive; a shorter time step may help".into(),
+            });
+        }
+        for (block, pose) in poses.iter().enumerate() {
+            pose.check_volume(|| format!("block {block}"))?;
+        }
+        let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
+        if let Some(bad) = poses.iter().position(far) {
+            let message = format!(
+                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene; \
+                 end the run before, or close the boundary through which it went",
+                poses[bad].centre
+            );
+            return Err(Error::scene(format!("block {bad}"), message));
+        }
+        let poses = self.ordered(poses);
+        let start = self.poses.is_empty();
+        let differs = |block: usize, what: fn(&Pose, &Pose) -> bool| {
+            start || what(&poses[block], &self.poses[block])
+        };
+        let moved: Vec<usize> = (0..poses.len())
+            .filter(|&block| {
+                differs(block, |a, b| {
+                    (a.centre, a.deformation) != (b.centre, b.deformation)
+                })
+            })
+            .collect();
+        let changed: Vec<usize> = (0..poses.len())
+            .filter(|&block| differs(block, |a, b| a != b))
+            .collect();
+        if changed.is_empty() {
+            self.set_work(queue, &[], &[], false);
+            return Ok(());
+        }
+        for &block in &moved {
+            self.outlines[block] = self.outlines_at(block, &poses[block]);
+        }
+        let cell = self.frame.units.cell;
+        let strayed = moved.iter().any(|&block| {
+            let radius = self.blocks[block].shape.radius();
+            self.plan.has_strayed(block, &poses[block], radius, cell)
+        });
+        if strayed {
+            // All blocks: what is found depends on where they are alone.
+            for (block, pose) in poses.iter().enumerate() {
+                let outlines = std::mem::take(&mut self.outlines[block]);
+                self.find(block, pose, &outlines);
+                self.outlines[block] = outlines;
+            }
+        }
+        let anew = start || strayed;
+        if anew {
+            // Until all is in place.
+            self.poses.clear();
+            self.make_room(device, queue, lattice)?;
+            self.upload_plan(queue);
+            if let Some(faces) = &mut self.face_sums {
+                let held = (&*lattice, &self.kernels);
+                let plan = (&self.plan, &self.first_part[..]);
+                faces.lay(device, queue, held, plan, &self.outlines)?;
+            }
+            self.work.searches += 1;
+        }
+        self.poses = poses;
+        self.upload_tables(queue);
+        if anew {
+            let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
+            let lanes: Vec<u32> = (0..self.plan.lane_count() as u32).collect();
+            self.set_work(queue, &tiles, &lanes, true);
+        } else {
+            let tiles = moved.iter().flat_map(|&block| self.plan.tiles_of(block));
+            let tiles: Vec<u32> = tiles.collect();
+            let lanes = self.plan.lanes_of(changed.iter().copied());
+            self.set_work(queue, &tiles, &lanes, false);
+        }
+        Ok(())
+    }
+
+    /// The poses, or what goes with them, in the order of the device.
+    fn ordered<T: Copy>(&self, given: &[T]) -> Vec<T> {
+        let mut ordered = given.to_vec();
+        for (value, &place) in given.iter().zip(&self.number) {
+            ordered[place] = *value;
+        }
+        ordered
+    }
+
+    fn outlines_at(&self, block: usize, pose: &Pose) -> Vec<Outline> {
+        let parts = self.blocks[block].shape.parts().iter();
+        parts.map(|part| outline(&self.frame, part, pose)).collect()
+    }
+
+    /// Finds the tiles of a block anew, if that is due.
+    fn find(&mut self, block: usize, pose: &Pose, outlines: &[Outline]) {
+        let radius = self.blocks[block].shape.radius();
+        let at = (pose, radius, self.frame.units.cell);
+        let first = self.first_part[block];
+        self.plan.find(&self.tiling, block, at, outlines, first);
+    }
+
+    fn make_room(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+    ) -> Result<()> {
+        self.plan.assemble(lattice.geometry(), lattice.grid());
+        lattice.set_saturated(device, queue, &self.plan.bricks)?;
+        let counts = [
+            self.first_face.len() - 1,
+            self.faces,
+            self.blocks.len(),
+            self.loaded,
+        ];
+        self.kernels.hold(device, lattice, &self.plan, counts)
+    }
+
+    /// Where the tiles of each block were found, at or near its present pose; its velocity has no meaning.
+    pub fn tiled(&self) -> Vec<Option<Pose>> {
+        let found = self.number.iter();
+        found.map(|&place| self.plan.found_at(place)).collect()
+    }
+
+    /// Finds the tiles as they were when [`SolidCells::tiled`] gave these poses, so that the loads are summed in
+    /// the same order; the next [`SolidCells::place`] does all else anew.
+    pub fn tile(&mut self, tiled: &[Option<Pose>]) {
+        for (block, tiled) in self.ordered(tiled).into_iter().enumerate() {
+            self.plan.forget(block);
+            if let Some(pose) = tiled {
+                let outlines = self.outlines_at(block, &pose);
+                self.find(block, &pose, &outlines);
+            }
+        }
+        self.poses.clear();
+    }
+
+    fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
+        self.kernels.set_work(queue, tiles, lanes, anew);
+        self.work.tiles += tiles.len() as u64;
+        self.work.lanes += lanes.len() as u64;
+    }
+
+    fn upload_plan(&mut self, queue: &wgpu::Queue) {
+        let plan = &self.plan;
+        let lists = [
+            ("tiles", bytemuck::cast_slice(&plan.tiles)),
+            ("lane_first", bytemuck::cast_slice(&plan.lane_first)),
+            ("lane_tiles", bytemuck::cast_slice(&plan.lane_tiles)),
+            (
+                "block_first",
+                bytemuck::cast_slice(&plan.block_first[..=self.loaded]),
+            ),
+        ];
+        for (name, bytes) in lists {
+            queue.write_buffer(self.kernels.buffer(name), 0, bytes);
+        }
+        let tiles = plan.block_first[self.loaded];
+        self.kernels.set_sums(tiles, self.loaded);
+    }
+
+    fn upload_tables(&mut self, queue: &wgpu::Queue) {
+        let mut parts: Vec<Part> = Vec::with_capacity(self.first_face.len());
+        let mut faces: Vec<[f32; 4]> = Vec::with_capacity(self.faces);
+        for (block, outlines) in (0..).zip(&self.outlines) {
+            for outline in outlines {
+                let (part, its) = rows(outline, block, self.first_face[parts.len()]);
+                parts.push(part);
+                faces.extend(its);
+            }
+        }
+        let motions: Vec<Motion> = self
+            .poses
+            .iter()
+            .map(|pose| self.frame.motion(pose))
+            .collect();
+        let tables = [
+            ("parts", bytemuck::cast_slice(&parts)),
+            ("faces", bytemuck::cast_slice(&faces)),
+            ("motions", bytemuck::cast_slice(&motions)),
+        ];
+        for (name, bytes) in tables {
+            queue.write_buffer(self.kernels.buffer(name), 0, bytes);
+        }
+    }
+
+    /// Records what the solid is in each cell, after [`SolidCells::place`]; nothing where no block has
+    /// changed since the last time.
+    pub fn record_cells(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernels.record(pass, 0..3);
+    }
+
+    /// Bricks that blocks reach.
+    pub fn bricks(&self) -> &[u32] {
+        &self.plan.bricks
+    }
+
+    /// Tiles: parts of blocks in a lane of a brick.
+    pub fn tiles(&self) -> usize {
+        self.plan.tiles.len()
+    }
+
+    /// What was computed anew since the start.
+    pub fn work(&self) -> CellWork {
+        self.work
+    }
+
+    /// The kernels in the order in which they run, each with the workgroups of the coming step.
+    pub fn kernels(&self) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.kernels.all()
+    }
+
+    /// Bytes on the device.
+    pub fn bytes(&self) -> u64 {
+        let faces = self.face_sums.as_ref().map_or(0, FaceSums::bytes);
+        self.kernels.bytes() + faces
+    }
+
+    /// Cells of the domain, and which of its axes are periodic.
+    pub(crate) fn domain(&self) -> ([u32; 3], [bool; 3]) {
+        self.tiling.domain()
+    }
+
+    /// Where the lattice is, and its units.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+}

@@ -1,0 +1,131 @@
+//! What the host tells the device about blocks, as it lies in `kernels/psm/tables.wgsl`. Lattice
+//! units: a cell and a step are one.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Share of a part in a cell that is inside it, as are all cells within two layers around.
+pub const DEEP: f32 = 2.0;
+
+/// Share of a part in a cell that it leaves empty, but not all of the 26 cells around.
+pub const NEAR: f32 = -1.0;
+
+/// The same of a cell whose side lies on a face of the part.
+pub const TOUCHES: f32 = -2.0;
+
+/// Added to the sum of the shares in a cell that is deep in one of its parts.
+pub const DEEP_SUM: f32 = 8.0;
+
+/// Added to it in a full cell of a closed joint, in which several blocks meet.
+pub const JOINT_SUM: f32 = 16.0;
+
+/// Numbers that each cell of a saturated brick has on the device.
+pub const PLANES: usize = 9;
+
+/// Numbers that the device adds up for each block.
+pub const WRENCH: usize = 20;
+
+/// Numbers that the device adds up for each face that is asked for, over the layer of cells beside it: traction
+/// (3), its moment about the block's centroid (3), height of the cells' centres over the face, their feet on the face
+/// from that centroid (3) and the products of these (xx, yy, zz, yz, zx, xy), number of cells with fluid, number of
+/// cells.
+pub const FACE_LOAD: usize = 18;
+
+/// The part of one convex part of a block in one lane of one saturated brick.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Tile {
+    /// Its lowest cell, shifted by whole periods of the domain to be next to the part.
+    pub cell: [i32; 3],
+    /// Number of the convex part.
+    pub part: u32,
+    /// Number of the block.
+    pub block: u32,
+    /// Number of the brick among the saturated ones.
+    pub slot: u32,
+    /// Lane of the brick's elements.
+    pub lane: u32,
+    /// Cells an axis, from the lowest, that lie in the domain: [`Tile::pack`]; and which of all the part can reach:
+    /// [`Tile::reaching`].
+    pub inside: u32,
+}
+
+impl Tile {
+    /// Parts of equal size, but for the last ones, into which the cells of a tile are divided, in the order of the workgroup.
+    pub const EIGHTHS: u32 = 8;
+
+    /// Numbers of cells an axis, at most 255 each, in one word; the part can reach all of them.
+    pub const fn pack([x, y, z]: [u32; 3]) -> u32 {
+        x | y << 8 | z << 16 | Self::EIGHTHS << 28
+    }
+
+    /// The same of a part that can reach the eighths from `first` up to `end` alone.
+    #[must_use]
+    pub const fn reaching(self, [first, end]: [u32; 2]) -> Self {
+        let inside = self.inside & 0xff_ffff | first << 24 | end << 28;
+        Self { inside, ..self }
+    }
+}
+
+/// Where a convex part is. Its centroid is at `base` + `fraction` (cells), 0 ≤ `fraction` < 1, so that
+/// the distance of a cell from `base` is exact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Part {
+    /// Whole cells of the centroid.
+    pub base: [i32; 3],
+    /// Its first face in the list of all: outward unit normal, and distance from the centroid (cells).
+    pub first_face: u32,
+    /// Rest of the centroid, cells.
+    pub fraction: [f32; 3],
+    /// Number of faces; 0: a sphere.
+    pub faces: u32,
+    /// Lower corner of the bounding box from the centroid, cells.
+    pub low: [f32; 3],
+    /// Radius of a sphere, cells.
+    pub radius: f32,
+    /// Upper corner of the bounding box from the centroid, cells.
+    pub high: [f32; 3],
+    /// Number of the block that it belongs to.
+    pub block: u32,
+}
+
+/// How a block moves. Its material at r (cells) from the centroid has the velocity `velocity` +
+/// `gradient_x` r.x + `gradient_y` r.y + `gradient_z` r.z.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Motion {
+    /// Whole cells of the centroid.
+    pub base: [i32; 3],
+    /// Not used.
+    pub pad0: u32,
+    /// Rest of the centroid, cells.
+    pub fraction: [f32; 3],
+    /// Not used.
+    pub pad1: u32,
+    /// Velocity of the centroid, cells a step.
+    pub velocity: [f32; 3],
+    /// Not used.
+    pub pad2: u32,
+    /// Change of the velocity along x, 1 a step.
+    pub gradient_x: [f32; 3],
+    /// Not used.
+    pub pad3: u32,
+    /// Change of the velocity along y, 1 a step.
+    pub gradient_y: [f32; 3],
+    /// Not used.
+    pub pad4: u32,
+    /// Change of the velocity along z, 1 a step.
+    pub gradient_z: [f32; 3],
+    /// Not used.
+    pub pad5: u32,
+}
+
+/// What one workgroup of `reduce_faces` does.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct FaceJob {
+    /// Number of the tile.
+    pub tile: u32,
+    /// Number of the face in the tile's part.
+    pub face: u32,
+}

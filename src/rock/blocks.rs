@@ -1,0 +1,390 @@
+//! All blocks of a scene and their state.
+
+use super::{
+    Body, ContactPoint, Ledger, Setup, Sleep,
+    body::{Flight, State},
+    books::{All, Books},
+    bound, check,
+    deforming::{DeformingBlocks, pose},
+    films::Films,
+    make,
+    narrow::Joints,
+    pairs::Mark,
+    parts::Parts,
+    period::Periods,
+    resolvers::Resolvers,
+    step::is_time,
+    sums::Sum,
+    touch::Pair,
+    touches::Touches,
+};
+use crate::{
+    Error, Result,
+    geometry::{Load, Pose},
+    rock::{
+        broadphase::Broadphase,
+        contact::{Counts, Options},
+        integrate,
+        law::{self, Joint},
+    },
+};
+use glam::{DQuat, DVec3};
+
+/// Blocks that move under gravity, loads and each other's contacts.
+///
+/// ```
+/// use glam::DVec3;
+/// use riprap::{geometry::{Polyhedron, Shape}, rock::{Block, Blocks, Material, Setup}};
+/// use std::sync::Arc;
+///
+/// # fn main() -> riprap::Result<()> {
+/// // A cube of 1 m falls for 0.1 s.
+/// let shape: Arc<Shape> = Arc::new(Polyhedron::cuboid(DVec3::ONE)?.into());
+/// let mut blocks = Blocks::new(Setup {
+///     blocks: vec![Block::new("cube", shape, DVec3::Z)],
+///     materials: vec![Material::default()],
+///     time_step: Some(1e-3),
+///     ..Setup::default()
+/// })?;
+/// for _ in 0..100 {
+///     if blocks.wants_pairs() {
+///         blocks.set_pairs(Vec::new())?; // It is alone.
+///     }
+///     blocks.step()?;
+/// }
+/// assert!((blocks.poses()[0].centre.z - (1.0 - 0.5 * 9.81 * 0.01)).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Blocks {
+    pub(super) bodies: Vec<Body>,
+    pub(super) joints: Joints,
+    pub(super) gravity: DVec3,
+    pub(super) damping: f64,
+    /// Whether the step was given, and stays.
+    pub(super) given_step: bool,
+    pub(super) skin: f64,
+    pub(super) sleep: Option<Sleep>,
+    pub(super) start_overlap: f64,
+    pub(super) largest_overlap: f64,
+    pub(super) corner_area: f64,
+    /// Where space repeats.
+    pub(super) periods: Option<Periods>,
+    /// Fluid in thin gaps.
+    pub(super) film: Option<law::Film>,
+    pub(super) resolvers: Resolvers,
+
+    pub(super) time: f64,
+    pub(super) steps: u64,
+    pub(super) time_step: f64,
+    pub(super) started: bool,
+    pub(super) states: Vec<State>,
+    pub(super) deforming: DeformingBlocks,
+    /// Poses when the pairs were found; empty: never.
+    pub(super) marks: Vec<Mark>,
+    pub(super) pairs: Vec<Pair>,
+    pub(super) touches: Touches,
+    pub(super) books: Books,
+
+    // What a step writes before it is known to be good; then `next_…` change places with what they follow.
+    pub(super) parts: Parts,
+    pub(super) flights: Vec<Flight>,
+    pub(super) sums: Vec<Sum>,
+    pub(super) films: Films,
+    /// What they have taken in this step, J.
+    pub(super) filmed: f64,
+    pub(super) next_states: Vec<State>,
+    pub(super) next_pairs: Vec<Pair>,
+    pub(super) next_touches: Touches,
+}
+
+impl Blocks {
+    /// Blocks at t = 0.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming a block without mass, a pose that is not finite, a material that does not
+    /// exist or cannot be.
+    pub fn new(setup: Setup) -> Result<Self> {
+        Self::with_options(setup, Options::default())
+    }
+
+    /// The same with contacts resolved by `options`.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::new`].
+    pub fn with_options(setup: Setup, options: Options) -> Result<Self> {
+        check::check(&setup)?;
+        let joints = check::joints(&setup);
+        let (bodies, states, deforming) = make::make(&setup);
+        let (frequency_squared, _) = bound::of_shapes(&bodies, &deforming, &joints);
+        let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
+        let time_step = setup.time_step.unwrap_or(usual);
+        let mut blocks = Self {
+            skin: setup.skin.unwrap_or_else(|| make::usual_skin(&bodies)),
+            joints,
+            gravity: setup.gravity,
+            damping: setup.damping,
+            given_step: setup.time_step.is_some(),
+            sleep: setup.sleep,
+            start_overlap: setup.start_overlap,
+            largest_overlap: setup.largest_overlap,
+            corner_area: setup.corner_area,
+            film: setup.film,
+            periods: None,
+            resolvers: Resolvers::new(options),
+            time: 0.0,
+            steps: 0,
+            time_step,
+            started: false,
+            marks: Vec::new(),
+            pairs: Vec::new(),
+            touches: Touches::default(),
+            books: Books::default(),
+            parts: Parts::new(&bodies),
+            flights: vec![Flight::default(); bodies.len()],
+            sums: Vec::new(),
+            films: Films::default(),
+            filmed: 0.0,
+            next_states: states.clone(),
+            next_pairs: Vec::new(),
+            next_touches: Touches::default(),
+            bodies,
+            states,
+            deforming,
+        };
+        blocks.place();
+        if let Some(period) = setup.period {
+            blocks.periods = Some(blocks.repeated(period)?);
+        }
+        Ok(blocks)
+    }
+
+    /// Number of blocks.
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Whether there is no block.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
+    }
+
+    /// s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Step of [`Blocks::step`], and the longest of [`Blocks::advance`], s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Distance below which pairs are candidates, m.
+    pub fn skin(&self) -> f64 {
+        self.skin
+    }
+
+    /// Where the blocks are and how they move.
+    pub fn poses(&self) -> Vec<Pose> {
+        let all = self.bodies.iter().zip(&self.states);
+        let strains = &self.deforming.strains;
+        all.map(|(body, state)| pose(body, state, strains))
+            .collect()
+    }
+
+    /// Name of a block; empty if there is no such block.
+    pub fn name(&self, block: usize) -> &str {
+        self.bodies.get(block).map_or("", |body| &body.name)
+    }
+
+    /// Mass of a block, kg; not a number if there is no such block.
+    pub fn mass(&self, block: usize) -> f64 {
+        self.bodies.get(block).map_or(f64::NAN, |body| body.mass)
+    }
+
+    /// Rotation of a block; not a number if there is no such block.
+    pub fn rotation(&self, block: usize) -> DQuat {
+        let state = self.states.get(block);
+        state.map_or(DQuat::NAN, |state| state.rotation)
+    }
+
+    /// Spins about the world's axes, rad/s.
+    pub fn spins(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.spin)
+    }
+
+    /// Angular momentum of a free block about its centroid, world, kg m²/s; not a number if there is no such block.
+    pub fn angular_momentum(&self, block: usize) -> DVec3 {
+        let state = self.states.get(block);
+        state.map_or(DVec3::NAN, |state| state.momentum)
+    }
+
+    /// Net force of the contacts on each block, N.
+    pub fn contact_forces(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.force)
+    }
+
+    /// Net torque of the contacts on each block about its centroid, N m.
+    pub fn contact_torques(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.states.iter().map(|state| state.torque)
+    }
+
+    /// Force of films of fluid on each block over the last half of the last step, N.
+    pub fn film_forces(&self) -> Vec<DVec3> {
+        let mut forces = vec![DVec3::ZERO; self.len()];
+        for (block, force) in self.films.forces() {
+            forces[block] = force;
+        }
+        forces
+    }
+
+    /// External force, N, and torque about the centroid, N m, on each block.
+    pub fn loads(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
+        let each = self.states.iter();
+        each.map(|state| [state.load, state.load_torque])
+    }
+
+    /// Which blocks sleep.
+    pub fn asleep(&self) -> impl Iterator<Item = bool> + '_ {
+        self.states.iter().map(|state| state.asleep)
+    }
+
+    /// Whether a block can move: it is there, and free or driven.
+    pub fn moves(&self, block: usize) -> bool {
+        self.bodies.get(block).is_some_and(|body| !body.is_fixed())
+    }
+
+    /// Speed of the fastest point of a free block, m/s.
+    pub fn largest_speed(&self) -> f64 {
+        let free = self.bodies.iter().zip(&self.states);
+        free.filter(|(body, _)| body.is_free())
+            .map(|(body, state)| self.deforming.fastest(body, state))
+            .fold(0.0, f64::max)
+    }
+
+    /// The contacts at the end of the last step, in the order of the pairs.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> + '_ {
+        let real = self.touches.iter().filter(|touch| touch.area > 0.0);
+        real.map(ContactPoint::of)
+    }
+
+    /// The joint between two blocks, by their materials.
+    ///
+    /// # Panics
+    /// If there is no such block.
+    pub fn joint(&self, [a, b]: [usize; 2]) -> &Joint {
+        let material = |block: usize| self.bodies[block].material;
+        self.joints.of(material(a), material(b))
+    }
+
+    /// Gravity, m/s².
+    pub fn gravity(&self) -> DVec3 {
+        self.gravity
+    }
+
+    /// Force, N, and torque about its centroid, N m, of what acts on a block alone now: its point loads, and its mass
+    /// times its acceleration.
+    pub(crate) fn acting(&self, block: usize) -> [DVec3; 2] {
+        let body = &self.bodies[block];
+        let Some(acting) = body.acting() else {
+            return [DVec3::ZERO; 2];
+        };
+        let pose = pose(body, &self.states[block], &self.deforming.strains);
+        let pull = acting.pull(pose.deformation, body.mass, self.time);
+        [pull.force, integrate::axial(pull.moment)]
+    }
+
+    /// Energies since the start.
+    pub fn ledger(&self) -> Ledger {
+        self.books.ledger(self.all(), &self.touches, self.gravity)
+    }
+
+    /// What the resolvers have done so far.
+    pub fn counts(&self) -> Counts {
+        self.resolvers.counts()
+    }
+
+    /// Number of candidate pairs.
+    pub fn candidates(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// External loads of all blocks, which act until they are set anew.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is not one for each block, or one is not finite.
+    pub fn load(&mut self, loads: &[Load]) -> Result<()> {
+        if loads.len() != self.len() {
+            let message = format!("{} loads for {} blocks", loads.len(), self.len());
+            return Err(Error::scene("loads", message));
+        }
+        let finite = |load: &Load| load.force.is_finite() && load.moment.is_finite();
+        if let Some(i) = loads.iter().position(|load| !finite(load)) {
+            let message = format!("the load {:?} is not finite", loads[i].force);
+            return Err(Error::scene(self.label(i), message));
+        }
+        for (state, load) in self.states.iter_mut().zip(loads) {
+            state.load = load.force;
+            state.load_torque = load.torque();
+        }
+        let deforming = &mut self.deforming;
+        for (one, strain) in deforming.list.iter().zip(&mut deforming.strains) {
+            strain.load = loads[one.block].moment;
+        }
+        let all = All {
+            bodies: &self.bodies,
+            states: &self.states,
+            deforming: &self.deforming,
+        };
+        self.books.reload(all, self.time);
+        self.wake();
+        Ok(())
+    }
+
+    /// Steps until the time is `until` (s), in equal steps of at most the time step, with pairs from
+    /// `finder` when they are wanted.
+    ///
+    /// # Errors
+    /// Those of [`Blocks::step`], and of the finder, and [`Error::Scene`] if that time is not finite.
+    pub async fn advance(&mut self, finder: &mut impl Broadphase, until: f64) -> Result<()> {
+        is_time(until)?;
+        while self.time < until {
+            if self.wants_pairs() {
+                let pairs = finder.pairs(&self.items()).await?;
+                self.set_pairs(pairs)?;
+            }
+            self.step_known(self.stride(until))?;
+        }
+        Ok(())
+    }
+
+    /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if that time is not finite.
+    pub fn wait(&mut self, until: f64) -> Result<()> {
+        is_time(until)?;
+        self.time = self.time.max(until);
+        Ok(())
+    }
+
+    /// All of them, with their state.
+    fn all(&self) -> All<'_> {
+        All {
+            bodies: &self.bodies,
+            states: &self.states,
+            deforming: &self.deforming,
+        }
+    }
+
+    /// A block in a message.
+    pub(super) fn label(&self, block: usize) -> String {
+        super::narrow::label(block, &self.bodies[block].name)
+    }
+}

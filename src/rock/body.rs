@@ -1,0 +1,289 @@
+//! One block: what stays and what changes.
+
+use super::{
+    Block, Motion,
+    acting::{self, Acting},
+    deforming::{RIGID, Under},
+    films::Push,
+    sums::Sum,
+};
+use crate::{
+    formula::Formula,
+    geometry::{Pose, Shape},
+    rock::integrate::{self, Principal},
+};
+use glam::{DMat3, DQuat, DVec3};
+use std::{ops::Range, sync::Arc};
+
+/// What stays.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    pub name: String,
+    pub shape: Arc<Shape>,
+    pub material: u32,
+    /// Its number among those that deform, or [`RIGID`].
+    pub deforming: u32,
+    pub drive: Drive,
+    /// Unit vector along which alone it moves, without turning, if it is guided.
+    pub guide: Option<Box<DVec3>>,
+    /// kg.
+    pub mass: f64,
+    /// kg m².
+    pub inertia: Principal,
+    /// Of the ball about its centroid that holds it, m.
+    pub radius: f64,
+    /// Its parts among all parts.
+    pub parts: Range<usize>,
+}
+
+/// What moves it. Formulas are rare and elsewhere, so that a body is small: all are read in each step.
+#[derive(Clone, Debug)]
+pub(super) enum Drive {
+    /// Those of contacts and loads, and maybe more of its own.
+    Forces(Option<Box<Acting>>),
+    Nothing,
+    /// Velocity and spin.
+    Formulas(Box<[[Formula; 3]; 2]>),
+}
+
+impl Drive {
+    pub fn of(block: &Block) -> Self {
+        match &block.motion {
+            Motion::Free => Self::Forces(Acting::of(block)),
+            Motion::Fixed => Self::Nothing,
+            Motion::Driven { velocity, spin } => {
+                Self::Formulas(Box::new([velocity.clone(), spin.clone()]))
+            }
+        }
+    }
+}
+
+impl Body {
+    pub fn is_free(&self) -> bool {
+        matches!(self.drive, Drive::Forces(_))
+    }
+
+    pub fn is_fixed(&self) -> bool {
+        matches!(self.drive, Drive::Nothing)
+    }
+
+    /// Velocity and spin of a driven block at the time `t`; zero for others.
+    pub fn driven_at(&self, t: f64) -> [DVec3; 2] {
+        let Drive::Formulas(formulas) = &self.drive else {
+            return [DVec3::ZERO; 2];
+        };
+        formulas.each_ref().map(|v| acting::value(v, t))
+    }
+
+    /// The formula of a driven block that is not finite at the time `t` (s), if one is.
+    pub fn undriven_at(&self, t: f64) -> Option<&str> {
+        let Drive::Formulas(formulas) = &self.drive else {
+            return None;
+        };
+        let mut all = formulas.iter().flatten();
+        let lost = all.find(|formula| !formula.eval_at([0.0; 3], t).is_finite());
+        lost.map(Formula::text)
+    }
+
+    /// What acts on it alone.
+    pub fn acting(&self) -> Option<&Acting> {
+        match &self.drive {
+            Drive::Forces(acting) => acting.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Whether it may sleep: what deforms swings on, and formulas of time wake nobody.
+    pub fn may_sleep(&self) -> bool {
+        matches!(self.drive, Drive::Forces(None)) && self.deforming == RIGID
+    }
+
+    /// Force over mass, gravity included, m/s², and torque, N m, on a free rigid block at the time `t` (s).
+    fn pulls(&self, state: &State, gravity: DVec3, t: f64) -> [DVec3; 2] {
+        let mut force = state.force + state.load;
+        let mut torque = state.torque + state.load_torque;
+        if let Some(acting) = self.acting() {
+            let more = acting.pull(DMat3::from_quat(state.rotation), self.mass, t);
+            force += more.force;
+            torque += integrate::axial(more.moment);
+        }
+        let rate = force / self.mass + gravity;
+        match self.guide.as_deref() {
+            Some(axis) => [axis.dot(rate) * *axis, DVec3::ZERO],
+            None => [rate, torque],
+        }
+    }
+
+    /// 1/kg; 0 if forces do not move it.
+    pub fn inverse_mass(&self) -> f64 {
+        if self.is_free() { 1.0 / self.mass } else { 0.0 }
+    }
+}
+
+/// What changes, between two steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct State {
+    /// m.
+    pub centre: DVec3,
+    pub rotation: DQuat,
+    /// m/s.
+    pub velocity: DVec3,
+    /// Angular momentum, world, kg m²/s.
+    pub momentum: DVec3,
+    /// Spin, world, rad/s.
+    pub spin: DVec3,
+    /// Net force of the contacts, N.
+    pub force: DVec3,
+    /// Net torque of the contacts, N m.
+    pub torque: DVec3,
+    /// External force, N.
+    pub load: DVec3,
+    /// External torque, N m.
+    pub load_torque: DVec3,
+    /// Time for which it has been slow, s.
+    pub slow: f64,
+    pub asleep: bool,
+    /// Force and torque when it fell asleep, loads included.
+    pub slept: [DVec3; 2],
+}
+
+impl State {
+    /// Takes over what the contacts do.
+    pub fn pull(&mut self, sum: &Sum) {
+        (self.force, self.torque) = (sum.force, sum.torque);
+    }
+
+    pub fn pose(&self) -> Pose {
+        Pose::rigid(self.centre, self.rotation, self.velocity, self.spin)
+    }
+
+    /// Whether it can be computed with: distances and energies are squares.
+    pub fn is_finite(&self) -> bool {
+        let squares = [self.centre, self.velocity, self.momentum, self.spin];
+        self.rotation.is_finite() && squares.iter().all(|v| v.length_squared().is_finite())
+    }
+
+    /// ½mv² + ½ω·L, J.
+    pub fn kinetic(&self, mass: f64) -> f64 {
+        0.5 * (mass * self.velocity.length_squared() + self.spin.dot(self.momentum))
+    }
+}
+
+/// How a block moves within a step, and what else its contacts ask of it: together, since each contact
+/// looks at two blocks that may be anywhere in the lists.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Flight {
+    /// At the end of the step, m.
+    pub centre: DVec3,
+    /// At the end of the step.
+    pub rotation: DQuat,
+    /// Mean velocity over the step, m/s.
+    pub velocity: DVec3,
+    /// Mean spin over the step, rad/s.
+    pub spin: DVec3,
+    /// Velocity expected at the end, m/s.
+    pub end_velocity: DVec3,
+    /// Spin expected at the end, rad/s.
+    pub end_spin: DVec3,
+    /// 1/kg; 0 if forces do not move it.
+    pub inverse_mass: f64,
+    pub material: u32,
+    /// Whether it is fixed or sleeps.
+    pub rests: bool,
+}
+
+impl Flight {
+    /// Of a block that stays where `state` is.
+    pub fn still(body: &Body, state: &State) -> Self {
+        Self {
+            centre: state.centre,
+            rotation: state.rotation,
+            inverse_mass: body.inverse_mass(),
+            material: body.material,
+            rests: body.is_fixed() || state.asleep,
+            ..Self::default()
+        }
+    }
+
+    /// Of a block before its first step.
+    pub fn at_start(body: &Body, state: &State) -> Self {
+        Self {
+            end_velocity: state.velocity,
+            end_spin: state.spin,
+            ..Self::still(body, state)
+        }
+    }
+}
+
+/// Velocity and angular momentum of a free rigid block in the middle of a step.
+pub(super) fn first_half(body: &Body, state: &State, under: Under) -> (DVec3, DVec3) {
+    let Under {
+        gravity,
+        damping,
+        time,
+        dt,
+    } = under;
+    let [rate, torque] = body.pulls(state, gravity, time);
+    (
+        integrate::first_kick(state.velocity, rate, damping, dt),
+        integrate::first_kick(state.momentum, torque, damping, dt),
+    )
+}
+
+/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
+/// goes with its like. `push`: what films of fluid do to it on the way.
+pub(super) fn fly(body: &Body, state: &mut State, push: Push, under: Under) -> Flight {
+    let Under { time, dt, .. } = under;
+    match &body.drive {
+        Drive::Nothing => Flight::still(body, state),
+        Drive::Forces(_) if state.asleep || body.deforming != RIGID => Flight::still(body, state),
+        Drive::Forces(_) => {
+            let (velocity, momentum) = first_half(body, state, under);
+            let (velocity, momentum) = (velocity + push.velocity, momentum + push.momentum);
+            // The dashpots want the velocity at the end of the step, which the force there is part of:
+            // the last acceleration gives it to second order.
+            let end_velocity = 2.0 * velocity - state.velocity;
+            let end_momentum = 2.0 * momentum - state.momentum;
+            state.centre += velocity * dt;
+            state.rotation = integrate::turn(&body.inertia, state.rotation, momentum, dt);
+            (state.velocity, state.momentum) = (velocity, momentum);
+            Flight {
+                velocity,
+                spin: integrate::spin(&body.inertia, state.rotation, momentum),
+                end_velocity,
+                end_spin: integrate::spin(&body.inertia, state.rotation, end_momentum),
+                ..Flight::still(body, state)
+            }
+        }
+        Drive::Formulas(_) => {
+            let [mid_velocity, mid_spin] = body.driven_at(time + 0.5 * dt);
+            state.centre += mid_velocity * dt;
+            state.rotation = (DQuat::from_scaled_axis(mid_spin * dt) * state.rotation).normalize();
+            [state.velocity, state.spin] = body.driven_at(time + dt);
+            Flight {
+                velocity: mid_velocity,
+                spin: mid_spin,
+                end_velocity: state.velocity,
+                end_spin: state.spin,
+                ..Flight::still(body, state)
+            }
+        }
+    }
+}
+
+/// The second kick of a step, with the forces at its end.
+pub(super) fn land(body: &Body, state: &mut State, under: Under) {
+    if !body.is_free() || state.asleep || body.deforming != RIGID {
+        return;
+    }
+    let Under {
+        gravity,
+        damping,
+        time,
+        dt,
+    } = under;
+    let [rate, torque] = body.pulls(state, gravity, time + dt);
+    state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
+    state.momentum = integrate::second_kick(state.momentum, torque, damping, dt);
+    state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
+}

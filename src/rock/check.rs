@@ -1,0 +1,170 @@
+//! A setup that can be computed.
+
+mod deformable;
+
+use super::{Guide, Motion, Setup, Sleep, narrow::Joints, narrow::label};
+use crate::{Error, Result, rock::law::Joint};
+use glam::DVec3;
+
+/// # Errors
+/// [`Error::Scene`] naming the first number that cannot be used.
+pub(super) fn check(setup: &Setup) -> Result<()> {
+    let positive = |place: &str, value: f64, unit: &str| {
+        if value > 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        let message = format!("{value} must be greater than 0 {unit}");
+        Err(Error::scene(place, message))
+    };
+    if !setup.gravity.is_finite() {
+        let message = format!("{} must be finite", setup.gravity);
+        return Err(Error::scene("gravity", message));
+    }
+    if !(setup.damping >= 0.0 && setup.damping.is_finite()) {
+        let message = format!("{} must be 0 1/s or more", setup.damping);
+        return Err(Error::scene("damping", message));
+    }
+    if let Some(step) = setup.time_step {
+        positive("time_step", step, "s")?;
+    }
+    if let Some(skin) = setup.skin {
+        positive("skin", skin, "m")?;
+    }
+    positive("start_overlap", setup.start_overlap, "")?;
+    positive("largest_overlap", setup.largest_overlap, "")?;
+    if !(0.0..=1.0).contains(&setup.corner_area) {
+        let message = format!("{} must be between 0 and 1", setup.corner_area);
+        return Err(Error::scene("corner_area", message));
+    }
+    if let Some(period) = &setup.period {
+        period.check()?;
+    }
+    if let Some(film) = &setup.film {
+        film.check()?;
+    }
+    if let Some(Sleep {
+        speed,
+        after,
+        change,
+    }) = setup.sleep
+    {
+        positive("sleep.speed", speed, "m/s")?;
+        positive("sleep.after", after, "s")?;
+        positive("sleep.change", change, "")?;
+    }
+    for (i, material) in setup.materials.iter().enumerate() {
+        let place = format!("materials[{i}]");
+        positive(&format!("{place}.density"), material.density, "kg/m³")?;
+        material.joint.check(&place)?;
+        if let Some(elastic) = &material.elastic {
+            elastic.check(&place)?;
+        }
+    }
+    for (i, pair) in setup.pairs.iter().enumerate() {
+        let place = format!("pairs[{i}]");
+        if let Some(bad) = pair.materials.iter().find(|&&m| m >= setup.materials.len()) {
+            let message = format!("there is no material {bad}, only {}", setup.materials.len());
+            return Err(Error::scene(place, message));
+        }
+        pair.joint.check(&place)?;
+    }
+    for (i, block) in setup.blocks.iter().enumerate() {
+        check_block(setup, i)?;
+        let place = label(i, &block.name);
+        deformable::check(setup, block, &place)?;
+        deformable::check_acting(block, &place)?;
+    }
+    setup
+        .guides
+        .iter()
+        .try_for_each(|guide| check_guide(setup, guide))
+}
+
+/// A guided block is free and rigid, and starts along its guide.
+fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
+    let Some(block) = setup.blocks.get(guide.block) else {
+        let (asked, known) = (guide.block, setup.blocks.len());
+        let message = format!("there is no block {asked}, only {known}");
+        return Err(Error::scene("guides", message));
+    };
+    let refuse = |message: &str| {
+        let place = format!("{}: guide", label(guide.block, &block.name));
+        Err(Error::scene(place, message))
+    };
+    let axis = guide.axis.try_normalize();
+    let Some(axis) = axis.filter(|_| guide.axis.is_finite()) else {
+        return refuse("must be an axis of finite length, not 0, such as [0, 0, 1]");
+    };
+    if block.motion != Motion::Free || block.deformable.is_some() {
+        return refuse(
+            "only a free rigid block slides along one; remove motion or deformable, or the guide",
+        );
+    }
+    if setup.film.is_some() {
+        return refuse(
+            "films of fluid between blocks (coupling.lubrication) push guided ones aside; turn them off, or remove the guide",
+        );
+    }
+    let across = block.velocity - axis.dot(block.velocity) * axis;
+    if across.length() > 1e-9 * block.velocity.length() || block.spin != DVec3::ZERO {
+        return refuse("its velocity must be along its guide, and its spin 0");
+    }
+    Ok(())
+}
+
+fn check_block(setup: &Setup, index: usize) -> Result<()> {
+    let block = &setup.blocks[index];
+    let refuse = |message: String| Err(Error::scene(label(index, &block.name), message));
+    let Some(material) = setup.materials.get(block.material) else {
+        let (asked, known) = (block.material, setup.materials.len());
+        return refuse(format!("there is no material {asked}, only {known}"));
+    };
+    let mass = material.density * block.shape.volume();
+    if !(mass > 0.0 && mass.is_finite()) {
+        return refuse(format!("its mass is {mass} kg; it must be greater than 0"));
+    }
+    let numbers = [
+        ("centre", block.centre.is_finite()),
+        ("rotation", block.rotation.is_finite()),
+        ("velocity", block.velocity.is_finite()),
+        ("spin", block.spin.is_finite()),
+    ];
+    if let Some((name, _)) = numbers.iter().find(|(_, finite)| !finite) {
+        return refuse(format!("its {name} is not finite"));
+    }
+    if (block.rotation.length() - 1.0).abs() > 1e-6 {
+        let length = block.rotation.length();
+        return refuse(format!(
+            "its rotation is a quaternion of length {length}, not 1"
+        ));
+    }
+    if let Motion::Driven { velocity, spin } = &block.motion {
+        for (name, formulas) in [("velocity", velocity), ("spin", spin)] {
+            let value = |k: usize| formulas[k].eval_at([0.0; 3], 0.0);
+            if let Some(k) = (0..3).find(|&k| !value(k).is_finite()) {
+                let text = formulas[k].text();
+                return refuse(format!("its {name} `{text}` is not finite at t = 0"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The joint of every two materials.
+pub(super) fn joints(setup: &Setup) -> Joints {
+    let materials = setup.materials.len();
+    let mut table = Vec::with_capacity(materials * materials);
+    for a in &setup.materials {
+        let row = setup.materials.iter();
+        table.extend(row.map(|b| Joint::between(&a.joint, &b.joint)));
+    }
+    for pair in &setup.pairs {
+        let [a, b] = pair.materials;
+        table[a * materials + b] = pair.joint;
+        table[b * materials + a] = pair.joint;
+    }
+    Joints {
+        materials: materials as u32,
+        table,
+    }
+}

@@ -1,0 +1,67 @@
+//! Contact of convex blocks by linear programming (Boon, Houlsby & Utili 2012).
+//!
+//! A [`Resolver`] decides of two [`Placed`] blocks whether they overlap, and where, along which
+//! normal, how deep and over which area. Nothing is decided by the sign of a rounded number: a
+//! plane that keeps all vertices apart proves that there is no contact, a point inside all faces
+//! proves that there is one, and a pair of which neither can be shown is [`Verdict::Touching`].
+//!
+//! The way to a proof, cheapest first: bounding spheres; the plane or the point kept in the
+//! [`Cache`] of the pair; faces, the line of centres and the surroundings of the last point; the
+//! linear program. Then the analytic centre, the normal, and the section of the overlap.
+//!
+//! ```
+//! use glam::{DQuat, DVec3};
+//! use riprap::{geometry::Pose, rock::contact::{Cache, Options, Placed, Resolver, Verdict}};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Two balls of radius 1 m, their centres 1.98 m apart.
+//! let ball = |x: f64| {
+//!     let pose = Pose::rigid(DVec3::X * x, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+//!     let mut placed = Placed::default();
+//!     placed.update_sphere(1.0, DVec3::ZERO, &pose);
+//!     placed
+//! };
+//! let mut resolver = Resolver::new(Options::default());
+//! let mut cache = Cache::default();
+//! match resolver.resolve(&ball(0.0), &ball(1.98), &mut cache)? {
+//!     Verdict::Contact(contact) => {
+//!         assert_eq!(contact.normal, DVec3::X);
+//!         assert!((contact.overlap - 0.02).abs() < 1e-15);
+//!     }
+//!     other => panic!("{other:?}"),
+//! }
+//! # Ok(())
+//! # }
+//! ```
+
+mod cache;
+mod centre;
+mod counts;
+mod describe;
+mod envelope;
+mod guess;
+mod normal;
+mod options;
+mod pair;
+mod placed;
+mod polygon;
+mod program;
+mod projection;
+mod prove;
+mod resolver;
+mod seam;
+mod section;
+mod separation;
+mod sphere;
+mod squeeze;
+mod verdict;
+
+pub use cache::Cache;
+pub use counts::Counts;
+pub use options::{Normal, Options};
+pub use placed::Placed;
+pub(crate) use placed::clip;
+pub use resolver::Resolver;
+pub use seam::{Opened, Seam};
+pub use squeeze::{Facing, Squeeze};
+pub use verdict::{Contact, Verdict};

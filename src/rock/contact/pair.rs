@@ -1,0 +1,103 @@
+//! A pair in the frame in which it is resolved: origin at the smaller block's centroid, lengths
+//! divided by the smaller block's size L. Without that shift and scale the linear program loses up
+//! to three more digits.
+
+use super::Placed;
+use crate::geometry::HalfSpace;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// a · x ≤ b.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Distance from the smaller block's centroid, in L.
+    pub offset: f64,
+}
+
+/// Ratio of sizes from which on faces are left out. Below it few would go, and a pair of equal blocks,
+/// whose order rounding decides, must not depend on it.
+const LARGER: f64 = 3.0;
+
+/// Two blocks, ordered by size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
+    pub small: &'a Placed,
+    pub large: &'a Placed,
+    /// Whether the smaller one is the second argument.
+    pub flipped: bool,
+    /// From the smaller block's centroid to the larger one's, m.
+    pub shift: DVec3,
+    /// L, the diameter of the smaller block's bounding sphere, m.
+    pub length: f64,
+}
+
+impl<'a> Pair<'a> {
+    pub fn new(first: &'a Placed, second: &'a Placed) -> Self {
+        let flipped = order(first, second) == Ordering::Greater;
+        let (small, large) = if flipped {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        Self {
+            small,
+            large,
+            flipped,
+            shift: large.centre - small.centre,
+            length: 2.0 * small.radius,
+        }
+    }
+
+    /// Fills `rows`, the smaller block's first; returns how many are the smaller block's.
+    ///
+    /// Of a much larger block only the faces that come within twice the smaller block's bounding
+    /// sphere are kept. A plane outside the sphere cuts nothing off the smaller block, so the overlap
+    /// is exactly the same, and so is the verdict. The analytic centre is that of the faces
+    /// kept: the factor of two keeps a face that comes or goes at least a radius from the overlap, where
+    /// its 1/t is small against that of the faces that bound the overlap.
+    pub fn fill(&self, rows: &mut Vec<Row>) -> usize {
+        let scale = self.length.recip();
+        rows.clear();
+        rows.extend(self.small.faces.iter().map(|face| Row {
+            normal: face.normal,
+            offset: face.distance * scale,
+        }));
+        let far = |face: &HalfSpace| Row {
+            normal: face.normal,
+            offset: (face.distance + face.normal.dot(self.shift)) * scale,
+        };
+        if self.large.radius < LARGER * self.small.radius {
+            rows.extend(self.large.faces.iter().map(far));
+            return self.small.faces.len();
+        }
+        rows.extend(self.large.faces.iter().map(far).filter(|r| r.offset < 1.0));
+        if rows.len() == self.small.faces.len() {
+            // Deep inside: the nearest face says which way is out.
+            let nearest = |a: &Row, b: &Row| a.offset.total_cmp(&b.offset);
+            rows.extend(self.large.faces.iter().map(far).min_by(nearest));
+        }
+        self.small.faces.len()
+    }
+
+    /// What rounding may do to a slack or a gap, in L: some units in the last place of the longest
+    /// vector that enters it, the blocks' places included.
+    pub fn rounding(&self) -> f64 {
+        let place = self.small.centre.abs().max(self.large.centre.abs());
+        let longest = self.length + self.large.radius + place.max_element();
+        8.0 * f64::EPSILON * longest / self.length
+    }
+}
+
+/// By size, then by place: a rule that sees the blocks and not the order in which they are named.
+/// Only two blocks with the same sizes at the same place are left to the order of the arguments.
+fn order(a: &Placed, b: &Placed) -> Ordering {
+    let place = |p: &Placed| p.centre.to_array();
+    let key = |p: &Placed| (p.radius, p.smallest_distance);
+    key(a)
+        .partial_cmp(&key(b))
+        .unwrap_or(Ordering::Equal)
+        .then(a.faces.len().cmp(&b.faces.len()))
+        .then(place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
+}

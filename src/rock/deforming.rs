@@ -1,0 +1,391 @@
+//! The blocks that deform: what they are beside rigid blocks, and how they move.
+//!
+//! They stand in the lists of all blocks like any other, so that contacts, pairs and output see no difference;
+//! what a rotation does not tell of them is in lists of its own, which scenes of rigid blocks leave empty.
+
+use super::{
+    Block, Body, Material,
+    body::{Flight, State},
+    touches::Touches,
+};
+use crate::{
+    geometry::{Form, Pose, outer},
+    rock::integrate::{self, Affine, Held, Pull, axial},
+};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+/// In place of a number of a deforming block: it is rigid.
+pub(super) const RIGID: u32 = u32::MAX;
+
+/// What stays of one.
+#[derive(Clone, Debug)]
+pub(super) struct Deforming {
+    /// Its number among all blocks.
+    pub block: usize,
+    pub affine: Affine,
+    pub held: Held,
+    /// Lever of its farthest vertex, m.
+    pub reach: f64,
+}
+
+/// What changes of one, between two steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Strain {
+    /// F.
+    pub deformation: DMat3,
+    /// Ḟ, 1/s.
+    pub rate: DMat3,
+    /// Σ f ⊗ r of the contacts, N m.
+    pub moment: DMat3,
+    /// Σ f ⊗ r of the external load, N m.
+    pub load: DMat3,
+    /// F when the pairs were found.
+    pub marked: DMat3,
+}
+
+impl Default for Strain {
+    /// None, at rest. Not derived: the default of a matrix is the identity.
+    fn default() -> Self {
+        Self {
+            deformation: DMat3::IDENTITY,
+            rate: DMat3::ZERO,
+            moment: DMat3::ZERO,
+            load: DMat3::ZERO,
+            marked: DMat3::IDENTITY,
+        }
+    }
+}
+
+impl Strain {
+    /// ∂v/∂x, 1/s.
+    pub fn gradient(&self) -> DMat3 {
+        self.rate * self.deformation.inverse()
+    }
+
+    /// Whether it can be computed with and is not turned inside out.
+    pub fn is_sound(&self) -> bool {
+        self.rate.is_finite()
+            && self.deformation.is_finite()
+            && self.deformation.determinant() > 0.0
+    }
+}
+
+/// Where a block is and how it moves.
+pub(super) fn pose(body: &Body, state: &State, strains: &[Strain]) -> Pose {
+    if body.deforming == RIGID {
+        return state.pose();
+    }
+    let strain = &strains[body.deforming as usize];
+    Pose {
+        centre: state.centre,
+        deformation: strain.deformation,
+        velocity: state.velocity,
+        deformation_rate: strain.rate,
+    }
+}
+
+/// What a step makes of one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Flown {
+    state: State,
+    flight: Flight,
+    /// ∂v/∂x: the mean of the step, and that expected at its end, 1/s.
+    gradients: [DMat3; 2],
+}
+
+/// All deforming blocks, in the order of the blocks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DeformingBlocks {
+    pub list: Vec<Deforming>,
+    pub strains: Vec<Strain>,
+    /// What a step writes before it is known to be good.
+    pub next: Vec<Strain>,
+    flown: Vec<Flown>,
+}
+
+/// What a step of a block is under.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Under {
+    /// m/s².
+    pub gravity: DVec3,
+    /// α, 1/s.
+    pub damping: f64,
+    /// Time at the start of the step, s.
+    pub time: f64,
+    /// s.
+    pub dt: f64,
+}
+
+impl DeformingBlocks {
+    /// Adds the block `index`, if it deforms, and says which of these it is.
+    pub fn add(&mut self, index: usize, block: &Block, material: &Material) -> u32 {
+        let (Some(deformable), Some(elastic)) = (&block.deformable, material.elastic) else {
+            return RIGID;
+        };
+        let turn = DMat3::from_quat(block.rotation.normalize());
+        let affine = Affine::new(
+            block.shape.volume(),
+            block.shape.inertia(),
+            material.density,
+            elastic,
+            turn.transpose() * deformable.initial_stress * turn,
+        );
+        let points = deformable.fixed_points.iter();
+        let start = Pose::rigid(
+            block.centre,
+            block.rotation.normalize(),
+            block.velocity,
+            block.spin,
+        );
+        let held = Held::new(
+            &affine,
+            (start.centre, start.deformation),
+            points.map(|held| (held.point, held.axes)),
+        );
+        self.strains.push(Strain {
+            deformation: start.deformation,
+            rate: start.deformation_rate,
+            ..Strain::default()
+        });
+        self.next = self.strains.clone();
+        self.flown.push(Flown::default());
+        let forms = block.shape.parts().iter().map(|part| &part.form);
+        let vertices = forms.flat_map(|form| match form {
+            Form::Convex(polyhedron) => polyhedron.vertices(),
+            Form::Sphere { .. } => &[],
+        });
+        let reach = vertices.map(|v| affine.lever(*v)).fold(0.0, f64::max);
+        self.list.push(Deforming {
+            block: index,
+            affine,
+            held,
+            reach,
+        });
+        self.list.len() as u32 - 1
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The one that `body` is, with its state.
+    pub fn of(&self, body: &Body) -> Option<(&Deforming, &Strain)> {
+        let k = body.deforming as usize;
+        (body.deforming != RIGID).then(|| (&self.list[k], &self.strains[k]))
+    }
+
+    /// What the step that is being computed makes of `body`.
+    pub fn of_next(&self, body: &Body) -> Option<&Strain> {
+        (body.deforming != RIGID).then(|| &self.next[body.deforming as usize])
+    }
+
+    /// ∂v/∂x of `body` over the present step and as expected at its end, 1/s.
+    pub fn gradients(&self, body: &Body) -> Option<&[DMat3; 2]> {
+        (body.deforming != RIGID).then(|| &self.flown[body.deforming as usize].gradients)
+    }
+
+    /// Arm and width, m, with which a contact of `width` (m) at `arm` (m from the centroid, world) counts for
+    /// the longest step: as they are for a rigid block. One that deforms has its lever against the smallest
+    /// second moment, and no section of it reaches farther than its vertices.
+    pub fn lever(&self, body: &Body, arm: DVec3, width: f64) -> (DVec3, f64) {
+        let Some((one, strain)) = self.of(body) else {
+            return (arm, width);
+        };
+        let lever = one.affine.lever(strain.deformation.inverse() * arm);
+        (DVec3::X * lever.hypot(0.5 * width).min(one.reach), 0.0)
+    }
+
+    /// Speed of the fastest point of a block, m/s, or a bound of it.
+    pub fn fastest(&self, body: &Body, state: &State) -> f64 {
+        match self.of(body) {
+            None => state.fastest(body.radius),
+            Some((_, strain)) => state.velocity.length() + norm(strain.rate) * body.radius,
+        }
+    }
+
+    /// No point of a block has moved farther by its deformation since the pairs were found, m.
+    pub fn strayed(&self, body: &Body) -> Option<f64> {
+        let (_, strain) = self.of(body)?;
+        Some(norm(strain.deformation - strain.marked) * body.radius)
+    }
+
+    /// The pairs are found where the blocks are now.
+    pub fn mark(&mut self) {
+        for strain in &mut self.strains {
+            strain.marked = strain.deformation;
+        }
+    }
+
+    /// How they move before the first step.
+    pub fn at_start(&mut self) {
+        for (flown, strain) in self.flown.iter_mut().zip(&self.strains) {
+            flown.gradients = [DMat3::ZERO, strain.gradient()];
+        }
+        self.next.clone_from(&self.strains);
+    }
+
+    /// Kick and drift of all over a step, into `states` and `flights`; the first block that is nowhere, or
+    /// turned inside out.
+    pub fn fly(
+        &mut self,
+        bodies: &[Body],
+        before: &[State],
+        under: Under,
+        states: &mut [State],
+        flights: &mut [Flight],
+    ) -> Option<usize> {
+        let all = self.list.par_iter().zip(&self.strains);
+        let ends = self.next.par_iter_mut().zip(&mut self.flown);
+        let lost = all.zip(ends).filter_map(|((one, strain), (next, flown))| {
+            let body = &bodies[one.block];
+            *flown = one.fly(body, &before[one.block], strain, next, under);
+            (!flown.state.is_finite() || !next.is_sound()).then_some(one.block)
+        });
+        let lost = lost.min();
+        for (one, flown) in self.list.iter().zip(&self.flown) {
+            states[one.block] = flown.state;
+            flights[one.block] = flown.flight;
+        }
+        lost
+    }
+
+    /// Takes over what the contacts do.
+    pub fn pull(&mut self, bodies: &[Body], touches: &Touches, states: &[State]) {
+        if self.is_empty() {
+            return;
+        }
+        for strain in &mut self.strains {
+            strain.moment = DMat3::ZERO;
+        }
+        for touch in touches.iter() {
+            let places = [touch.pressure_centre, touch.pressure_centre - touch.way];
+            let ends = touch.blocks.into_iter().zip(places);
+            for ((block, at), sign) in ends.zip([-1.0, 1.0]) {
+                let k = bodies[block as usize].deforming;
+                if k == RIGID {
+                    continue;
+                }
+                let arm = at - states[block as usize].centre;
+                // A torque is the skew part of a moment.
+                let moment = outer(touch.force.total(), arm) + couple(touch.force.couple());
+                self.strains[k as usize].moment += moment * sign;
+            }
+        }
+    }
+
+    /// The second kick of a step, with the forces at its end.
+    pub fn land(&mut self, bodies: &[Body], under: Under, states: &mut [State]) {
+        for (one, strain) in self.list.iter().zip(&mut self.strains) {
+            one.land(&bodies[one.block], &mut states[one.block], strain, under);
+        }
+    }
+}
+
+impl Deforming {
+    /// Accelerations of the centroid and of F at the time `t`, s, and the force that the held points feel, N.
+    pub fn accelerations(
+        &self,
+        body: &Body,
+        state: &State,
+        strain: &Strain,
+        gravity: DVec3,
+        t: f64,
+    ) -> (DVec3, DMat3, DVec3) {
+        let mut pull = Pull {
+            force: state.force + state.load,
+            moment: strain.moment + strain.load,
+        };
+        if let Some(acting) = body.acting() {
+            let more = acting.pull(strain.deformation, body.mass, t);
+            pull.force += more.force;
+            pull.moment += more.moment;
+        }
+        let (rate, turning) = self.affine.accelerations(strain.deformation, &pull);
+        let free = (rate + gravity, turning);
+        let (rate, turning) = self.held.project(free);
+        (rate, turning, body.mass * (rate - free.0))
+    }
+
+    fn fly(
+        &self,
+        body: &Body,
+        before: &State,
+        strain: &Strain,
+        next: &mut Strain,
+        Under {
+            gravity,
+            damping,
+            time,
+            dt,
+        }: Under,
+    ) -> Flown {
+        let (rate, turning, _) = self.accelerations(body, before, strain, gravity, time);
+        let velocity = integrate::first_kick(before.velocity, rate, damping, dt);
+        let half = integrate::first_kick(strain.rate, turning, damping, dt);
+        let mut state = *before;
+        let flown = (
+            before.centre + velocity * dt,
+            strain.deformation + half * dt,
+        );
+        let (centre, deformation) = self.held.place(flown);
+        (state.centre, state.velocity) = (centre, velocity);
+        *next = Strain {
+            deformation,
+            rate: half,
+            ..*strain
+        };
+        let inverse = next.deformation.inverse();
+        // Without a rotation there is nothing to turn with; the step is refused.
+        if next.is_sound() {
+            let rotation = integrate::polar(next.deformation);
+            // Of the two quaternions the one that follows on.
+            let follows = rotation.dot(before.rotation) >= 0.0;
+            state.rotation = if follows { rotation } else { -rotation };
+        }
+        let gradients = [half * inverse, (half * 2.0 - strain.rate) * inverse];
+        let [spin, end_spin] = gradients.map(|gradient| 0.5 * axial(gradient));
+        Flown {
+            flight: Flight {
+                velocity,
+                spin,
+                end_velocity: 2.0 * velocity - before.velocity,
+                end_spin,
+                ..Flight::still(body, &state)
+            },
+            state,
+            gradients,
+        }
+    }
+
+    fn land(&self, body: &Body, state: &mut State, strain: &mut Strain, under: Under) {
+        let Under {
+            gravity,
+            damping,
+            time,
+            dt,
+        } = under;
+        let (rate, turning, _) = self.accelerations(body, state, strain, gravity, time + dt);
+        state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
+        strain.rate = integrate::second_kick(strain.rate, turning, damping, dt);
+        state.momentum = self
+            .affine
+            .angular_momentum(strain.deformation, strain.rate);
+        state.spin = 0.5 * axial(strain.gradient());
+    }
+}
+
+/// The moment Σ f ⊗ r of a torque (N m) alone.
+pub(super) fn couple(torque: DVec3) -> DMat3 {
+    crate::geometry::skew(torque) * 0.5
+}
+
+/// Frobenius norm: no vector grows by more.
+fn norm(a: DMat3) -> f64 {
+    let columns = [a.x_axis, a.y_axis, a.z_axis];
+    columns
+        .iter()
+        .map(|c| c.length_squared())
+        .sum::<f64>()
+        .sqrt()
+}

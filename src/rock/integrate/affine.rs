@@ -1,0 +1,186 @@
+//! A block that deforms as a whole (Shi 2001; Mikola & Sitar 2014, eqs. 1 and 7): every point X of it, from
+//! its centroid, is at x = c + F X.
+//!
+//! m c̈ = Σ f + m g,  F̈ = (Σ f ⊗ X − V P) S⁻¹,  S = ∫ρ X Xᵀ dV,  P = F (λ tr E · 1 + 2μE + σ₀),
+//! E = ½(FᵀF − 1).
+//!
+//! These are the twelve unknowns of DDA, with a mass matrix that is 4 × 4 and the same for each axis. The
+//! strain is exact under rotation. F P ᵀ is symmetric, so that the central difference keeps the angular
+//! momentum Ḟ S Fᵀ − F S Ḟᵀ up to rounding.
+
+use super::Principal;
+use crate::rock::law::{Elastic, inner, trace};
+use glam::{DMat3, DQuat, DVec3};
+
+/// Mass, elasticity and shape of an affine body: what stays of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Affine {
+    /// kg.
+    mass: f64,
+    /// m³.
+    volume: f64,
+    elastic: Elastic,
+    /// σ₀, own frame, Pa.
+    initial_stress: DMat3,
+    /// S, kg m².
+    second_moment: DMat3,
+    /// S⁻¹.
+    inverse: DMat3,
+    /// Smallest eigenvalue of S, kg m².
+    smallest_moment: f64,
+    /// ω² of its stiffest mode without strain, rad²/s².
+    stiffest: f64,
+}
+
+/// Forces on an affine body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull {
+    /// Σ f, N.
+    pub force: DVec3,
+    /// Σ f ⊗ r, r from the centroid in the world, N m.
+    pub moment: DMat3,
+}
+
+impl Affine {
+    /// A body of `volume` (m³) and `density` (kg/m³), `inertia` its inertia tensor about the centroid for a
+    /// density of one (m⁵), `initial_stress` σ₀ (Pa, symmetric, own frame) what it bears without strain.
+    pub fn new(
+        volume: f64,
+        inertia: DMat3,
+        density: f64,
+        elastic: Elastic,
+        initial_stress: DMat3,
+    ) -> Self {
+        // I = tr C · 1 − C, and tr I = 2 tr C.
+        let second_moment = (DMat3::IDENTITY * (0.5 * trace(inertia)) - inertia) * density;
+        let moments = Principal::of(second_moment).moments;
+        Self {
+            mass: density * volume,
+            volume,
+            elastic,
+            initial_stress,
+            second_moment,
+            inverse: second_moment.inverse(),
+            smallest_moment: moments.min_element(),
+            stiffest: volume * stiffest(&elastic, moments),
+        }
+    }
+
+    /// E of the deformation `f`.
+    pub fn strain(&self, f: DMat3) -> DMat3 {
+        (f.transpose() * f - DMat3::IDENTITY) * 0.5
+    }
+
+    /// Second Piola–Kirchhoff stress, own frame, Pa.
+    fn inner_stress(&self, f: DMat3) -> DMat3 {
+        self.elastic.stress(self.strain(f)) + self.initial_stress
+    }
+
+    /// Cauchy stress F S Fᵀ/det F, along the axes of the world, Pa; tension is positive.
+    pub fn stress(&self, f: DMat3) -> DMat3 {
+        f * self.inner_stress(f) * f.transpose() * f.determinant().recip()
+    }
+
+    /// Strain energy, J: ½E:C:E + σ₀:E over the volume.
+    pub fn strain_energy(&self, f: DMat3) -> f64 {
+        let strain = self.strain(f);
+        self.volume * (self.elastic.energy(strain) + inner(self.initial_stress, strain))
+    }
+
+    /// Kinetic energy of the motion about the centroid, ½ tr Ḟ S Ḟᵀ, J.
+    pub fn kinetic(&self, rate: DMat3) -> f64 {
+        0.5 * inner(rate, rate * self.second_moment)
+    }
+
+    /// Angular momentum about the centroid, ∫ρ F X × Ḟ X dV, kg m²/s.
+    pub fn angular_momentum(&self, f: DMat3, rate: DMat3) -> DVec3 {
+        axial(rate * self.second_moment * f.transpose())
+    }
+
+    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `pull` and its own stress.
+    pub fn accelerations(&self, f: DMat3, pull: &Pull) -> (DVec3, DMat3) {
+        // f ⊗ X with X = F⁻¹ r.
+        let outer = pull.moment * f.inverse().transpose();
+        let stress = f * self.inner_stress(f) * self.volume;
+        (pull.force / self.mass, (outer - stress) * self.inverse)
+    }
+
+    /// Bound of ω² of its stiffest mode when deformed by `f`, rad²/s²; exact without strain.
+    ///
+    /// The stress follows FᵀδF, no longer than |F|² ≤ 1 + 2|E| of δF; what stress there is turns with δF
+    /// and adds V|S| over the smallest second moment.
+    pub fn frequency_squared(&self, f: DMat3) -> f64 {
+        let strain = self.strain(f);
+        let stress = self.inner_stress(f);
+        let norm = |a: DMat3| inner(a, a).sqrt();
+        self.stiffest * (1.0 + 2.0 * norm(strain))
+            + self.volume * norm(stress) / self.smallest_moment
+    }
+
+    /// The longest step with which the central difference is stable without contacts and strain, 2/ω, s
+    /// (Mikola & Sitar 2014, eq. 8).
+    pub fn critical_step(&self) -> f64 {
+        2.0 / self.frequency_squared(DMat3::IDENTITY).sqrt()
+    }
+
+    /// Smallest eigenvalue of S, kg m².
+    pub fn smallest_moment(&self) -> f64 {
+        self.smallest_moment
+    }
+
+    /// The arm (m) at which a spring would have, against the smallest moment, the frequency that it has at
+    /// the point `x` (m, own frame): its square over that moment is xᵀ S⁻¹ x.
+    pub fn lever(&self, x: DVec3) -> f64 {
+        (self.smallest_moment * x.dot(self.inverse * x)).sqrt()
+    }
+
+    /// M⁻¹ b of a row (c, F) of the unknowns: b₀/m and S⁻¹ b.
+    pub(super) fn over_mass(&self, (centre, row): (f64, DVec3)) -> (f64, DVec3) {
+        (centre / self.mass, self.inverse * row)
+    }
+}
+
+/// ω² of the stiffest elastic mode per volume, with S diag(s) in its principal axes, in which an isotropic
+/// body has the same law. The nine-by-nine problem K v = ω² M v of F falls apart there: a shear and a
+/// rotation with ω² = μ(1/s_i + 1/s_j) and 0 for each pair of axes, and the three axial strains with
+/// (λ + 2μ δ_ij)/√(s_i s_j).
+fn stiffest(elastic: &Elastic, s: DVec3) -> f64 {
+    let [lambda, mu] = elastic.lame();
+    let entry = |i: usize, j: usize| {
+        let own = if i == j { 2.0 * mu } else { 0.0 };
+        (lambda + own) / (s[i] * s[j]).sqrt()
+    };
+    let column = |j| DVec3::new(entry(0, j), entry(1, j), entry(2, j));
+    let axial = DMat3::from_cols(column(0), column(1), column(2));
+    let shear = |i: usize, j: usize| mu * (s[i].recip() + s[j].recip());
+    let shears = DVec3::new(shear(0, 1), shear(1, 2), shear(2, 0));
+    let modes = Principal::of(axial).moments;
+    modes.max(shears).max_element()
+}
+
+/// Σ r × f of the moment Σ f ⊗ r.
+pub(crate) fn axial(m: DMat3) -> DVec3 {
+    DVec3::new(
+        m.y_axis.z - m.z_axis.y,
+        m.z_axis.x - m.x_axis.z,
+        m.x_axis.y - m.y_axis.x,
+    )
+}
+
+/// Most passes of [`polar`]: each doubles the digits, from a few passes on.
+const PASSES: usize = 60;
+
+/// The rotation R of F = R U, by Newton's iteration X ← ½(X + X⁻ᵀ) (Higham 1986); F must not be turned
+/// inside out.
+pub fn polar(f: DMat3) -> DQuat {
+    let mut x = f;
+    for _ in 0..PASSES {
+        let next = (x + x.inverse().transpose()) * 0.5;
+        let change = next - x;
+        x = next;
+        if inner(change, change) < 1e-30 {
+            break;
+        }
+    }
+    DQuat::from_mat3(&x).normalize()
+}

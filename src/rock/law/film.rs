@@ -1,0 +1,158 @@
+//! The resistance of a film of fluid that is squeezed out of a thin gap, beyond what a grid gives that resolves
+//! nothing narrower than h₀: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
+//! less its value at that gap (Nguyen & Ladd 2002, Phys. Rev. E 66:046708).
+
+use crate::{
+    Error, Result,
+    rock::contact::{Facing, Squeeze},
+};
+use std::f64::consts::PI;
+
+/// A fluid between blocks whose flow in thin gaps is not resolved by whoever computes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Dynamic viscosity μ, Pa s.
+    pub viscosity: f64,
+    /// Gap h₀ from which on the flow is resolved where one side is a sphere, m.
+    pub round: f64,
+    /// The same between faces, m.
+    pub flat: f64,
+    /// Gap below which the resistance no longer grows, the roughness of the faces, m.
+    pub roughness: f64,
+    /// Blocks along which the fluid slips, ascending: between one of them and another the resistance is a quarter.
+    pub slip: Vec<usize>,
+}
+
+impl Film {
+    /// Whether the numbers can be computed with.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] naming the number and its range.
+    pub fn check(&self) -> Result<()> {
+        for (name, value, unit) in [
+            ("viscosity", self.viscosity, "Pa s"),
+            ("round", self.round, "m"),
+            ("flat", self.flat, "m"),
+            ("roughness", self.roughness, "m"),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                let message = format!("{value} must be greater than 0 {unit}");
+                return Err(Error::scene(format!("film.{name}"), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Widest gap that is looked at, m.
+    pub fn reach(&self) -> f64 {
+        self.round.max(self.flat)
+    }
+
+    /// Normal force over the velocity at which the gap closes, N s/m: 6πμR²(1/h − 1/h₀) of spheres,
+    /// 3μJ(1/h³ − 1/h₀³) of faces, which is 3πμR⁴/2 (1/h³ − 1/h₀³) for discs.
+    pub fn resistance(&self, squeeze: &Squeeze) -> f64 {
+        match &squeeze.shape {
+            Facing::Round { radius } => {
+                6.0 * PI
+                    * self.viscosity
+                    * radius
+                    * radius
+                    * self.excess(squeeze.gap, self.round, 1)
+            }
+            Facing::Flat {
+                torsion, flatness, ..
+            } => 3.0 * self.viscosity * torsion * flatness * self.excess(squeeze.gap, self.flat, 3),
+        }
+    }
+
+    /// Moment over the rate at which the gap tilts, N m s, about each axis of two faces.
+    pub fn tilting(&self, squeeze: &Squeeze) -> [f64; 2] {
+        match &squeeze.shape {
+            Facing::Round { .. } => [0.0; 2],
+            Facing::Flat {
+                tilts, flatness, ..
+            } => tilts.map(|tilt| {
+                self.viscosity * tilt * flatness * self.excess(squeeze.gap, self.flat, 3)
+            }),
+        }
+    }
+
+    /// 1/hⁿ − 1/h₀ⁿ, 0 from h₀ on.
+    fn excess(&self, gap: f64, range: f64, n: i32) -> f64 {
+        let h = gap.max(self.roughness);
+        (h.powi(-n) - range.powi(-n)).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn film() -> Film {
+        Film {
+            viscosity: 0.1,
+            round: 1.0,
+            flat: 1.0,
+            roughness: 1e-3,
+            slip: Vec::new(),
+        }
+    }
+
+    fn squeeze(gap: f64, shape: Facing) -> Squeeze {
+        Squeeze {
+            normal: DVec3::Z,
+            point: DVec3::ZERO,
+            gap,
+            shape,
+        }
+    }
+
+    /// Brenner 1961, Chem. Eng. Sci. 16:242: drag of a sphere that approaches a plane, over Stokes's.
+    fn brenner(gap: f64) -> f64 {
+        let alpha = (1.0f64 + gap).acosh();
+        let term = |n: i32| {
+            let n = f64::from(n);
+            let (a, b) = ((n + 0.5) * alpha, 2.0 * alpha);
+            let above = 2.0 * (2.0 * a).sinh() + (2.0 * n + 1.0) * b.sinh();
+            let below = 4.0 * a.sinh().powi(2) - ((2.0 * n + 1.0) * alpha.sinh()).powi(2);
+            n * (n + 1.0) / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * (above / below - 1.0)
+        };
+        let terms = (1..).map(term).take_while(|term| *term > 1e-12);
+        4.0 / 3.0 * alpha.sinh() * terms.take(100_000).sum::<f64>()
+    }
+
+    #[test]
+    fn a_sphere_near_a_plane_meets_the_exact_resistance_as_the_gap_closes() {
+        let (film, r) = (film(), 10.0);
+        let stokes = 6.0 * PI * film.viscosity * r;
+        let rise = |h: f64| film.resistance(&squeeze(h, Facing::Round { radius: r })) / stokes;
+        for h in [0.5, 0.2, 0.1, 0.05, 0.01] {
+            let exact = brenner(h / r) - brenner(film.round / r);
+            // What is left out, ⅕ ln(h₀/h), is small beside R/h.
+            let error = (rise(h) - exact).abs();
+            assert!(
+                error < 0.21 * (film.round / h).ln(),
+                "{h}: {} of {exact}",
+                rise(h)
+            );
+            assert!(error < 0.02 * exact, "{h}: {} of {exact}", rise(h));
+        }
+        assert_eq!(rise(1.0), 0.0);
+        assert_eq!(rise(1e-9), rise(1e-3));
+    }
+
+    #[test]
+    fn discs_meet_reynolds() {
+        let (film, r, h) = (film(), 8.0f64, 0.1f64);
+        let shape = Facing::Flat {
+            torsion: 0.5 * PI * r.powi(4),
+            axes: [DVec3::X, DVec3::Y],
+            tilts: [PI / 8.0 * r.powi(6); 2],
+            flatness: 1.0,
+        };
+        let found = film.resistance(&squeeze(h, shape));
+        let reynolds = 1.5 * PI * film.viscosity * r.powi(4) * (h.powi(-3) - 1.0);
+        assert!((found / reynolds - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,92 @@
+//! Pushing apart what overlaps before the first step.
+
+use super::{Blocks, deforming::pose, touch::TENTHS};
+use crate::{
+    Error, Result,
+    error::Overlap,
+    rock::{
+        broadphase::Broadphase,
+        contact::{Options, Placed, Resolver, Verdict},
+    },
+};
+use glam::DVec3;
+
+impl Blocks {
+    /// Pushes blocks apart along their contact normals, each by its share of the two masses, pair after
+    /// pair, until none overlaps by more than [`Setup::start_overlap`](super::Setup::start_overlap);
+    /// nothing turns, and fixed and driven blocks stay. Velocities stay as they are.
+    ///
+    /// Returns the number of sweeps over all pairs, at most `sweeps`.
+    ///
+    /// # Errors
+    /// [`Error::Overlaps`] with what is left after `sweeps`; the blocks stay where they got to. Those of
+    /// the finder.
+    pub async fn relax(&mut self, finder: &mut impl Broadphase, sweeps: usize) -> Result<usize> {
+        let mut resolver = Resolver::new(Options::default());
+        let mut left = Vec::new();
+        for sweep in 0..=sweeps {
+            if self.wants_pairs() {
+                let pairs = finder.pairs(&self.items()).await?;
+                self.set_pairs(pairs)?;
+            }
+            left = self.push_apart(&mut resolver)?;
+            if left.is_empty() {
+                return Ok(sweep);
+            }
+        }
+        left.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        Err(Error::Overlaps { pairs: left })
+    }
+
+    /// One sweep; the pairs that overlapped too much before it.
+    fn push_apart(&mut self, resolver: &mut Resolver) -> Result<Vec<Overlap>> {
+        let mut found = Vec::new();
+        let mut image = Placed::default();
+        for index in 0..self.pairs.len() {
+            let pair = &mut self.pairs[index];
+            let blocks = pair
+                .parts
+                .map(|part| self.parts.block[part as usize] as usize);
+            // What fixed points hold stays, too.
+            let inverse = blocks.map(|block| {
+                let body = &self.bodies[block];
+                let held = self
+                    .deforming
+                    .of(body)
+                    .is_some_and(|(one, _)| !one.held.is_empty());
+                if held { 0.0 } else { body.inverse_mass() }
+            });
+            let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
+            let periods = self.periods.as_ref();
+            let way = periods.map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
+            image.copy_moved(second, way);
+            let Verdict::Contact(contact) = resolver.resolve(first, &image, &mut pair.cache)?
+            else {
+                continue;
+            };
+            let most = TENTHS * self.start_overlap * contact.limit;
+            if contact.overlap <= most {
+                continue;
+            }
+            found.push(Overlap {
+                first: self.label(blocks[0]),
+                second: self.label(blocks[1]),
+                depth: contact.overlap,
+            });
+            if inverse == [0.0; 2] {
+                continue;
+            }
+            // Half the allowed overlap stays, so that neighbours that touch keep touching.
+            let way = contact.overlap - 0.5 * most;
+            for (k, sign) in [(0, -1.0), (1, 1.0)] {
+                let share = inverse[k] / (inverse[0] + inverse[1]);
+                let block = blocks[k];
+                self.states[block].centre += contact.normal * (sign * share * way);
+                let body = &self.bodies[block];
+                let pose = pose(body, &self.states[block], &self.deforming.strains);
+                self.parts.put_one(body, &pose);
+            }
+        }
+        Ok(found)
+    }
+}

@@ -1,0 +1,274 @@
+//! What blocks there are, and how they are computed.
+
+use super::Period;
+use crate::{
+    formula::Formula,
+    geometry::Shape,
+    rock::law::{Elastic, Film, Joint},
+};
+use glam::{DMat3, DQuat, DVec3};
+use std::sync::Arc;
+
+/// Blocks at the start, SI.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The blocks.
+    pub blocks: Vec<Block>,
+    /// What they are made of; [`Block::material`] counts in here.
+    pub materials: Vec<Material>,
+    /// Joints between two materials, where [`Joint::between`] is not what they have.
+    pub pairs: Vec<PairMaterial>,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+    /// Mass damping α, 1/s.
+    pub damping: f64,
+    /// Step, s. Without it the step is [`USUAL_SHARE`](crate::rock::law::USUAL_SHARE) of the stability bound,
+    /// and gets shorter when contacts stiffen.
+    pub time_step: Option<f64>,
+    /// Distance below which pairs are candidates, m. Without it a tenth of the mean radius of the parts
+    /// that can move.
+    pub skin: Option<f64>,
+    /// When blocks at rest are left out.
+    pub sleep: Option<Sleep>,
+    /// Largest overlap at the start, as a share of the smaller block's distance from centroid to face.
+    pub start_overlap: f64,
+    /// Largest overlap later on, as a share of the same distance: more than a tenth is not hard any
+    /// more. Fast blocks of low stiffness may need more.
+    pub largest_overlap: f64,
+    /// Least area that the springs of a contact count with, as a share of (2d)², d the same distance.
+    ///
+    /// The area of a corner or an edge begins at zero: a corner of a cube that sinks by u presses with
+    /// 1.46 k_n u³. A cube of 1 m of rock and 100 MPa/m sinks by 5.6 cm where it stands on its corner, by
+    /// a quarter of a millimetre where on its face; a real corner is crushed until it carries. With a
+    /// quarter, which is what each of the four corners of a square face carries, a corner is as stiff as
+    /// that part of the face from the first touch on. Contacts of a larger area stay as they are; cohesion
+    /// and tensile strength go by the true area.
+    pub corner_area: f64,
+    /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and nobody else computes
+    /// what it does there.
+    pub film: Option<Film>,
+    /// The box after which space repeats, if it does: blocks then meet the images of others, too.
+    pub period: Option<Period>,
+    /// Free rigid blocks on rails.
+    pub guides: Vec<Guide>,
+}
+
+impl Default for Setup {
+    /// No blocks; gravity of 9.81 m/s² along −z, no mass damping, no sleep, overlaps of 1 % at the start
+    /// and of 10 % later; the area of the section for corners, too; no fluid in the gaps.
+    fn default() -> Self {
+        Self {
+            blocks: Vec::new(),
+            materials: Vec::new(),
+            pairs: Vec::new(),
+            gravity: DVec3::new(0.0, 0.0, -9.81),
+            damping: 0.0,
+            time_step: None,
+            skin: None,
+            sleep: None,
+            start_overlap: 0.01,
+            largest_overlap: 0.1,
+            corner_area: 0.0,
+            film: None,
+            period: None,
+            guides: Vec::new(),
+        }
+    }
+}
+
+/// A rail without friction on which a free rigid block slides, and does not turn: what pulls it across is taken up, and does no
+/// work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guide {
+    /// Which of [`Setup::blocks`].
+    pub block: usize,
+    /// Along which it slides, of any length but 0.
+    pub axis: DVec3,
+}
+
+/// One block at the start.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Name, for messages and output.
+    pub name: String,
+    /// Shape, about its centroid.
+    pub shape: Arc<Shape>,
+    /// Which of [`Setup::materials`].
+    pub material: usize,
+    /// Centroid, m.
+    pub centre: DVec3,
+    /// Turns vectors of the block's frame into the world's.
+    pub rotation: DQuat,
+    /// Velocity of the centroid, m/s; a driven block has that of its formulas.
+    pub velocity: DVec3,
+    /// Spin about the world's axes, rad/s; a driven block has that of its formulas.
+    pub spin: DVec3,
+    /// What moves it.
+    pub motion: Motion,
+    /// Whether it deforms, and how; only a free block of one convex part whose material is
+    /// [`Elastic`]. It never sleeps.
+    pub deformable: Option<Deformable>,
+    /// Forces on points of it, if it is free. It then never sleeps.
+    pub point_loads: Vec<PointLoad>,
+    /// Acceleration by which it is pulled beside gravity, m/s², formulas of t, if it is free. It then
+    /// never sleeps.
+    pub acceleration: Option<[Formula; 3]>,
+}
+
+/// How a block deforms: as a whole, every point X of it, from its centroid in its own frame, at c + F X.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deformable {
+    /// Stress that it bears at the start without strain, symmetric, along the axes of the world, Pa; tension
+    /// is positive.
+    pub initial_stress: DMat3,
+    /// Points that stay where they are at the start.
+    pub fixed_points: Vec<FixedPoint>,
+}
+
+impl Default for Deformable {
+    /// No stress, and nothing held. Not derived: the default of a matrix is the identity.
+    fn default() -> Self {
+        Self {
+            initial_stress: DMat3::ZERO,
+            fixed_points: Vec::new(),
+        }
+    }
+}
+
+/// A point of a block that is held in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedPoint {
+    /// The point, from the centroid in the block's own frame, m.
+    pub point: DVec3,
+    /// Along which axes of the world it is held.
+    pub axes: [bool; 3],
+}
+
+/// A force on a point of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointLoad {
+    /// The point, from the centroid in the block's own frame, m.
+    pub point: DVec3,
+    /// The force along the axes of the world, N, formulas of t.
+    pub force: [Formula; 3],
+}
+
+impl Block {
+    /// A free block of the first material, at rest, not turned.
+    pub fn new(name: impl Into<String>, shape: impl Into<Arc<Shape>>, centre: DVec3) -> Self {
+        Self {
+            name: name.into(),
+            shape: shape.into(),
+            material: 0,
+            centre,
+            rotation: DQuat::IDENTITY,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            motion: Motion::Free,
+            deformable: None,
+            point_loads: Vec::new(),
+            acceleration: None,
+        }
+    }
+
+    /// The same block, held in its place.
+    pub fn fixed(self) -> Self {
+        Self {
+            motion: Motion::Fixed,
+            ..self
+        }
+    }
+
+    /// The same block, deformable, without stress at the start.
+    pub fn deformable(self) -> Self {
+        Self {
+            deformable: Some(Deformable::default()),
+            ..self
+        }
+    }
+
+    /// The same block, turned by `rotation`.
+    pub fn turned(self, rotation: DQuat) -> Self {
+        Self { rotation, ..self }
+    }
+}
+
+/// What moves a block.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one a block, whose shape and contacts are larger by far"
+)]
+pub enum Motion {
+    /// Forces.
+    #[default]
+    Free,
+    /// Nothing.
+    Fixed,
+    /// Formulas of t, whatever the forces.
+    Driven {
+        /// Velocity of the centroid, m/s.
+        velocity: [Formula; 3],
+        /// Spin about the world's axes, rad/s.
+        spin: [Formula; 3],
+    },
+}
+
+/// What a block is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Density, kg/m³.
+    pub density: f64,
+    /// The joint between two faces of this material.
+    pub joint: Joint,
+    /// Elasticity of its deformable blocks, which need one.
+    pub elastic: Option<Elastic>,
+}
+
+impl Default for Material {
+    /// Rigid rock of 2650 kg/m³ with dry joints.
+    fn default() -> Self {
+        Self {
+            density: 2650.0,
+            joint: Joint::default(),
+            elastic: None,
+        }
+    }
+}
+
+/// The joint between two materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairMaterial {
+    /// Which of [`Setup::materials`], in either order.
+    pub materials: [usize; 2],
+    /// Their joint.
+    pub joint: Joint,
+}
+
+/// When a block counts as resting: it then stays in its place, and the contacts among resting blocks keep
+/// their forces without being computed.
+///
+/// A block that sleeps moves by less than `speed` × the time that it would still have moved; it wakes as
+/// soon as the force of a moving neighbour on it, or its load, changes by more than `change` of its
+/// weight. So positions differ from those without sleep by about `speed` × (time asleep).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sleep {
+    /// Speed of its fastest point below which a block rests, m/s.
+    pub speed: f64,
+    /// How long it must have been that slow, s.
+    pub after: f64,
+    /// Change of force that wakes it, as a share of its weight (without gravity: of its largest
+    /// contact force).
+    pub change: f64,
+}
+
+impl Default for Sleep {
+    /// Slower than 1 µm/s for 0.1 s; wakes at a millionth of the weight.
+    fn default() -> Self {
+        Self {
+            speed: 1e-6,
+            after: 0.1,
+            change: 1e-6,
+        }
+    }
+}

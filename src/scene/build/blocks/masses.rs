@@ -1,0 +1,156 @@
+//! Rock masses, cut.
+
+use super::{LeftOut, deformable::symmetric, meshes, shapes::half_spaces, solids::holds};
+use crate::{
+    Result,
+    geometry::{Compass, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter},
+    rock::{Block, Deformable, Motion},
+    scene::{self, Distribution, Scene, Volume},
+};
+use glam::DVec3;
+
+/// The blocks of the rock mass `index`, and what of it is too small for one.
+pub(super) fn blocks(
+    scene: &Scene,
+    index: usize,
+    mass: &scene::RockMass,
+) -> Result<(Vec<Block>, LeftOut)> {
+    let key = format!("rock_masses[{index}]");
+    let name = match &mass.name {
+        Some(name) => name.clone(),
+        None => format!("rock_mass_{}", index + 1),
+    };
+    let material = scene.material(&format!("{key}.material"), mass.material.as_deref())?;
+    let rock = RockMass {
+        joints: (0..)
+            .zip(&mass.joints)
+            .map(|(n, set)| joints(mass, n, set))
+            .collect(),
+        compass: Compass {
+            up: DVec3::from(mass.up.unwrap_or_else(|| scene.up())),
+            north: DVec3::from(mass.north),
+        },
+        smallest_volume: mass.smallest_volume,
+        smallest_thickness: mass.smallest_thickness,
+        ..RockMass::new(vec![volume(scene, &key, &mass.volume)?])
+    };
+    let fragments = rock.cut().map_err(|error| error.within(&key))?;
+    let mut left_out = LeftOut {
+        mass: name.clone(),
+        pieces: fragments.slivers.len(),
+        share: fragments.slivers.iter().map(|s| s.volume).sum::<f64>() / fragments.volume,
+    };
+    let removed = holds(scene, &mass.removed)?;
+    let fixed = holds(scene, &mass.fixed)?;
+    let kept = fragments.blocks.into_iter();
+    let kept = kept.filter(|fragment| !removed(fragment.centre));
+    let mut blocks = Vec::new();
+    for (number, fragment) in kept.enumerate() {
+        let motion = if fixed(fragment.centre) {
+            Motion::Fixed
+        } else {
+            Motion::Free
+        };
+        let volume = fragment.shape.volume();
+        let Some((shape, offset)) = opened(fragment.shape, mass.aperture) else {
+            left_out.pieces += 1;
+            left_out.share += volume / fragments.volume;
+            continue;
+        };
+        let deforms = mass.deformable && motion == Motion::Free;
+        blocks.push(Block {
+            material,
+            deformable: deforms.then(|| Deformable {
+                initial_stress: symmetric(&mass.initial_stress),
+                ..Deformable::default()
+            }),
+            motion,
+            ..Block::new(
+                format!("{name}_{}", number + 1),
+                crate::geometry::Shape::from(shape),
+                fragment.centre + offset,
+            )
+        });
+    }
+    Ok((blocks, left_out))
+}
+
+/// What half of an open joint at each face leaves of a block, and its centroid from that of the block;
+/// none if it leaves too little for a block.
+fn opened(shape: Polyhedron, aperture: f64) -> Option<(Polyhedron, DVec3)> {
+    if aperture == 0.0 {
+        return Some((shape, DVec3::ZERO));
+    }
+    let faces: Vec<_> = shape
+        .faces()
+        .iter()
+        .map(|face| HalfSpace {
+            distance: face.distance - 0.5 * aperture,
+            ..*face
+        })
+        .collect();
+    Polyhedron::from_half_spaces(&faces).ok()
+}
+
+/// The set `number` of a mass.
+fn joints(mass: &scene::RockMass, number: u64, set: &scene::JointSet) -> JointSet {
+    let width = set.spacing * set.scatter.unwrap_or(scene::JointSet::USUAL_SCATTER);
+    JointSet {
+        dip: set.dip,
+        dip_direction: set.dip_direction,
+        spacing: set.spacing,
+        scatter: match set.distribution {
+            Distribution::None => Scatter::None,
+            Distribution::Uniform => Scatter::Uniform { range: width },
+            Distribution::Normal => Scatter::Normal { deviation: width },
+            Distribution::Lognormal => Scatter::Lognormal { deviation: width },
+            Distribution::Exponential => Scatter::Exponential,
+        },
+        origin: DVec3::from(set.origin),
+        // Sets of one mass draw different numbers, and so do masses with neighbouring seeds.
+        seed: mass
+            .seed
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            .wrapping_add(number),
+        persistence: set.persistence.map(|persistence| Persistence {
+            fraction: persistence.fraction,
+            length: persistence.length,
+        }),
+    }
+}
+
+/// The faces of a volume, in the coordinates of the scene.
+fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
+    let faces = |points: &[DVec3]| {
+        let (hull, centroid) = Polyhedron::from_vertices(points)?;
+        let faces = hull.faces().iter();
+        Ok(faces.map(|face| face.seen_from(-centroid)).collect())
+    };
+    match volume {
+        Volume::Box { min, max } => {
+            let face = |axis: usize, sign: f64, at: f64| {
+                let mut normal = DVec3::ZERO;
+                normal[axis] = sign;
+                HalfSpace {
+                    normal,
+                    distance: sign * at,
+                }
+            };
+            let both = |axis| [face(axis, -1.0, min[axis]), face(axis, 1.0, max[axis])];
+            Ok((0..3).flat_map(both).collect())
+        }
+        Volume::Vertices { vertices } => {
+            let points: Vec<DVec3> = vertices.iter().copied().map(DVec3::from).collect();
+            faces(&points).map_err(|error: crate::Error| error.within(key))
+        }
+        Volume::HalfSpaces { faces } => Ok(half_spaces(faces)),
+        Volume::Mesh {
+            file,
+            scale,
+            translate,
+        } => {
+            let path = scene.dir().join(file);
+            faces(&meshes::closed(&path, *scale, DVec3::from(*translate))?.vertices)
+        }
+    }
+}

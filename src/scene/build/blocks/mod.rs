@@ -1,0 +1,235 @@
+//! From a scene to the blocks in it.
+
+mod deformable;
+mod masses;
+mod materials;
+mod meshes;
+mod rows;
+mod shapes;
+mod solids;
+mod walls;
+
+pub(crate) use shapes::{rotation, shape};
+
+use crate::{
+    Error, Result,
+    rock::{Block, Guide, Period, Setup, Sleep},
+    scene::{Boundary, Face, ProbePlace, Scene},
+};
+use glam::DVec3;
+use std::collections::HashSet;
+
+/// The blocks of a scene, ready to be run.
+#[derive(Clone, Debug)]
+pub struct BlockSetup {
+    /// The blocks.
+    pub setup: Setup,
+    /// The rock masses of which pieces are missing.
+    pub left_out: Vec<LeftOut>,
+    /// Number of those that a fluid flows around, the first ones. The cells of a lattice know its solids
+    /// and walls already.
+    pub in_fluid: usize,
+}
+
+/// Pieces of a rock mass that are smaller or thinner than the scene lets a block be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftOut {
+    /// Name of the rock mass.
+    pub mass: String,
+    /// How many.
+    pub pieces: usize,
+    /// Their volume, as a share of the mass's.
+    pub share: f64,
+}
+
+/// The blocks of a scene: those of `blocks` in their order, then those of `rock_masses`, then the
+/// `solids`, which are fixed, and with a fluid the faces of the domain through which nothing flows.
+///
+/// # Errors
+/// [`Error::Scene`] naming the table and key from which no block can be made; [`Error::File`] for a
+/// mesh.
+pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
+    let rock = &scene.rock;
+    let mut setup = Setup {
+        materials: materials::materials(scene),
+        pairs: materials::pairs(scene)?,
+        gravity: DVec3::from(rock.gravity),
+        damping: rock.mass_damping,
+        time_step: rock.time_step,
+        skin: rock.skin,
+        largest_overlap: rock.largest_overlap,
+        corner_area: rock.corner_area,
+        sleep: rock.sleep.map(|sleep| Sleep {
+            speed: sleep.speed,
+            after: sleep.time,
+            ..Sleep::default()
+        }),
+        ..Setup::default()
+    };
+    setup.period = period(scene);
+    let mut left_out = Vec::new();
+    for (index, block) in scene.blocks.iter().enumerate() {
+        let first = setup.blocks.len();
+        setup.blocks.extend(rows::blocks(scene, index, block)?);
+        let all = first..setup.blocks.len();
+        let axis = block.guide.map(DVec3::from);
+        setup.guides.extend(
+            axis.into_iter()
+                .flat_map(|axis| all.clone().map(move |block| Guide { block, axis })),
+        );
+    }
+    for (index, mass) in scene.rock_masses.iter().enumerate() {
+        let (blocks, lost) = masses::blocks(scene, index, mass)?;
+        setup.blocks.extend(blocks);
+        if lost.pieces > 0 {
+            left_out.push(lost);
+        }
+    }
+    let in_fluid = setup.blocks.len();
+    for (index, solid) in scene.solids.iter().enumerate() {
+        setup.blocks.push(solids::block(scene, index, solid)?);
+    }
+    if scene.has_fluid() {
+        setup.blocks.extend(walls::blocks(scene)?);
+    }
+    check_names(scene, &setup)?;
+    check_faces(scene, &setup.blocks[in_fluid..])?;
+    check_safety(scene, &setup)?;
+    check_domain(scene, &setup)?;
+    Ok(BlockSetup {
+        setup,
+        left_out,
+        in_fluid,
+    })
+}
+
+/// The box after which space repeats, along the axes whose faces are periodic. In a plane nothing varies along y, and
+/// blocks fill the width.
+fn period(scene: &Scene) -> Option<Period> {
+    let faces = [Face::XMin, Face::YMin, Face::ZMin];
+    let plane = scene.particles.as_ref().is_some_and(|p| p.plane);
+    let size = std::array::from_fn(|axis| {
+        let repeats = *scene.boundaries.face(faces[axis]) == Boundary::Periodic;
+        match repeats && !(plane && axis == 1) {
+            true => scene.domain.size[axis],
+            false => f64::INFINITY,
+        }
+    });
+    let size = DVec3::from_array(size);
+    (scene.has_fluid() && size.min_element().is_finite()).then(|| Period {
+        origin: DVec3::from(scene.domain.origin),
+        size,
+    })
+}
+
+/// Likeness (Jaro–Winkler) of names from which on one is meant for the other.
+const ALIKE: f64 = 0.75;
+
+/// Names differ, and those that probes name exist.
+fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
+    let mut names = HashSet::with_capacity(setup.blocks.len());
+    for block in &setup.blocks {
+        if !names.insert(block.name.as_str()) {
+            return Err(Error::scene(
+                "blocks",
+                format!(
+                    "two blocks are called `{}`; give their tables other names",
+                    block.name
+                ),
+            ));
+        }
+    }
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block { block, .. } = &probe.place
+            && !names.contains(block.as_str())
+        {
+            let alike = |name: &&str| strsim::jaro_winkler(name, block);
+            let all = setup.blocks.iter().map(|block| block.name.as_str());
+            let best = all.max_by(|a, b| alike(a).total_cmp(&alike(b)));
+            let remedy = match best.filter(|best| alike(best) >= ALIKE) {
+                Some(best) => format!("did you mean `{best}`?"),
+                None => {
+                    let some = setup.blocks.iter().take(20);
+                    let names: Vec<_> = some.map(|block| format!("`{}`", block.name)).collect();
+                    format!("there are {}", names.join(", "))
+                }
+            };
+            return Err(Error::scene(
+                format!("probes[{index}].block"),
+                format!("there is no block `{block}`; {remedy}"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Where there is a domain, blocks start in it; fixed ones need only reach into it.
+fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
+    let domain = &scene.domain;
+    if !domain.is_given() {
+        return Ok(());
+    }
+    let (low, high) = (DVec3::from(domain.origin), DVec3::from(domain.end()));
+    for block in &setup.blocks {
+        let fixed = block.motion == crate::rock::Motion::Fixed;
+        let margin = DVec3::splat(if fixed { block.shape.radius() } else { 0.0 });
+        let out = block.centre.cmplt(low - margin) | block.centre.cmpgt(high + margin);
+        if out.any() {
+            return Err(Error::scene(
+                format!("block {}", block.name),
+                format!(
+                    "its centroid {} lies outside the domain, which reaches from {low} to {high} m; \
+                     move it, or enlarge the domain",
+                    block.centre
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Probes ask for loads on the faces of blocks in the fluid, not of its solids.
+fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block {
+            block, faces: true, ..
+        } = &probe.place
+            && solids.iter().any(|solid| solid.name == *block)
+        {
+            return Err(Error::scene(
+                format!("probes[{index}].faces"),
+                format!(
+                    "`{block}` is a solid, whose cells the fluid does not enter; use a probe of the kind `face`, or \
+                     make it a block with motion = \"fixed\""
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Probes ask for the safety of blocks that nothing but contacts holds.
+fn check_safety(scene: &Scene, setup: &Setup) -> Result<()> {
+    let guided = |name: &str| {
+        let mut guides = setup.guides.iter();
+        guides.any(|guide| setup.blocks[guide.block].name == name)
+    };
+    for (index, probe) in scene.probes.iter().enumerate() {
+        if let ProbePlace::Block {
+            block,
+            safety: true,
+            ..
+        } = &probe.place
+            && guided(block)
+        {
+            return Err(Error::scene(
+                format!("probes[{index}].safety"),
+                format!(
+                    "`{block}` slides along a guide, which holds it beside its contacts, and factors of safety know \
+                     contacts alone; remove `safety`, or the guide of the block"
+                ),
+            ));
+        }
+    }
+    Ok(())
+}

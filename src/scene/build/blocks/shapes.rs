@@ -1,0 +1,84 @@
+//! Shapes of a scene's blocks, about their centroids.
+
+use crate::{
+    Result,
+    geometry::{Form, HalfSpace, Part, Polyhedron, Shape},
+    scene::{BlockShape, PlaneFace, Rotation, Scene},
+};
+use glam::{DQuat, DVec3};
+
+/// The shape of the table `key`, and its centroid (m) in the block's own frame.
+pub(crate) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Shape, DVec3)> {
+    let about_centre = |made: Result<Polyhedron>| made.map(|made| (made.into(), DVec3::ZERO));
+    match shape {
+        BlockShape::Box { size } => about_centre(Polyhedron::cuboid(DVec3::from(*size))),
+        BlockShape::Tetrahedron { edge } => about_centre(Polyhedron::tetrahedron(*edge)),
+        BlockShape::Octahedron { edge } => about_centre(Polyhedron::octahedron(*edge)),
+        BlockShape::Dodecahedron { edge } => about_centre(Polyhedron::dodecahedron(*edge)),
+        BlockShape::Icosahedron { edge } => about_centre(Polyhedron::icosahedron(*edge)),
+        BlockShape::Vertices { vertices } => hull(vertices),
+        BlockShape::HalfSpaces { faces } => {
+            Polyhedron::from_half_spaces(&half_spaces(faces)).map(|(made, c)| (made.into(), c))
+        }
+        BlockShape::Sphere { radius } => Shape::sphere(*radius).map(|made| (made, DVec3::ZERO)),
+        BlockShape::Mesh { file, scale, hull } => {
+            let path = scene.dir().join(file);
+            return super::meshes::shape(&path, *scale, *hull);
+        }
+        BlockShape::Compound { parts } => return compound(scene, key, parts),
+    }
+    .map_err(|error| error.within(key))
+}
+
+/// The hull of points.
+pub(super) fn hull(points: &[[f64; 3]]) -> Result<(Shape, DVec3)> {
+    let points: Vec<DVec3> = points.iter().copied().map(DVec3::from).collect();
+    Polyhedron::from_vertices(&points).map(|(made, centroid)| (made.into(), centroid))
+}
+
+/// The half-spaces of a table, with unit normals.
+pub(super) fn half_spaces(faces: &[PlaneFace]) -> Vec<HalfSpace> {
+    let half_space = |face: &PlaneFace| HalfSpace {
+        normal: DVec3::from(face.normal).normalize(),
+        distance: face.distance,
+    };
+    faces.iter().map(half_space).collect()
+}
+
+fn compound(scene: &Scene, key: &str, parts: &[crate::scene::Part]) -> Result<(Shape, DVec3)> {
+    let mut placed = Vec::new();
+    for (number, part) in parts.iter().enumerate() {
+        let key = format!("{key}.parts[{number}]");
+        let (made, centroid) = shape(scene, &key, &part.shape)?;
+        let turn = rotation(&part.rotation);
+        for piece in made.parts() {
+            let (form, shift) = turned(&piece.form, turn).map_err(|error| error.within(&key))?;
+            placed.push(Part {
+                form,
+                offset: DVec3::from(part.position) + turn * (centroid + piece.offset) + shift,
+            });
+        }
+    }
+    Shape::compound(placed).map_err(|error| error.within(key))
+}
+
+/// A form turned about its centroid, and what rounding has moved that by, m.
+fn turned(form: &Form, turn: DQuat) -> Result<(Form, DVec3)> {
+    match form {
+        Form::Convex(shape) if turn != DQuat::IDENTITY => {
+            let corners: Vec<DVec3> = shape.vertices().iter().map(|v| turn * *v).collect();
+            let (shape, shift) = Polyhedron::from_vertices(&corners)?;
+            Ok((Form::Convex(shape), shift))
+        }
+        _ => Ok((form.clone(), DVec3::ZERO)),
+    }
+}
+
+/// A turn of a scene.
+pub(crate) fn rotation(rotation: &Rotation) -> DQuat {
+    if rotation.angle == 0.0 {
+        return DQuat::IDENTITY;
+    }
+    let axis = DVec3::from(rotation.axis).normalize();
+    DQuat::from_axis_angle(axis, rotation.angle.to_radians())
+}

@@ -1,0 +1,110 @@
+//! Solids as fixed blocks.
+
+use super::{materials::held, meshes};
+use crate::{
+    Result,
+    geometry::{HalfSpace, Polyhedron, Shape},
+    rock::Block,
+    scene::{self, Scene, Solid},
+};
+use glam::DVec3;
+
+/// The solid `index` as a fixed block.
+pub(super) fn block(scene: &Scene, index: usize, solid: &Solid) -> Result<Block> {
+    let key = format!("solids[{index}]");
+    let (shape, centre) = shape(scene, &solid.shape, &key)?;
+    let name = match &solid.name {
+        Some(name) => name.clone(),
+        None => format!("solid_{}", index + 1),
+    };
+    let material = held(scene, &format!("{key}.material"), solid.material.as_deref())?;
+    Ok(Block {
+        material,
+        ..Block::new(name, shape, centre).fixed()
+    })
+}
+
+fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3)> {
+    match shape {
+        scene::Shape::Box { min, max } => {
+            let (min, max) = (DVec3::from(*min), DVec3::from(*max));
+            let made = Polyhedron::cuboid(max - min).map_err(|error| error.within(key))?;
+            Ok((made.into(), 0.5 * (min + max)))
+        }
+        scene::Shape::HalfSpace { point, normal } => {
+            let plane = HalfSpace::through(DVec3::from(*point), DVec3::from(*normal));
+            let mut faces = beyond(scene).to_vec();
+            faces.push(plane);
+            let (made, centroid) =
+                Polyhedron::from_half_spaces(&faces).map_err(|error| error.within(key))?;
+            Ok((made.into(), centroid))
+        }
+        scene::Shape::Sphere { center, radius } => Ok((
+            Shape::sphere(*radius).map_err(|error| error.within(key))?,
+            DVec3::from(*center),
+        )),
+        scene::Shape::Mesh {
+            file,
+            scale,
+            translate,
+        } => {
+            let (made, centroid) = meshes::shape(&scene.dir().join(file), *scale, false)?;
+            Ok((made, DVec3::from(*translate) + centroid))
+        }
+    }
+}
+
+/// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
+/// farther than any block there, and so the same in all periods.
+pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
+    let domain = &scene.domain;
+    let longest = domain.size.into_iter().fold(0.0, f64::max);
+    let end = domain.end();
+    std::array::from_fn(|face| {
+        let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
+        let mut normal = DVec3::ZERO;
+        normal[axis] = sign;
+        let at = if face % 2 == 0 {
+            domain.origin[axis]
+        } else {
+            end[axis]
+        };
+        HalfSpace {
+            normal,
+            distance: sign * at + longest,
+        }
+    })
+}
+
+/// Whether a region holds a point (m).
+///
+/// # Errors
+/// If the file of a mesh cannot be read.
+pub(super) fn holds(scene: &Scene, regions: &[scene::Shape]) -> Result<impl Fn(DVec3) -> bool> {
+    let mut inside: Vec<Box<dyn Fn(DVec3) -> bool>> = Vec::with_capacity(regions.len());
+    for region in regions {
+        inside.push(match region {
+            scene::Shape::Box { min, max } => {
+                let (min, max) = (DVec3::from(*min), DVec3::from(*max));
+                Box::new(move |x| x.cmpge(min).all() && x.cmple(max).all())
+            }
+            scene::Shape::HalfSpace { point, normal } => {
+                let (point, normal) = (DVec3::from(*point), DVec3::from(*normal));
+                Box::new(move |x| normal.dot(x - point) <= 0.0)
+            }
+            scene::Shape::Sphere { center, radius } => {
+                let (centre, radius) = (DVec3::from(*center), *radius);
+                Box::new(move |x| x.distance(centre) <= radius)
+            }
+            scene::Shape::Mesh {
+                file,
+                scale,
+                translate,
+            } => {
+                let path = scene.dir().join(file);
+                meshes::inside(&path, *scale, DVec3::from(*translate))?
+            }
+        });
+    }
+    Ok(move |x: DVec3| inside.iter().any(|holds| holds(x)))
+}

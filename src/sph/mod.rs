@@ -1,0 +1,52 @@
+//! Free-surface water by smoothed particle hydrodynamics (SPH), with walls and blocks in it.
+//!
+//! The host generates the initial particles ([`fill`], [`boundary_particles`]): fluid particles start on a lattice of
+//! spacing Δx. Walls and blocks carry *boundary* (dummy) particles inside, in as many layers as the support of the
+//! kernel reaches, the first layer Δx/2 below the surface (Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057). The
+//! support of a fluid particle near a wall is therefore as full as in the interior of the fluid. The device then
+//! advances the particles ([`SphSolver`]).
+
+mod advise;
+mod body_history;
+mod body_loads;
+mod boundary_particles;
+mod cell_grid;
+mod convex_part;
+mod counting_sort;
+mod equation_of_state;
+mod fill;
+mod from_scene;
+mod gauges;
+mod hulls;
+mod hydrostatic_start;
+mod kernels;
+mod lattice;
+mod layer_polygon;
+mod layout;
+mod neighbour_lists;
+mod pressure_probes;
+mod program;
+mod setup;
+mod solid;
+mod solver;
+mod spatial_hash;
+mod speed_estimate;
+mod water;
+mod wendland;
+
+pub use advise::advise;
+pub use boundary_particles::boundary_particles;
+pub use cell_grid::CellGrid;
+pub use counting_sort::{CountingSort, SortedParticles};
+pub use equation_of_state::EquationOfState;
+pub use fill::{Start, fill};
+pub use from_scene::particle_setup;
+pub use gauges::Gauges;
+pub use kernels::Counts;
+pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork};
+pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, program};
+pub use setup::{Body, NeighbourSearch, Scheme, Setup, Side};
+pub use solid::{Faces, Solid};
+pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};
+pub use water::{Totals, Water, point_cloud};
+pub use wendland::Wendland;

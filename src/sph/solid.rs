@@ -1,0 +1,223 @@
+//! Convex parts of bodies, with their faces classed as exposed or internal.
+
+use super::{convex_part::ConvexPart, lattice::Lattice, layer_polygon::LayerPolygon};
+use crate::{
+    geometry::{Form, HalfSpace, Shape},
+    rock::{Block, Motion},
+};
+use glam::{DQuat, DVec3};
+
+/// A convex part of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// A polyhedron.
+    Faces(Faces),
+    /// A sphere.
+    Sphere {
+        /// m.
+        centre: DVec3,
+        /// m.
+        radius: f64,
+    },
+}
+
+/// Faces of a convex polyhedron.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faces {
+    /// Centre of the bounding sphere, m.
+    pub centre: DVec3,
+    /// Radius of the bounding sphere, m.
+    pub radius: f64,
+    /// Faces in contact with the water.
+    pub exposed: Vec<HalfSpace>,
+    /// Faces inside other parts of the same body, or of fixed bodies if this one is fixed too.
+    pub internal: Vec<HalfSpace>,
+}
+
+/// The parts of each of the `blocks` in the world frame.
+pub(super) fn solids(blocks: &[Block], lattice: &Lattice) -> Vec<Vec<Solid>> {
+    let of = |block: &Block| {
+        let parts = ConvexPart::of_block(block);
+        let fixed = block.motion == Motion::Fixed;
+        solids_of_parts(&parts, lattice.tolerance(), |part| {
+            Solid::of(part, lattice, fixed)
+        })
+    };
+    blocks.iter().map(of).collect()
+}
+
+/// Marks the faces at which fixed blocks cover each other as internal: no water can emerge there.
+pub(super) fn mark_covered_faces(blocks: &[Block], solids: &mut [Vec<Solid>], lattice: &Lattice) {
+    let parts: Vec<_> = blocks.iter().map(ConvexPart::of_block).collect();
+    let slack = lattice.spacing;
+    for (index, block) in blocks.iter().enumerate() {
+        if block.motion != Motion::Fixed {
+            continue;
+        }
+        let fixed = |other: &usize| *other != index && blocks[*other].motion == Motion::Fixed;
+        let all = (0..blocks.len())
+            .filter(fixed)
+            .flat_map(|other| &parts[other]);
+        let all: Vec<_> = all.collect();
+        for (part, solid) in parts[index].iter().zip(&mut solids[index]) {
+            let overlaps = |other: &&&ConvexPart<'_>| {
+                (other.low - slack).cmplt(part.high).all()
+                    && (other.high + slack).cmpgt(part.low).all()
+            };
+            let near: Vec<_> = all.iter().filter(overlaps).copied().collect();
+            solid.mark_internal_faces(part, &near, lattice.tolerance());
+        }
+    }
+}
+
+/// All parts of a body, with the faces inside other parts marked as internal.
+fn solids_of_parts(
+    parts: &[ConvexPart<'_>],
+    tolerance: f64,
+    of_part: impl Fn(&ConvexPart<'_>) -> Solid,
+) -> Vec<Solid> {
+    let solid = |(index, part): (usize, &ConvexPart<'_>)| {
+        let mut solid = of_part(part);
+        let others = parts.iter().enumerate();
+        let others = others.filter(|(other, _)| *other != index);
+        let others: Vec<&ConvexPart<'_>> = others.map(|(_, other)| other).collect();
+        solid.mark_internal_faces(part, &others, tolerance);
+        solid
+    };
+    parts.iter().enumerate().map(solid).collect()
+}
+
+impl Solid {
+    /// The parts of a body, in its frame.
+    pub fn parts(shape: &Shape) -> Vec<Self> {
+        let parts = ConvexPart::of_shape(shape, DVec3::ZERO, DQuat::IDENTITY);
+        solids_of_parts(&parts, 1e-6 * shape.radius(), Self::all_exposed)
+    }
+
+    /// A part with all faces exposed.
+    fn all_exposed(part: &ConvexPart<'_>) -> Self {
+        match part.form {
+            Form::Sphere { radius } => Self::Sphere {
+                centre: part.centre,
+                radius: *radius,
+            },
+            Form::Convex(polyhedron) => Self::Faces(Faces {
+                centre: part.centre,
+                radius: polyhedron.radius(),
+                exposed: part.planes(),
+                internal: Vec::new(),
+            }),
+        }
+    }
+
+    /// The part in the frame of a block.
+    pub(super) fn in_body_frame(self, block: &Block) -> Self {
+        let to_body = block.rotation.inverse();
+        let rotated = |plane: HalfSpace| HalfSpace {
+            normal: to_body * plane.normal,
+            distance: -plane.height(block.centre),
+        };
+        let rotated_all = |planes: Vec<HalfSpace>| planes.into_iter().map(rotated).collect();
+        match self {
+            Self::Sphere { centre, radius } => Self::Sphere {
+                centre: to_body * (centre - block.centre),
+                radius,
+            },
+            Self::Faces(faces) => Self::Faces(Faces {
+                centre: to_body * (faces.centre - block.centre),
+                exposed: rotated_all(faces.exposed),
+                internal: rotated_all(faces.internal),
+                ..faces
+            }),
+        }
+    }
+
+    /// A part without the faces at both ends of a period that it spans, and if it is `fixed`, without the faces at or
+    /// beyond the faces of the domain.
+    pub(super) fn of(part: &ConvexPart<'_>, lattice: &Lattice, fixed: bool) -> Self {
+        let tolerance = lattice.tolerance();
+        let ends = [0, 1, 2].map(|axis| {
+            let low = part.low[axis] <= lattice.low[axis] + tolerance;
+            let high = part.high[axis] >= lattice.high[axis] - tolerance;
+            if lattice.is_unbounded(axis) {
+                [low && high, low && high]
+            } else {
+                [fixed && low, fixed && high]
+            }
+        });
+        let is_end = |plane: &HalfSpace| {
+            let axis = (0..3).find(|axis| plane.normal[*axis].abs() > 1.0 - 1e-9);
+            axis.is_some_and(|axis| {
+                let end = usize::from(plane.normal[axis] > 0.0);
+                let at = plane.distance * plane.normal[axis].signum();
+                let beyond = match end {
+                    0 => at <= lattice.low[axis] + tolerance,
+                    _ => at >= lattice.high[axis] - tolerance,
+                };
+                ends[axis][end] && beyond
+            })
+        };
+        let mut solid = Self::all_exposed(part);
+        if let Self::Faces(faces) = &mut solid {
+            faces.exposed.retain(|plane| !is_end(plane));
+        }
+        solid
+    }
+
+    /// Whether a layer of this part lies behind the `internal` face of another part at `point` (m), which is just behind
+    /// the face.
+    pub(super) fn continues_layer(&self, internal: &HalfSpace, point: DVec3, slack: f64) -> bool {
+        let Self::Faces(faces) = self else {
+            return false;
+        };
+        let is_below = |face: &HalfSpace| {
+            let apart = face.height(point) + internal.height(point);
+            face.normal.dot(internal.normal) < 1e-9 - 1.0 && apart.abs() < slack
+        };
+        self.depth(point) > -slack && faces.exposed.iter().any(is_below)
+    }
+
+    /// Marks the faces of a part inside `others` as internal.
+    fn mark_internal_faces(
+        &mut self,
+        part: &ConvexPart<'_>,
+        others: &[&ConvexPart<'_>],
+        tolerance: f64,
+    ) {
+        let Self::Faces(faces) = self else {
+            return;
+        };
+        let planes = part.planes();
+        let half_width = 2.0 * (part.high - part.low).length();
+        let is_internal = |plane: &HalfSpace| {
+            let rest = planes.iter().filter(|other| *other != plane).copied();
+            let polygon = LayerPolygon::new(*plane, rest, part.centre, half_width);
+            polygon.is_some_and(|polygon| {
+                let samples = polygon.samples().into_iter();
+                let mut outside = samples.map(|x| x + plane.normal * (1e3 * tolerance));
+                outside.all(|x| others.iter().any(|other| other.depth(x) > -tolerance))
+            })
+        };
+        let all = std::mem::take(&mut faces.exposed);
+        let (internal, exposed): (Vec<_>, Vec<_>) = all.into_iter().partition(is_internal);
+        faces.internal.extend(internal);
+        faces.exposed = exposed;
+    }
+
+    /// Depth of `point` (m) below the exposed faces, m; negative outside.
+    pub(super) fn depth(&self, point: DVec3) -> f64 {
+        match self {
+            Self::Sphere { centre, radius } => radius - centre.distance(point),
+            Self::Faces(faces) => {
+                let least = |least: f64, plane: &HalfSpace| least.min(-plane.height(point));
+                // Beyond an internal face the point is in another part.
+                let inside = faces.internal.iter().fold(f64::INFINITY, least);
+                if inside < 0.0 {
+                    inside
+                } else {
+                    faces.exposed.iter().fold(f64::INFINITY, least)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! Loads on single faces.
+
+use crate::{
+    combine_solids::{Moving, random_shares},
+    shapes::{cuboid, icosahedron, tetrahedron},
+    tiling::{Noise, Placed, Tiling, centre, grid},
+    voxelise,
+    workbench::{POISON, Workbench},
+};
+use glam::{DQuat, DVec3};
+use riprap::{
+    geometry::{HalfSpace, Polyhedron},
+    psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces},
+};
+
+/// Of the fluid, cells² a step.
+const VISCOSITY: f64 = 0.07;
+
+/// Parts and what a step of the fluid would leave in their cells.
+struct Case {
+    tiling: Tiling,
+    moving: Vec<Moving>,
+    shares: Vec<f32>,
+    saturation: Vec<f32>,
+    /// Parts that ask.
+    asked: Vec<u32>,
+}
+
+impl Case {
+    /// `shares` as they may be; or exact ones, with fluid around, all of it at a density of 1.03.
+    fn new(tiling: Tiling, shares: Option<Vec<f32>>, noise: &mut Noise) -> Self {
+        let blocks = tiling.placed.iter().map(|p| p.block).max().unwrap() + 1;
+        let near = tiling.placed[0].centre;
+        let moving = (0..blocks).map(|_| Moving::new(near, noise)).collect();
+        let exact = shares.is_some();
+        let shares = shares.unwrap_or_else(|| {
+            let mut shares = random_shares(&tiling, noise);
+            for share in shares.iter_mut().filter(|share| **share > 0.0) {
+                *share = if noise.next() > 0.3 { NEAR } else { *share };
+            }
+            shares
+        });
+        let scalars =
+            tiling.slots as usize * PLANES * tiling.workgroup() * tiling.grid.lanes as usize;
+        let mut saturation = vec![f32::from_bits(POISON); scalars];
+        for (number, tile) in tiling.tiles.iter().enumerate() {
+            for local in 0..tiling.workgroup() {
+                if shares[number * tiling.workgroup() + local] >= 0.0 {
+                    continue;
+                }
+                let any = noise.next();
+                let mark = if exact || any > 0.2 { NEAR } else { any as f32 };
+                saturation[tiling.scalar(tile, 0, local)] = mark;
+                let fluid = exact || any > 0.4;
+                saturation[tiling.scalar(tile, 4, local)] = if fluid { 1.0 } else { 0.0 };
+                for plane in 5..PLANES {
+                    let any = 0.1 * (noise.next() - 0.5) as f32;
+                    let value = if exact && plane == 5 { 0.03 } else { any };
+                    saturation[tiling.scalar(tile, plane, local)] = value;
+                }
+            }
+        }
+        let asked = (0..tiling.parts.len() as u32).filter(|n| n % 3 != 1);
+        Self {
+            asked: asked.collect(),
+            tiling,
+            moving,
+            shares,
+            saturation,
+        }
+    }
+
+    /// Face by face: part, number of the face.
+    fn faces(&self) -> impl Iterator<Item = (u32, u32)> {
+        let faces = |part: &u32| self.tiling.parts[*part as usize].faces;
+        let each = self.asked.iter().map(move |part| (*part, faces(part)));
+        each.flat_map(|(part, faces)| (0..faces).map(move |face| (part, face)))
+    }
+
+    /// Loads on each face, and the sums of the sizes of what adds up to them, 0 where that is exact.
+    fn twin(&self) -> Vec<[(f64, f64); FACE_LOAD]> {
+        let one = |(part, face)| {
+            let mut all = [(0.0, 0.0); FACE_LOAD];
+            let tiles = self.tiling.tiles.iter().enumerate();
+            for (number, tile) in tiles.filter(|(_, tile)| tile.part == part) {
+                for local in 0..self.tiling.workgroup() {
+                    if self.shares[number * self.tiling.workgroup() + local] >= 0.0 {
+                        continue;
+                    }
+                    let values = self.cell(tile, local, face as usize);
+                    for (sum, (value, size)) in all.iter_mut().zip(values.unwrap_or_default()) {
+                        *sum = (sum.0 + value, sum.1 + size);
+                    }
+                }
+            }
+            all
+        };
+        self.faces().map(one).collect()
+    }
+
+    /// The numbers of a cell and their sizes, if it is beside the face.
+    fn cell(&self, tile: &Tile, local: usize, face: usize) -> Option<[(f64, f64); FACE_LOAD]> {
+        let placed = &self.tiling.placed[tile.part as usize];
+        let point = centre(self.tiling.cell(tile, local)?);
+        let r = point - placed.centre;
+        let own = &placed.faces[face];
+        let normal = own.normal;
+        let height = own.height(r);
+        let foot = point - height * normal;
+        // The distance from the centre of a cell to the farthest corner along the normal.
+        let low = 0.5 * normal.abs().element_sum() - 1e-5;
+        let others = placed.faces.iter().enumerate();
+        let mut others = others.filter(|(n, _)| *n != face).map(|(_, other)| other);
+        // Feet on an edge belong to both faces.
+        let inside = others.all(|other| other.height(foot - placed.centre) < 1e-9);
+        if !(low..low + 1.0).contains(&height) || !inside {
+            return None;
+        }
+        let siblings = self.tiling.placed.iter().enumerate().filter(|(n, other)| {
+            *n != tile.part as usize && other.block == self.tiling.parts[tile.part as usize].block
+        });
+        let siblings = siblings.map(|(_, other)| other);
+        // A thousandth of a cell over the face.
+        let over = foot + 1e-3 * normal;
+        if siblings.clone().any(|other| {
+            other
+                .faces
+                .iter()
+                .all(|f| f.height(over - other.centre) < 0.0)
+        }) {
+            return None;
+        }
+        let cut = siblings.into_iter().any(|other| {
+            let reach = |f: &HalfSpace| 0.5 * f.normal.abs().element_sum() - 1e-5;
+            let faces = other.faces.iter();
+            faces
+                .into_iter()
+                .all(|f| f.height(point - other.centre) < reach(f))
+        });
+        let at = |plane| f64::from(self.saturation[self.tiling.scalar(tile, plane, local)]);
+        if at(0) != f64::from(NEAR) || at(4) == 0.0 {
+            if cut {
+                return None;
+            }
+            let mut dry = [(0.0, 0.0); FACE_LOAD];
+            dry[FACE_LOAD - 1].0 = 1.0;
+            return Some(dry);
+        }
+        let moving = &self.moving[tile.block as usize];
+        let slip = DVec3::new(at(6), at(7), at(8)) - moving.at(foot);
+        let shear = VISCOSITY / height * (slip - slip.dot(normal) * normal);
+        let t = shear - at(5) / 3.0 * normal;
+        let arm = foot - moving.centre;
+        let m = arm.cross(t);
+        let along = |v: DVec3, size: f64| v.to_array().map(|x| (x, size));
+        let [[a, b, c], [d, e, f]] = [along(t, t.length()), along(m, arm.length() * t.length())];
+        let mut all = [(1.0, 0.0); FACE_LOAD];
+        all[..6].copy_from_slice(&[a, b, c, d, e, f]);
+        all[6] = (height, height);
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            all[7 + k] = (arm[k], arm.length());
+            all[10 + k] = (arm[k] * arm[k], arm.length_squared());
+            all[13 + k] = (arm[i] * arm[j], arm.length_squared());
+        }
+        Some(all)
+    }
+
+    /// The same by the kernels.
+    fn run(&self, width: Option<u32>) -> Vec<f32> {
+        let bench = Workbench::new(width);
+        let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
+        for (part, face) in self.faces() {
+            let numbers = (0..).zip(&self.tiling.tiles);
+            let own = numbers.filter(|(_, tile)| tile.part == part);
+            jobs.extend(own.map(|(tile, _)| FaceJob { tile, face }));
+            face_first.push(jobs.len() as u32);
+        }
+        let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
+        let faces = face_first.len() - 1;
+        let partials = bench.poisoned(FACE_LOAD * (jobs.len() + 1));
+        let loads = bench.poisoned(FACE_LOAD * (faces + 8));
+        let buffers = [
+            ("jobs", &bench.buffer(&jobs)),
+            ("tiles", &bench.buffer(&self.tiling.tiles)),
+            ("parts", &bench.buffer(&self.tiling.parts)),
+            ("faces", &bench.buffer(&self.tiling.faces)),
+            ("motions", &bench.buffer(&motions)),
+            ("shares", &bench.buffer(&self.shares)),
+            ("saturation", &bench.buffer(&self.saturation)),
+            ("face_first", &bench.buffer(&face_first)),
+            ("face_partials", &partials),
+            ("face_loads", &loads),
+        ];
+        let mut numbers = constants(&self.tiling.grid);
+        numbers.push(("VISCOSITY", VISCOSITY));
+        let program = reduce_faces(&self.tiling.grid);
+        // One group more than there are jobs.
+        let groups = 64 * (jobs.len() + 1);
+        bench.run(&program, "reduce_faces", &numbers, &buffers, groups);
+        let invocations = FACE_LOAD * (faces + 8);
+        bench.run(&sum_faces(), "sum_faces", &[], &buffers, invocations);
+        let poison = |numbers: &[f32]| numbers.iter().all(|x| x.to_bits() == POISON);
+        assert!(poison(
+            &bench.read::<f32>(&partials)[FACE_LOAD * jobs.len()..]
+        ));
+        let mut found: Vec<f32> = bench.read(&loads);
+        assert!(poison(&found.split_off(FACE_LOAD * faces)));
+        found
+    }
+}
+
+/// Compounds, whose parts lie in each other here, and blocks that do not ask.
+fn blocks(noise: &mut Noise) -> Vec<Placed> {
+    let shapes = [
+        (0, cuboid(7.0, 5.0, 6.0)),
+        (0, tetrahedron(8.0)),
+        (1, icosahedron(6.0)),
+        (2, tetrahedron(7.0)),
+        (2, cuboid(9.0, 4.0, 0.4)),
+    ];
+    let place = |(block, shape): &(u32, Polyhedron)| {
+        let at = DVec3::new(8.0, 9.0, 10.0) + noise.point();
+        Placed::hull(*block, shape, at, noise.rotation())
+    };
+    shapes.iter().map(place).collect()
+}
+
+fn check(case: &Case, width: Option<u32>) {
+    let expected = case.twin();
+    let found = case.run(width);
+    assert_eq!(found.len(), FACE_LOAD * expected.len());
+    for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
+        for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
+            // f32 in each cell; heights have the rounding of places some 10 cells away.
+            let error = (f64::from(*found) - value).abs();
+            assert!(error <= 3e-6 * size, "face {face}, {k}: {found} {value}");
+        }
+    }
+    // The narrow sides of a slab may have none.
+    let seen = expected
+        .iter()
+        .filter(|sums| sums[FACE_LOAD - 1].0 > 0.0)
+        .count();
+    assert!(2 * seen > expected.len(), "{seen} of {}", expected.len());
+}
+
+#[test]
+fn loads_on_faces_are_sums_over_the_cells_beside_them() {
+    let cases = [
+        (1, [4, 4, 4], None),
+        (2, [5, 3, 7], Some(3)),
+        (4, [4, 8, 8], None),
+    ];
+    for (seed, (lanes, brick, width)) in (30..).zip(cases) {
+        let mut noise = Noise(seed);
+        let grid = grid([19, 20, 21], lanes, brick);
+        let tiling = Tiling::new(grid, [0; 3], blocks(&mut noise));
+        check(&Case::new(tiling, None, &mut noise), width);
+    }
+}
+
+/// A cell of fluid for each unit of area; exactly where faces lie along the grid, also within rounding of it.
+#[test]
+fn the_layer_beside_a_face_has_its_area() {
+    let mut noise = Noise(40);
+    let shape = cuboid(8.0, 6.0, 5.0);
+    for (at, rotation) in [
+        (DVec3::new(8.0, 8.0, 8.5), DQuat::IDENTITY),
+        (DVec3::new(8.25, 8.0, 8.5), DQuat::IDENTITY),
+        (DVec3::new(8.000003, 8.0, 8.5), DQuat::IDENTITY),
+        (DVec3::new(8.1, 8.2, 8.3), noise.rotation()),
+    ] {
+        let along_grid = rotation == DQuat::IDENTITY;
+        let placed = vec![Placed::hull(0, &shape, at, rotation)];
+        let tiling = Tiling::new(grid([17; 3], 1, [4; 3]), [0; 3], placed);
+        let shares = voxelise::all(&Workbench::new(None), &tiling);
+        let case = Case::new(tiling, Some(shares), &mut noise);
+        check(&case, None);
+        let found = case.run(None);
+        for (face, found) in shape.faces().iter().zip(found.chunks(FACE_LOAD)) {
+            let across = [8.0, 6.0, 5.0];
+            let along = (0..3).find(|a| face.normal[*a].abs() > 0.5).unwrap();
+            let area = 240.0 / across[along];
+            let [height, fluid, cells] =
+                [6, FACE_LOAD - 2, FACE_LOAD - 1].map(|k| f64::from(found[k]));
+            assert_eq!(fluid, cells, "all is wet");
+            // Feet within a tenth of a cell of the edges of 22 to 28 cells fall on either side.
+            let most = if along_grid { 0.0 } else { 0.1 };
+            let error = cells / area - 1.0;
+            println!("{cells} cells of {area}");
+            assert!(error.abs() <= most, "{cells} of {area}");
+            let normal = rotation * face.normal;
+            let force = DVec3::new(found[0].into(), found[1].into(), found[2].into());
+            let pressure = -force.dot(normal) / cells;
+            assert!((pressure / 0.01 - 1.0).abs() < 1e-5, "{pressure}");
+            let half = 0.5 * normal.abs().element_sum();
+            let mean = height / cells - half;
+            assert!((-1e-5..1.0).contains(&mean), "{mean}");
+        }
+    }
+}

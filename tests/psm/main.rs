@@ -1,0 +1,24 @@
+//! Partially saturated cells: the kernels against formulas in f64, the lattice step against its f64 twin, and the null model.
+
+mod combine_solids;
+mod exact;
+mod faces;
+mod layout;
+mod null_model;
+mod operators;
+mod programs;
+mod reduce;
+#[path = "../rig/mod.rs"]
+mod rig;
+mod shapes;
+mod subject;
+mod tile_search;
+mod tiling;
+#[path = "../twin/mod.rs"]
+mod twin;
+#[path = "../twin_of/mod.rs"]
+mod twin_of;
+mod twin_step;
+mod voxelise;
+#[path = "../broadphase/workbench.rs"]
+mod workbench;

@@ -1,0 +1,186 @@
+//! Loads on blocks from what the fluid leaves in each cell.
+
+use crate::{
+    combine_solids::{Moving, crowd, random_shares},
+    tiling::{Noise, Tiling, centre, grid},
+    workbench::{POISON, Workbench},
+};
+use glam::DVec3;
+use riprap::psm::{DEEP, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles};
+
+const BLOCKS: u32 = 9;
+
+/// Blocks in a grid, and what a step of the fluid would leave in it.
+struct Case {
+    tiling: Tiling,
+    moving: Vec<Moving>,
+    shares: Vec<f32>,
+    saturation: Vec<f32>,
+}
+
+impl Case {
+    /// Blocks 3 and 8, the last one, have no tile.
+    fn new(seed: u64, lanes: u32, brick: [u32; 3]) -> Self {
+        let mut noise = Noise(seed);
+        let middle = DVec3::new(17.0, -30.0, 13.0);
+        let mut placed = crowd(&mut noise, BLOCKS - 1, middle);
+        placed.retain(|part| part.block != 3);
+        let mut tiling = Tiling::new(grid([21, 19, 22], lanes, brick), [7, -40, 3], placed);
+        tiling.shorten(&mut noise);
+        let moving = (0..BLOCKS).map(|_| Moving::new(middle, &mut noise));
+        let moving: Vec<_> = moving.collect();
+        let shares = random_shares(&tiling, &mut noise);
+        let size = tiling.workgroup() * PLANES * lanes as usize;
+        let mut saturation = vec![f32::from_bits(POISON); tiling.slots as usize * size];
+        // Cells without solid stay poison.
+        for (number, tile) in tiling.tiles.iter().enumerate() {
+            for local in 0..tiling.workgroup() {
+                if shares[number * tiling.workgroup() + local] <= 0.0 {
+                    continue;
+                }
+                let at = |plane| tiling.scalar(tile, plane, local);
+                if saturation[at(4)].to_bits() == POISON {
+                    // Deep cells and walls have no beta.
+                    let fluid = noise.next() > 0.3;
+                    let joint = noise.next() > 0.7;
+                    // Half of them are only half closed.
+                    let sum = if noise.next() > 0.5 { 1.0 } else { 0.951 };
+                    saturation[at(0)] = if joint { sum + JOINT_SUM } else { sum };
+                    // Nobody may use the mean velocity elsewhere.
+                    for plane in 1..4 {
+                        let any = 0.1 * noise.next() as f32;
+                        saturation[at(plane)] = if joint { any } else { f32::NAN };
+                    }
+                    for plane in 4..PLANES {
+                        let scale = if plane > 4 { 1e-3 } else { 1.0 };
+                        let any = scale * noise.next() as f32;
+                        saturation[at(plane)] = if fluid { any } else { 0.0 };
+                    }
+                }
+            }
+        }
+        Self {
+            tiling,
+            moving,
+            shares,
+            saturation,
+        }
+    }
+
+    /// What each block must feel, and the sum of the sizes of what adds up to it.
+    fn twin(&self) -> Vec<[(f64, f64); WRENCH]> {
+        let tiling = &self.tiling;
+        let mut all = vec![[(0.0, 0.0); WRENCH]; BLOCKS as usize];
+        for (number, tile) in tiling.tiles.iter().enumerate() {
+            let moving = &self.moving[tile.block as usize];
+            for local in 0..tiling.workgroup() {
+                let share = self.shares[number * tiling.workgroup() + local];
+                if share <= 0.0 || !tiling.reach(tile).contains(&local) {
+                    continue;
+                }
+                let e = if share == DEEP { 1.0 } else { f64::from(share) };
+                let point = centre(tiling.cell(tile, local).unwrap());
+                let r = (point - moving.centre).to_array();
+                let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
+                let own = moving.at(point);
+                let mean = DVec3::new(at(1), at(2), at(3));
+                let u = match at(0) - f64::from(JOINT_SUM) {
+                    sum if sum >= 0.0 => own.lerp(mean, ((sum - 0.9) / 0.098).clamp(0.0, 1.0)),
+                    _ => own,
+                };
+                let u = u.to_array();
+                let (beta, a) = (at(4), at(5));
+                let held = e * beta;
+                let freed = if beta > 0.0 { e - held } else { 0.0 };
+                let mut add = |k: usize, value: f64| {
+                    all[tile.block as usize][k].0 += value;
+                    all[tile.block as usize][k].1 += value.abs();
+                };
+                for i in 0..3 {
+                    let f = -e * (a * u[i] + at(6 + i));
+                    add(i, f);
+                    for j in 0..3 {
+                        add(3 + 3 * i + j, f * r[j]);
+                    }
+                    add(14 + i, held * r[i]);
+                    add(17 + i, freed * r[i]);
+                }
+                add(12, held);
+                add(13, freed);
+            }
+        }
+        all
+    }
+
+    /// Wrenches by the kernels.
+    fn run(&self, width: Option<u32>, walk: Walk) -> Vec<f32> {
+        let bench = Workbench::new(width);
+        let tiles = self.tiling.tiles.len();
+        let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
+        let partials = bench.poisoned(WRENCH * (tiles + 3));
+        let wrenches = bench.poisoned(WRENCH * (BLOCKS as usize + 1));
+        // Tiles of an earlier, longer list lie behind those that count.
+        let mut listed = self.tiling.tiles.clone();
+        listed.extend([self.tiling.tiles[0]; 3]);
+        let buffers = [
+            ("tiles", &bench.buffer(&listed)),
+            ("motions", &bench.buffer(&motions)),
+            ("shares", &bench.buffer(&self.shares)),
+            ("saturation", &bench.buffer(&self.saturation)),
+            ("block_first", &bench.buffer(&self.tiling.by_block(BLOCKS))),
+            ("partials", &partials),
+            ("wrenches", &wrenches),
+        ];
+        let groups = walk.groups(tiles as u32 + 3) as usize;
+        let program = reduce_tiles(&self.tiling.grid, walk);
+        let numbers = constants(&self.tiling.grid);
+        bench.run(&program, "reduce_tiles", &numbers, &buffers, 64 * groups);
+        let blocks = 64 * (BLOCKS as usize + 1);
+        bench.run(&reduce_blocks(), "reduce_blocks", &[], &buffers, blocks);
+        let poison = |numbers: &[f32]| numbers.iter().all(|x| x.to_bits() == POISON);
+        let partials: Vec<f32> = bench.read(&partials);
+        assert!(poison(&partials[WRENCH * tiles..]), "tiles behind the last");
+        let mut found: Vec<f32> = bench.read(&wrenches);
+        let behind = found.split_off(WRENCH * BLOCKS as usize);
+        assert!(poison(&behind), "a block behind the last");
+        found
+    }
+}
+
+#[test]
+fn loads_are_sums_over_cells() {
+    let cases = [
+        (1, [4, 4, 4], None),
+        (2, [5, 3, 7], Some(3)),
+        (4, [4, 8, 8], Some(5)),
+        (1, [4, 4, 2], None),
+    ];
+    let mut most_tiles = 0;
+    for (seed, (lanes, brick, width)) in (20..).zip(cases) {
+        let case = Case::new(seed, lanes, brick);
+        let expected = case.twin();
+        let first = case.tiling.by_block(BLOCKS);
+        most_tiles = most_tiles.max(first.windows(2).map(|w| w[1] - w[0]).max().unwrap());
+        for walk in [Walk::Serial, Walk::Parallel] {
+            let found = case.run(width, walk);
+            for (block, (found, expected)) in found.chunks(WRENCH).zip(&expected).enumerate() {
+                for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
+                    // Sums of some thousand terms in f32; arms are exact to 1e-6 of a cell.
+                    let most = 2e-6 * size;
+                    let error = (f64::from(*found) - value).abs();
+                    assert!(
+                        error <= most,
+                        "{walk:?}, block {block}, {k}: {found} {value}"
+                    );
+                }
+                assert_eq!(expected[13].1 == 0.0, [3, 8].contains(&block));
+            }
+            let again = case.run(None, walk);
+            assert!(again == found, "the same bits in any dispatch");
+        }
+    }
+    assert!(
+        most_tiles > 128,
+        "invocations of reduce_blocks add several tiles"
+    );
+}

@@ -1,8 +1,8 @@
 //! Blocks coupled to a lattice: their cells in it, and the loads that it returns.
 
 use super::{
-    Ambient, AsyncReadback, Copied, Coupled, ExchangeInterval, FluidLoad, LoadAverage,
-    fluid_load::add_loads,
+    Ambient, AsyncReadback, Copied, Coupled, ExchangeInterval, FluidLoad, Gap, LoadAverage,
+    fluid_load::add_loads, inlets::BlockAtInlet,
 };
 use crate::{
     Error, Result,
@@ -28,9 +28,15 @@ pub(crate) struct LatticeCoupling {
     /// Whether each load is averaged with that of the step before.
     average: bool,
     /// Number of blocks in the fluid, the first ones.
-    in_fluid: usize,
+    pub(super) in_fluid: usize,
     /// Poses of all blocks for which the cells have been computed.
     pub(super) placed: Option<Vec<Pose>>,
+    /// Pairs of blocks closer than a cell at the start.
+    pub(super) gaps: Vec<Gap>,
+    /// Whether a probe requests the loads on the faces of each block in the fluid.
+    pub(super) face_probes: Vec<bool>,
+    /// Blocks in inflow cells at the start.
+    pub(super) initial_inlet_blocks: Vec<BlockAtInlet>,
 }
 
 impl LatticeCoupling {
@@ -60,6 +66,9 @@ impl LatticeCoupling {
             load_average: LoadAverage::default(),
             average: scene.coupling.average,
             placed: None,
+            gaps: Vec::new(),
+            face_probes: Vec::new(),
+            initial_inlet_blocks: Vec::new(),
         })
     }
 
@@ -202,11 +211,11 @@ impl LatticeCoupling {
     }
 }
 
-impl Coupled {
+impl<'a> Coupled<'a> {
     /// The loads of the fluid on the faces of a block at the last exchange, part by part; empty unless a probe requests
     /// them, and before the first exchange.
-    pub fn face_loads(&self, block: usize) -> &[FaceLoad] {
-        if self.face_probes.get(block) != Some(&true) {
+    pub fn face_loads(&self, block: usize) -> &'a [FaceLoad] {
+        if self.coupling.face_probes.get(block) != Some(&true) {
             return &[];
         }
         let loads = self.coupling.face_loads.get(block);

@@ -5,10 +5,11 @@ use crate::{
     rock::{integrate::axial, law::inner},
 };
 use glam::{DMat3, DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
 /// one any matrix, so that the velocity of a point is the same formula for both.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Centroid, m.
     pub centre: DVec3,
@@ -111,7 +112,7 @@ pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
 }
 
 /// What a fluid does to a block in a step, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Force, N.
     pub force: DVec3,

@@ -1,15 +1,21 @@
 //! Velocities in cells with solid, from one run to the next.
 
 use super::{Grid, Lattice, Observer, fluid::storage, observe::VELOCITY_OUT};
-use crate::{Error, Result, gpu::kernel::Kernel};
+use crate::{
+    Error, Result,
+    gpu::{kernel::Kernel, plain_bytes},
+};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Inside {
     /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
+    #[serde(with = "plain_bytes")]
     pub cells: Vec<u32>,
     /// Their velocities, component by component, lattice units.
+    #[serde(with = "plain_bytes")]
     pub velocity: Vec<f32>,
 }
 

@@ -13,6 +13,7 @@ use crate::{
     rock::integrate::{self, Principal},
 };
 use glam::{DMat3, DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 use std::{ops::Range, sync::Arc};
 
 /// What stays.
@@ -121,7 +122,7 @@ impl Body {
 }
 
 /// What changes, between two steps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     /// m.
     pub centre: DVec3,

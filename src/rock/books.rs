@@ -9,12 +9,13 @@ use super::{
 use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Chunks of contacts that one thread takes at least.
 const FEW: usize = 8;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Books {
     pub friction: f64,
     pub lost: f64,

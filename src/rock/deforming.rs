@@ -14,6 +14,7 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// In place of a number of a deforming block: it is rigid.
 pub(super) const RIGID: u32 = u32::MAX;
@@ -30,7 +31,7 @@ pub(super) struct Deforming {
 }
 
 /// What changes of one, between two steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Strain {
     /// F.
     pub deformation: DMat3,

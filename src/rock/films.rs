@@ -14,6 +14,7 @@ use super::{
 };
 use crate::rock::{contact::Squeeze, integrate, law};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Residual, as a share of the first one, at which the impulses are known: far below the velocity to which a film
 /// of a thousandth of the step's own time slows a pair.
@@ -22,7 +23,7 @@ const SETTLED: f64 = 1e-13;
 const MOST: usize = 3;
 
 /// One way in which one gap resists.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Film {
     pub blocks: [u32; 2],
     /// Along which the second block moves away from the first; zero for a tilt.

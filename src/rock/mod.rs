@@ -15,7 +15,6 @@ mod body;
 mod bonds;
 mod books;
 mod bound;
-mod bytes;
 mod check;
 mod contact_point;
 mod deforming;

@@ -11,9 +11,10 @@ use super::{
 use crate::{Error, Result};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Where a block was when the list was made, and how far it may go from there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Mark {
     pub centre: DVec3,
     pub rotation: DQuat,

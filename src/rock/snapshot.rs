@@ -4,28 +4,19 @@ use super::{
     Blocks,
     body::State,
     books::Books,
-    bytes::{Plain, fields},
     deforming::Strain,
     films::Film,
     pairs::Mark,
     touch::{Pair, Touch},
     touches::Touches,
 };
-use crate::{
-    Error, Result,
-    rock::{
-        contact::{Cache, Seam},
-        law::{Force, History},
-    },
-};
-
-/// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 5\n";
+use crate::{Error, Result};
+use serde::{Deserialize, Serialize};
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     time: f64,
     steps: u64,
@@ -45,31 +36,6 @@ impl Snapshot {
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.time
-    }
-
-    /// As bytes, the same on every machine.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = MAGIC.to_vec();
-        self.write(&mut bytes);
-        bytes
-    }
-
-    /// From what [`Snapshot::to_bytes`] gave.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] if the bytes are no snapshot, or are cut short.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
-            let message = "this is no snapshot of this version of riprap";
-            return Err(Error::scene("snapshot", message));
-        };
-        let snapshot = Self::read(&mut rest)?;
-        if rest.is_empty() {
-            Ok(snapshot)
-        } else {
-            let message = format!("{} bytes too many", rest.len());
-            Err(Error::scene("snapshot", message))
-        }
     }
 }
 
@@ -153,108 +119,3 @@ impl Blocks {
         Ok(())
     }
 }
-
-fields!(Snapshot {
-    time,
-    steps,
-    time_step,
-    started,
-    states,
-    marks,
-    pairs,
-    touches,
-    films,
-    books,
-    strains
-});
-fields!(Film {
-    blocks,
-    normal,
-    arms,
-    resistance
-});
-fields!(State {
-    centre,
-    rotation,
-    velocity,
-    momentum,
-    spin,
-    force,
-    torque,
-    load,
-    load_torque,
-    slow,
-    asleep,
-    slept,
-});
-fields!(Strain {
-    deformation,
-    rate,
-    moment,
-    load,
-    marked
-});
-fields!(Mark {
-    centre,
-    rotation,
-    room
-});
-fields!(Pair {
-    parts,
-    turns,
-    cache,
-    touch
-});
-fields!(Cache {
-    plane,
-    point,
-    contact,
-    second
-});
-fields!(Touch {
-    parts,
-    blocks,
-    way,
-    point,
-    pressure_centre,
-    normal,
-    overlap,
-    area,
-    section,
-    width,
-    limit,
-    force,
-    seam,
-    stored,
-    power,
-});
-fields!(Force {
-    spring,
-    dashpot,
-    moment,
-    bending,
-    friction,
-    history
-});
-fields!(History {
-    shear,
-    normal,
-    bonded,
-    slip
-});
-fields!(Seam {
-    area,
-    overlap,
-    arms,
-    normals,
-    axis,
-    extents,
-    seconds
-});
-fields!(Books {
-    friction,
-    lost,
-    film,
-    work,
-    power
-});

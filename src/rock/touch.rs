@@ -5,6 +5,7 @@ use crate::rock::{
     law::Force,
 };
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// No contact.
 pub(super) const NONE: u32 = u32::MAX;
@@ -14,7 +15,7 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) const TENTHS: f64 = 10.0;
 
 /// A candidate pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pair {
     /// First and second part, in ascending order.
     pub parts: [u32; 2],
@@ -38,7 +39,7 @@ impl Pair {
 }
 
 /// A contact, vectors along the world's axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Touch {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],

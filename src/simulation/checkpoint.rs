@@ -1,142 +1,354 @@
-//! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
-
-mod blocks;
-mod sealed;
-mod water;
-
-pub use blocks::BlockCheckpoint;
-pub use water::WaterCheckpoint;
+//! The state of a simulation between two steps, and its file.
+//!
+//! A file has a header ([`MAGIC`], the version, the [`Kind`]), the state in [postcard](https://docs.rs/postcard), and the
+//! CRC-32 (IEEE 802.3) of all of that. Arrays of the device are in canonical order, so that they restart under any storage,
+//! lanes or bindings.
 
 use crate::{
     Error, Result,
-    coupling::CoupledState,
+    coupling::{CouplingState, RockState},
+    geometry::Load,
+    gpu::plain_bytes,
     lattice::{Inside, Populations},
+    output::{failure, replace},
+    scene::Scene,
+    simulation::Reading,
+    sph::{Particle, SphState},
 };
-use std::path::Path;
+use crc32fast::Hasher;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::{
+    fmt,
+    io::{self, Write},
+    path::Path,
+};
+
+/// First bytes of a file.
+const MAGIC: &[u8; 17] = b"riprap checkpoint";
+/// Version of the format, above those of the three formats before it.
+const VERSION: u8 = 6;
+/// First bytes of the formats before version 6; their version is the digit at [`OLD_VERSION`].
+const OLD_MAGICS: [&[u8]; 3] = [b"riprap state ", b"riprap rocks ", b"riprap water "];
+/// Place of the version in the formats before version 6.
+const OLD_VERSION: usize = 14;
+/// Bytes of the header: magic, version, kind.
+const HEADER: usize = MAGIC.len() + 2;
+/// Bytes of the checksum.
+const SUM: usize = 4;
+
+/// What a simulation consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Blocks without a fluid.
+    Rock,
+    /// A fluid on a lattice, with or without blocks.
+    Lattice,
+    /// Free water (SPH), with or without blocks.
+    Particles,
+}
+
+impl Kind {
+    /// The kind of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        if scene.has_particles() {
+            Self::Particles
+        } else if scene.has_fluid() {
+            Self::Lattice
+        } else {
+            Self::Rock
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rock => "blocks alone",
+            Self::Lattice => "a fluid on a lattice",
+            Self::Particles => "free water",
+        })
+    }
+}
 
 /// The state of a simulation between two steps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Time step, s.
+    /// Steps done.
+    pub step: u64,
+    /// Length of a step, s.
     pub time_step: f64,
+    /// The blocks, if there are any.
+    pub rock: Option<RockState>,
+    /// The fluid, if there is one.
+    pub fluid: Option<FluidState>,
+}
+
+/// The state of a fluid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum FluidState {
+    /// On a lattice.
+    Lattice(LatticeState),
+    /// Free water.
+    Particles(WaterState),
+}
+
+/// The state of a fluid on a lattice.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LatticeState {
     /// Cell size, m.
     pub cell: f64,
-    /// The fluid.
+    /// The populations.
     pub populations: Populations,
     /// Velocities where blocks are, which nothing of the next step depends on.
     pub inside: Inside,
-    /// The blocks in it.
-    pub blocks: Option<CoupledState>,
+    /// The coupling to blocks, if there are any.
+    pub coupling: Option<CouplingState>,
 }
 
-/// First bytes of a file; the digit is the version of the format.
-const MAGIC: &sealed::Magic = b"riprap state  4\n";
-/// Step, three cell counts, four lengths, time step, cell, bytes of the blocks.
-const HEADER: usize = 8 + 3 * 4 + 4 * 8 + 2 * 8 + 8;
+/// The state of free water.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WaterState {
+    /// Lower corner of the domain, m.
+    pub origin: DVec3,
+    /// Its size, m.
+    pub size: DVec3,
+    /// Spacing of the particles, m.
+    pub spacing: f64,
+    /// The particles, in the order and the units of the device.
+    #[serde(with = "plain_bytes")]
+    pub particles: Vec<Particle>,
+    /// State of the solver besides.
+    pub solver: SphState,
+    /// Mean load on each block in the last exchange; empty before the first one.
+    pub loads: Vec<Load>,
+    /// Work of blocks since the start in joints that have no particles, J.
+    pub joints: f64,
+    /// Measurements of the pressure sensors.
+    pub sensors: Vec<Reading>,
+}
 
 impl Checkpoint {
-    /// Writes the file; one that is there stays whole until the new one is complete.
+    /// What the simulation consists of.
+    pub fn kind(&self) -> Kind {
+        match self.fluid {
+            None => Kind::Rock,
+            Some(FluidState::Lattice(_)) => Kind::Lattice,
+            Some(FluidState::Particles(_)) => Kind::Particles,
+        }
+    }
+
+    /// Writes the file. An existing file is kept until the new one is complete.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
-        let Populations {
-            step,
-            cells,
-            values,
-            velocity,
-            carried,
-        } = &self.populations;
-        sealed::write(path, MAGIC, |file| {
-            file.write_all(&step.to_le_bytes())?;
-            for n in cells {
-                file.write_all(&n.to_le_bytes())?;
+        replace(path, |file| {
+            let mut file = Summed {
+                file,
+                sum: Hasher::new(),
+                failed: None,
+            };
+            file.write_all(MAGIC)?;
+            file.write_all(&[VERSION, self.kind() as u8])?;
+            if let Err(error) = postcard::to_io(self, &mut file) {
+                // Postcard does not say why a write failed.
+                return Err(file.failed.unwrap_or_else(|| io::Error::other(error)));
             }
-            let lists = [values, velocity, carried, &self.inside.velocity];
-            for list in lists {
-                file.write_all(&(list.len() as u64).to_le_bytes())?;
-            }
-            file.write_all(&self.time_step.to_le_bytes())?;
-            file.write_all(&self.cell.to_le_bytes())?;
-            let blocks = self.blocks.as_ref().map(CoupledState::to_bytes);
-            let blocks = blocks.unwrap_or_default();
-            file.write_all(&(blocks.len() as u64).to_le_bytes())?;
-            for list in lists {
-                let mut bytes = Vec::with_capacity(4 * list.len());
-                bytes.extend(list.iter().flat_map(|value| value.to_le_bytes()));
-                file.write_all(&bytes)?;
-            }
-            for cell in &self.inside.cells {
-                file.write_all(&cell.to_le_bytes())?;
-            }
-            file.write_all(&blocks)
+            let sum = file.sum.finalize();
+            file.file.write_all(&sum.to_le_bytes())
         })
     }
 
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, is no checkpoint, or is not as it was written.
+    /// [`Error::File`] if it cannot be read, is no checkpoint, has another version, or is truncated or damaged.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = sealed::read(path, MAGIC, "a fluid on a lattice")?;
-        let broken = |message: &str| Error::file(path, message);
-        let long = |at: usize| {
-            let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
-            part.map(u64::from_le_bytes).ok_or_else(|| broken(CUT))
+        let bytes = std::fs::read(path).map_err(|error| failure("read", path, &error))?;
+        let refused = |message: String| Err(Error::file(path, message));
+        let other_version = |version: String| {
+            refused(format!(
+                "this checkpoint has version {version} of its format, and this riprap reads version {VERSION}; go on with \
+                 the riprap that wrote it, or run the scene from its start"
+            ))
         };
-        let short = |at: usize| {
-            let part = bytes.get(at..at + 4).and_then(|part| part.try_into().ok());
-            part.map(u32::from_le_bytes).ok_or_else(|| broken(CUT))
-        };
-        let cells = [short(8)?, short(12)?, short(16)?];
-        let lengths = [long(20)?, long(28)?, long(36)?, long(44)?];
-        let inside = lengths[3] / 3;
-        let expected = lengths
-            .iter()
-            .chain([&inside])
-            .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
-        let rest = bytes.len().saturating_sub(HEADER) as u64;
-        if expected.saturating_add(long(68)?) != rest {
-            return Err(broken(CUT));
+        if OLD_MAGICS.iter().any(|magic| bytes.starts_with(magic)) {
+            let version = bytes.get(OLD_VERSION).map_or('?', |&digit| digit.into());
+            return other_version(version.to_string());
         }
-        let (values, blocks) = bytes[HEADER..].split_at(expected as usize);
-        let blocks = match blocks {
-            [] => None,
-            _ => Some(
-                CoupledState::from_bytes(blocks).map_err(|error| match error {
-                    Error::Scene { message, .. } => broken(&message),
-                    other => other,
-                })?,
+        let damaged = "the checkpoint is cut short or damaged: its checksum is not that of its bytes; use an older one, or \
+                       run the scene from its start";
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            return refused(
+                if bytes.starts_with(b"riprap ") && MAGIC.starts_with(&bytes) {
+                    damaged
+                } else {
+                    "this is not a checkpoint; give the checkpoint.riprap that a run wrote"
+                }
+                .into(),
+            );
+        };
+        if let Some(version) = rest.first().filter(|version| **version != VERSION) {
+            return other_version(version.to_string());
+        }
+        let Some((content, sum)) = bytes.split_last_chunk::<SUM>() else {
+            return refused(damaged.into());
+        };
+        if content.len() < HEADER || *sum != crc32fast::hash(content).to_le_bytes() {
+            return refused(damaged.into());
+        }
+        match postcard::take_from_bytes::<Self>(&content[HEADER..]) {
+            Ok((read, [])) if content[HEADER - 1] == read.kind() as u8 => Ok(read),
+            _ => refused(
+                "the checkpoint is not one that this riprap writes; run the scene from its start"
+                    .into(),
             ),
-        };
-        let words = values.chunks_exact(4);
-        let mut words = words.map(|part| u32::from_le_bytes(std::array::from_fn(|k| part[k])));
-        let mut list = |n: u64| {
-            words
-                .by_ref()
-                .take(n as usize)
-                .map(f32::from_bits)
-                .collect()
-        };
-        let [values, velocity, carried, shown] = lengths.map(&mut list);
-        let inside = Inside {
-            cells: words.collect(),
-            velocity: shown,
-        };
-        Ok(Self {
-            inside,
-            time_step: f64::from_bits(long(52)?),
-            cell: f64::from_bits(long(60)?),
-            blocks,
-            populations: Populations {
-                step: long(0)?,
-                cells,
-                values,
-                velocity,
-                carried,
-            },
-        })
+        }
+    }
+
+    /// Checks that it is of a simulation of the same kind and time step.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if not.
+    pub(super) fn check(&self, kind: Kind, time_step: f64) -> Result<()> {
+        if self.kind() != kind {
+            return Err(other_scene(self.kind(), kind));
+        }
+        if differ(self.time_step, time_step) {
+            return Err(other_scene(
+                format!("steps of {:e} s", self.time_step),
+                format!("steps of {time_step:e} s"),
+            ));
+        }
+        Ok(())
     }
 }
 
-const CUT: &str = "the checkpoint is cut short; use an older one";
+/// Whether two lengths differ by more than rounding.
+pub(super) fn differ(its: f64, own: f64) -> bool {
+    (its - own).abs() > 1e-12 * own
+}
+
+/// The error of a checkpoint that is of something else than the scene.
+pub(super) fn other_scene(its: impl fmt::Display, own: impl fmt::Display) -> Error {
+    Error::scene(
+        "restart",
+        format!(
+            "the checkpoint is of {its}, and the scene of {own}; restart with the scene that wrote it"
+        ),
+    )
+}
+
+/// Sums the bytes that pass, and keeps the error of a write.
+struct Summed<'a> {
+    file: &'a mut dyn Write,
+    sum: Hasher,
+    failed: Option<io::Error>,
+}
+
+impl Write for Summed<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.file.write(bytes) {
+            Ok(written) => {
+                self.sum.update(&bytes[..written]);
+                Ok(written)
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(error),
+            Err(error) => {
+                let again = error.raw_os_error().map(io::Error::from_raw_os_error);
+                self.failed = Some(again.unwrap_or_else(|| error.kind().into()));
+                Err(error)
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rock::Snapshot;
+
+    fn checkpoint() -> Checkpoint {
+        Checkpoint {
+            step: 1,
+            time_step: 0.1,
+            rock: None,
+            fluid: None,
+        }
+    }
+
+    /// The error of a file with these bytes.
+    fn refusal(path: &Path, bytes: &[u8]) -> String {
+        std::fs::write(path, bytes).expect("a folder to write to");
+        Checkpoint::read(path)
+            .expect_err("it is damaged")
+            .to_string()
+    }
+
+    #[test]
+    fn files_of_other_versions_and_damaged_ones_are_refused() {
+        let name = format!("riprap_refused_{}.checkpoint", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        checkpoint().write(&path).expect("a folder to write to");
+        assert_eq!(Checkpoint::read(&path).expect("a checkpoint"), checkpoint());
+        let whole = std::fs::read(&path).expect("the file");
+        let changed = |at: usize, to: u8| {
+            let mut bytes = whole.clone();
+            bytes[at] = to;
+            bytes
+        };
+        // Another version stays refused however old the file.
+        for (bytes, version) in [
+            (changed(MAGIC.len(), 7), "version 7"),
+            (b"riprap state  4\nrest".to_vec(), "version 4"),
+            (b"riprap rocks  2\n".to_vec(), "version 2"),
+            (b"riprap water  5\n".to_vec(), "version 5"),
+        ] {
+            let error = refusal(&path, &bytes);
+            assert!(
+                error.contains(version) && !error.contains("older"),
+                "{error}"
+            );
+        }
+        for bytes in [
+            &whole[..whole.len() - 1],
+            &whole[..HEADER],
+            &whole[..10],
+            &changed(MAGIC.len() + 1, 1),
+            &changed(HEADER, 2),
+        ] {
+            let error = refusal(&path, bytes);
+            assert_eq!(error.matches("use an older").count(), 1, "{error}");
+        }
+        let error = refusal(&path, b"<VTKFile>");
+        assert!(error.contains("not a checkpoint"), "{error}");
+        std::fs::remove_file(&path).expect("the file");
+    }
+
+    /// All numbers keep their bits, NaN included.
+    #[test]
+    fn states_keep_their_bits() {
+        let load = Load::at(DVec3::new(f64::NAN, -0.0, 1e-310), DVec3::X);
+        let state = WaterState {
+            origin: DVec3::ZERO,
+            size: DVec3::ONE,
+            spacing: 0.1,
+            particles: vec![Particle::default(); 3],
+            solver: SphState::default(),
+            loads: vec![load],
+            joints: f64::from_bits(0x7ff8_0000_0000_1234),
+            sensors: Vec::new(),
+        };
+        let bytes = postcard::to_allocvec(&state).expect("a state");
+        let read: WaterState = postcard::from_bytes(&bytes).expect("a state");
+        assert_eq!(read.joints.to_bits(), state.joints.to_bits());
+        assert_eq!(postcard::to_allocvec(&read).expect("a state"), bytes);
+        let empty = postcard::to_allocvec(&Snapshot::default()).expect("a snapshot");
+        assert!(postcard::from_bytes::<Snapshot>(&empty[..empty.len() - 1]).is_err());
+    }
+}

@@ -14,6 +14,7 @@ use crate::{
     gpu::readback::{self, Readback},
 };
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Steps in a submission, few enough that a slow adapter completes it before its timeout.
 const BATCH: u64 = 16;
@@ -35,7 +36,7 @@ pub struct ExchangeResult {
 }
 
 /// Work on the water since the start, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ExternalWork {
     /// Work of moving bodies with loads: minus the load on them along their motion in the steps of the water.
     pub bodies: f64,
@@ -48,7 +49,7 @@ pub struct ExternalWork {
 }
 
 /// State of the solver in a checkpoint, without the particles.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SphState {
     /// Longest next step, in the unit of the device.
     pub step_limit: f32,

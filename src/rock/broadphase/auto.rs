@@ -10,8 +10,7 @@ use crate::Result;
 pub struct AutoBroadphase {
     /// Items from which on the device is used.
     pub crossover: usize,
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    device: Option<(wgpu::Device, wgpu::Queue)>,
     on_device: Option<DeviceBroadphase>,
 }
 
@@ -31,8 +30,16 @@ impl AutoBroadphase {
         };
         Self {
             crossover,
-            device: device.clone(),
-            queue: queue.clone(),
+            device: Some((device.clone(), queue.clone())),
+            on_device: None,
+        }
+    }
+
+    /// Searches on the host alone.
+    pub fn on_host() -> Self {
+        Self {
+            crossover: usize::MAX,
+            device: None,
             on_device: None,
         }
     }
@@ -40,12 +47,13 @@ impl AutoBroadphase {
 
 impl Broadphase for AutoBroadphase {
     async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        if items.len() < self.crossover {
-            return HostBroadphase.pairs(items).await;
-        }
+        let (device, queue) = match &self.device {
+            Some(device) if items.len() >= self.crossover => device,
+            _ => return HostBroadphase.pairs(items).await,
+        };
         let finder = match &mut self.on_device {
             Some(finder) => finder,
-            empty => empty.insert(DeviceBroadphase::new(&self.device, &self.queue)?),
+            empty => empty.insert(DeviceBroadphase::new(device, queue)?),
         };
         finder.pairs(items).await
     }

@@ -2,6 +2,7 @@
 
 use super::{Placed, squeeze::meeting};
 use glam::{DMat3, DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
 const CLOSED: f64 = 1e-9;
@@ -11,7 +12,7 @@ const LEAST: f64 = 1e-6;
 
 /// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
 /// the axes of its block's frame, before it deforms.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seam {
     /// m².
     pub area: f64,

@@ -54,7 +54,7 @@ pub(super) async fn begin(
     }
     if blocks.time_step().is_finite() {
         let start = blocks.snapshot();
-        let pairs = broadphase.pairs(&blocks.items()).await?;
+        let pairs = broadphase.pairs(&blocks.aabbs()).await?;
         blocks.set_pairs(pairs)?;
         blocks.step()?;
         blocks.restore(&start)?;

@@ -1,6 +1,6 @@
 //! The cheaper of the two finders.
 
-use super::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
+use super::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase};
 use crate::Result;
 
 /// Searches on the host for few items and on the device for many; the list is the same.
@@ -11,7 +11,7 @@ pub struct AutoBroadphase {
     /// Items from which on the device is used.
     pub crossover: usize,
     device: Option<(wgpu::Device, wgpu::Queue)>,
-    on_device: Option<DeviceBroadphase>,
+    device_broadphase: Option<DeviceBroadphase>,
 }
 
 impl AutoBroadphase {
@@ -31,7 +31,7 @@ impl AutoBroadphase {
         Self {
             crossover,
             device: Some((device.clone(), queue.clone())),
-            on_device: None,
+            device_broadphase: None,
         }
     }
 
@@ -40,21 +40,21 @@ impl AutoBroadphase {
         Self {
             crossover: usize::MAX,
             device: None,
-            on_device: None,
+            device_broadphase: None,
         }
     }
 }
 
 impl Broadphase for AutoBroadphase {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
         let (device, queue) = match &self.device {
-            Some(device) if items.len() >= self.crossover => device,
-            _ => return HostBroadphase.pairs(items).await,
+            Some(device) if aabbs.len() >= self.crossover => device,
+            _ => return HostBroadphase.pairs(aabbs).await,
         };
-        let finder = match &mut self.on_device {
-            Some(finder) => finder,
+        let broadphase = match &mut self.device_broadphase {
+            Some(broadphase) => broadphase,
             empty => empty.insert(DeviceBroadphase::new(device, queue)?),
         };
-        finder.pairs(items).await
+        broadphase.pairs(aabbs).await
     }
 }

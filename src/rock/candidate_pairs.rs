@@ -8,7 +8,6 @@ use super::{
     period::{Image, Periods},
     step::BLOCKS_PER_TASK,
 };
-use serde::{Deserialize, Serialize};
 #[cfg(doc)]
 use crate::rock::broadphase::Broadphase;
 use crate::{
@@ -17,6 +16,7 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// A candidate pair.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -36,6 +36,19 @@ impl Snapshot {
     pub fn time(&self) -> f64 {
         self.time
     }
+
+    /// Bytes of memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        let lists = [
+            size_of_val(&*self.states),
+            size_of_val(&*self.skin_references),
+            size_of_val(&*self.pairs),
+            size_of_val(&*self.contacts),
+            size_of_val(&*self.films),
+            size_of_val(&*self.strains),
+        ];
+        (size_of::<Self>() + lists.iter().sum::<usize>()) as u64
+    }
 }
 
 impl Blocks {

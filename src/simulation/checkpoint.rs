@@ -143,21 +143,27 @@ impl Checkpoint {
     /// # Errors
     /// [`Error::File`] if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<()> {
-        replace(path, |file| {
-            let mut file = Summed {
-                file,
-                sum: Hasher::new(),
-                failed: None,
-            };
-            file.write_all(MAGIC)?;
-            file.write_all(&[VERSION, self.kind() as u8])?;
-            if let Err(error) = postcard::to_io(self, &mut file) {
-                // Postcard does not say why a write failed.
-                return Err(file.failed.unwrap_or_else(|| io::Error::other(error)));
-            }
-            let sum = file.sum.finalize();
-            file.file.write_all(&sum.to_le_bytes())
-        })
+        replace(path, |file| self.write_to(file))
+    }
+
+    /// Writes the bytes of a file.
+    ///
+    /// # Errors
+    /// Those of `file`.
+    pub fn write_to(&self, file: &mut dyn Write) -> io::Result<()> {
+        let mut file = Summed {
+            file,
+            sum: Hasher::new(),
+            failed: None,
+        };
+        file.write_all(MAGIC)?;
+        file.write_all(&[VERSION, self.kind() as u8])?;
+        if let Err(error) = postcard::to_io(self, &mut file) {
+            // Postcard does not say why a write failed.
+            return Err(file.failed.unwrap_or_else(|| io::Error::other(error)));
+        }
+        let sum = file.sum.finalize();
+        file.file.write_all(&sum.to_le_bytes())
     }
 
     /// Reads a file.

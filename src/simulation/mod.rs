@@ -326,10 +326,10 @@ impl Simulation {
         self.sph_fluid().ok()?.sensor(name)
     }
 
-    /// Exchanges between free water and blocks, and steps of the water that sorted the particles; zero without free water.
-    pub fn exchanges_and_sorts(&self) -> [u64; 2] {
-        self.sph_fluid()
-            .map_or([0; 2], |fluid| [fluid.exchanges, fluid.sorts])
+    /// Steps of free water that sorted the particles and rebuilt the neighbour lists, if there are any; zero without free
+    /// water.
+    pub fn sorts(&self) -> u64 {
+        self.sph_fluid().map_or(0, |fluid| fluid.sorts)
     }
 
     fn lattice_fluid(&self) -> Result<&LatticeFluid> {

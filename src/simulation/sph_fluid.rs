@@ -38,8 +38,6 @@ pub(super) struct SphFluid {
     average: bool,
     /// Mean loads of the last exchange; empty before the first one.
     last: Vec<Load>,
-    /// Exchanges with the blocks.
-    pub exchanges: u64,
     /// Work of blocks since the start in joints that have no particles, J.
     joints: f64,
     /// Steps that sorted the particles.
@@ -77,7 +75,6 @@ impl Fluid for SphFluid {
         let wet = |load: &Load| load.force != DVec3::ZERO;
         self.wet = done.loads.iter().map(wet).collect();
         self.time = until;
-        self.exchanges += 1;
         self.sorts += u64::from(done.sorts);
         if !self.average || self.last.is_empty() {
             self.last.clone_from(&done.loads);
@@ -159,7 +156,6 @@ impl SphFluid {
             time: 0.0,
             average: scene.coupling.average,
             last: Vec::new(),
-            exchanges: 0,
             joints: 0.0,
             sorts: 0,
         };

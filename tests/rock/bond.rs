@@ -179,7 +179,7 @@ fn a_restart_goes_on_with_the_same_bits() {
     run(&mut whole, 0.06);
     let bytes = whole.snapshot().to_bytes();
     let mut other = blocks(setup);
-    let read = Snapshot::from_bytes(&bytes).expect("it is one");
+    let read = postcard::from_bytes::<Snapshot>(&bytes).expect("it is one");
     other.restore(&read).expect("the same blocks");
     run(&mut whole, 0.15);
     run(&mut other, 0.15);

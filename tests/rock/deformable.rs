@@ -353,7 +353,7 @@ fn the_bits_depend_neither_on_threads_nor_on_where_a_run_was_cut() {
     let bytes = one.to_bytes();
     run(&mut whole, 0.04);
     let mut resumed = blocks(wall());
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     resumed.restore(&snapshot).expect("the same blocks");
     run(&mut resumed, 0.04);
     assert_eq!(resumed.snapshot(), whole.snapshot());

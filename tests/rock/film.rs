@@ -181,7 +181,7 @@ fn a_restart_amid_films_gives_the_same_bits() {
     let bytes = whole.snapshot().to_bytes();
     run(&mut whole, 0.2);
     let mut again = blocks(setup);
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     again.restore(&snapshot).expect("of the same blocks");
     run(&mut again, 0.2);
     assert!(whole.ledger().film > 0.0);

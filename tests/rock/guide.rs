@@ -70,7 +70,7 @@ fn it_strikes_another_and_stays_on_its_rail() {
     let mut again = blocks(guided(list()));
     let bytes = middle.to_bytes();
     again
-        .restore(&Snapshot::from_bytes(&bytes).expect("a snapshot"))
+        .restore(&postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot"))
         .expect("the same blocks");
     run(&mut again, 0.8);
     assert_eq!(again.snapshot(), whole.snapshot());

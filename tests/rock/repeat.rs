@@ -47,7 +47,7 @@ fn a_snapshot_goes_on_with_the_same_bits() {
     run(&mut whole, 0.12);
 
     let mut resumed = blocks(wall());
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     resumed.restore(&snapshot).expect("the same blocks");
     assert_eq!(resumed.snapshot(), snapshot);
     run(&mut resumed, 0.12);
@@ -55,7 +55,7 @@ fn a_snapshot_goes_on_with_the_same_bits() {
     assert_eq!(resumed.ledger(), whole.ledger());
 
     assert!(Snapshot::from_bytes(&bytes[..bytes.len() - 1]).is_err());
-    assert!(Snapshot::from_bytes(&bytes[1..]).is_err());
+    assert!(postcard::from_bytes::<Snapshot>(&bytes[1..]).is_err());
     let mut other = blocks(Setup {
         blocks: wall().blocks[..7].to_vec(),
         ..wall()

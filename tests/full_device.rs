@@ -3,12 +3,7 @@
 mod rig;
 
 use rig::{Rig, gpu};
-use riprap::{
-    Error, Result,
-    scene::Scene,
-    simulation::{FreeSurface, Simulation},
-    wgpu,
-};
+use riprap::{Error, Result, scene::Scene, simulation::Simulation, wgpu};
 use std::{path::Path, time::Duration};
 
 /// 16 × 16 × 16 cells, with a block if `blocks` is one.
@@ -66,7 +61,7 @@ fn made_flow(rig: &Rig, scene: &Scene) -> Result<()> {
 
 fn made_water(rig: &Rig) -> Result<()> {
     let scene = water();
-    let made = FreeSurface::new(&rig.device, &rig.queue, &scene);
+    let made = Simulation::new(&rig.device, &rig.queue, &scene);
     gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
 }
 

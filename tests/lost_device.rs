@@ -6,7 +6,7 @@ use rig::Rig;
 use riprap::{
     Error, Result,
     scene::Scene,
-    simulation::{FreeSurface, Simulation, checkpoint::Checkpoint},
+    simulation::{Simulation, checkpoint::Checkpoint},
 };
 use std::{path::Path, time::Duration};
 
@@ -83,7 +83,7 @@ fn a_flow_with_blocks_says_that_its_device_is_lost() {
 fn free_water_says_that_its_device_is_lost() {
     let rig = Rig::new();
     let scene = scene(WATER);
-    let made = FreeSurface::new(&rig.device, &rig.queue, &scene);
+    let made = Simulation::new(&rig.device, &rig.queue, &scene);
     let mut water = rig.wait(made).unwrap();
     rig.wait(water.advance(2)).unwrap();
     rig.device.destroy();
@@ -99,7 +99,7 @@ fn a_scene_is_not_set_up_on_a_device_that_is_lost() {
     assert!(made.is_err());
     let made = wait(
         &rig,
-        FreeSurface::new(&rig.device, &rig.queue, &scene(WATER)),
+        Simulation::new(&rig.device, &rig.queue, &scene(WATER)),
     );
     assert!(made.is_err());
 }

@@ -101,7 +101,7 @@ fn a_blow_goes_round_a_ring() {
     let start = blocks.ledger();
     let bytes = {
         run(&mut blocks, 0.8);
-        blocks.snapshot().to_bytes()
+        postcard::to_allocvec(&blocks.snapshot()).unwrap()
     };
     run(&mut blocks, 3.6);
     let momentum: DVec3 = (0..8)

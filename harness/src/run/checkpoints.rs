@@ -33,7 +33,7 @@ impl Checkpoints {
         let parted = Parted { time_step, last };
         Self {
             schedule: match asked {
-                Some(every) => Schedule::of(Some(every), time_step, last),
+                Some(every) => Schedule::new(Some(every), time_step, last),
                 None => parted.schedule(run.step(), 0),
             },
             own: asked.is_none().then_some(parted),
@@ -56,7 +56,7 @@ impl Parted {
         let parts = (BYTES / bytes.max(1) as f64).clamp(FEWEST, PARTS).floor();
         let early = parts == PARTS && (step as f64) < self.last as f64 / PARTS;
         let length = self.last as f64 * self.time_step / if early { EARLY } else { parts };
-        Schedule::of(Some(length), self.time_step, self.last)
+        Schedule::new(Some(length), self.time_step, self.last)
     }
 }
 
@@ -75,8 +75,8 @@ impl Recorder for Checkpoints {
             // Nobody asked for it, and the run goes on without.
             Err(error) if self.own.is_some() => {
                 const FAILED: &str = "no checkpoint at step";
-                // A full disk stays full: it is told once.
-                if !log.warnings.iter().any(|told| told.starts_with(FAILED)) {
+                // A full disk stays full: one warning is enough.
+                if !log.warnings.iter().any(|known| known.starts_with(FAILED)) {
                     log.warnings.push(format!("{FAILED} {step}: {error:#}"));
                 }
                 return Ok(());

@@ -35,7 +35,7 @@ impl History {
         let usual = scene.run.length(run.time_step()) / POINTS;
         let every = history.every.or(Some(usual));
         Ok(Self {
-            schedule: Schedule::of(every, run.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             quantities: history.quantities.clone(),
             table: table(run, &path, &columns)?,
             path,

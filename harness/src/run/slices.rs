@@ -45,7 +45,7 @@ impl Pictures {
             _ => format!(", {} = {position} m", slice.axis.name()),
         };
         Self {
-            schedule: Schedule::of(slice.every.or(scene.output.every), run.time_step(), last),
+            schedule: Schedule::new(slice.every.or(scene.output.every), run.time_step(), last),
             slice: slice.clone(),
             layer: Layer::new(scene, slice.axis, position),
             place,

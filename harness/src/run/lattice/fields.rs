@@ -32,7 +32,7 @@ impl Fields {
             fields.push(Field::Solid);
         }
         Ok(Self {
-            schedule: Schedule::of(output.every, simulation.time_step(), last),
+            schedule: Schedule::new(output.every, simulation.time_step(), last),
             fields,
             folder: folder.to_owned(),
             collection: match simulation.step() {

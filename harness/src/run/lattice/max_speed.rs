@@ -15,7 +15,7 @@ pub struct MaxSpeed(Schedule);
 impl MaxSpeed {
     pub fn new(run: &SceneRun, last: u64) -> Self {
         let every = run.time_step() * last as f64 / LOOKS;
-        Self(Schedule::of(Some(every), run.time_step(), last))
+        Self(Schedule::new(Some(every), run.time_step(), last))
     }
 }
 

@@ -24,7 +24,7 @@ impl ProbeTable {
         let gauge = Gauge::new(simulation.scene(), simulation.solid(), probe)?;
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::of(probe.every, simulation.time_step(), last),
+            schedule: Schedule::new(probe.every, simulation.time_step(), last),
             table: table(run, &path, gauge.columns())?,
             path,
             gauge,

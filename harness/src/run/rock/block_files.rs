@@ -39,7 +39,7 @@ impl BlockFiles {
         let faces = probes.any(|probe| asks(&probe.place));
         let faces = faces.then(|| collection("faces.pvd"));
         Ok(Self {
-            schedule: Schedule::of(output.every, run.time_step(), last),
+            schedule: Schedule::new(output.every, run.time_step(), last),
             folder: folder.to_owned(),
             blocks: collection("blocks.pvd")?,
             contacts: contacts.transpose()?,

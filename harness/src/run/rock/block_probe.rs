@@ -87,7 +87,7 @@ impl BlockProbe {
         }
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::of(probe.every, run.time_step(), last),
+            schedule: Schedule::new(probe.every, run.time_step(), last),
             table: table(run, &path, &columns)?,
             block,
             faces,

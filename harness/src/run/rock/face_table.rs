@@ -45,7 +45,7 @@ impl FaceTable {
         let columns: Vec<String> = scalars.chain(VECTORS.into_iter().flat_map(along)).collect();
         let path = folder.join(format!("{}_faces.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::of(probe.every, run.time_step(), last),
+            schedule: Schedule::new(probe.every, run.time_step(), last),
             table: table(run, &path, &columns)?,
             block,
             path,

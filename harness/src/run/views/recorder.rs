@@ -50,7 +50,7 @@ impl Views {
         let scene = run.scene();
         let every = view.every.or(scene.output.every);
         Self {
-            schedule: Schedule::of(every, run.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             view: view.clone(),
             fluid: Fluid::new(scene, view),
             adapter,

@@ -24,7 +24,7 @@ impl Clouds {
         let path = folder.join("water.pvd");
         let every = run.scene().output.every;
         Ok(Self {
-            schedule: Schedule::of(every, run.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             folder: folder.to_owned(),
             collection: match run.step() {
                 0 => Pvd::create(path)?,

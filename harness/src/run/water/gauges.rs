@@ -48,7 +48,7 @@ impl GaugeTable {
             _ => {}
         }
         Ok(Self {
-            schedule: Schedule::of(probe.every, run.time_step(), last),
+            schedule: Schedule::new(probe.every, run.time_step(), last),
             table: table(run, &path, &columns)?,
             probe: probe.clone(),
             path,

@@ -8,6 +8,7 @@ pub mod fingerprint;
 mod kit;
 pub mod picture;
 pub mod print;
+pub mod records;
 pub mod render;
 pub mod report;
 pub mod run;

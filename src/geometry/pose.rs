@@ -1,9 +1,6 @@
 //! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
-use crate::{
-    Error, Result,
-    rock::{integrate::axial, law::inner},
-};
+use crate::{Error, Result};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
@@ -108,6 +105,20 @@ fn plane_part(m: DMat3) -> DMat3 {
 /// a ⊗ b, entry i, j being a_i b_j.
 pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// Σ r × f of the moment Σ f ⊗ r.
+pub(crate) fn axial(m: DMat3) -> DVec3 {
+    DVec3::new(
+        m.y_axis.z - m.z_axis.y,
+        m.z_axis.x - m.x_axis.z,
+        m.x_axis.y - m.y_axis.x,
+    )
+}
+
+/// A:B, the sum of the products of the entries.
+pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
+    a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
 }
 
 /// What a fluid does to a block in a step, SI.

@@ -6,8 +6,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    geometry::{Form, Load},
-    rock::contact::Placed,
+    geometry::{Form, Load, Placed},
 };
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 //! Simulation of free-surface water and blocks.
 
-use super::{Reading, WaterLedger, countable::countable, pool::Pool, scene_step::scene_step};
+use super::{Reading, WaterLedger, countable::countable, pool::Pool};
 use crate::{
     Error, Result,
     coupling::{self, CouplingParams, FluidLoad, Rock},
@@ -8,7 +8,7 @@ use crate::{
     rock::Blocks,
     scene::{
         Scene,
-        build::{BlockSetup, block_setup, particle_setup},
+        build::{BlockSetup, block_setup, particle_setup, scene_step},
     },
     simulation::checkpoint::WaterCheckpoint,
     sph::{NeighbourSearch, SphSolver, Totals, Water},

@@ -1,7 +1,7 @@
 //! Setup of a particle simulation.
 
 use super::{EquationOfState, Solid};
-use crate::{Error, Result, scene};
+use crate::{Error, Result};
 use glam::DVec3;
 
 /// Largest Courant number at which water in tanks stays stable for every smoothing length.
@@ -129,6 +129,12 @@ impl Setup {
         }
     }
 
+    /// Speed of sound over the largest speed: density then varies by about a hundredth.
+    pub const SOUND_RATIO: f64 = 10.0;
+
+    /// Stiffness of the scheme `mueller` over the square of the largest speed.
+    pub const STIFFNESS_RATIO: f64 = 5.0;
+
     /// Layers of boundary particles that fill the support of the kernel behind a wall.
     pub fn layers(&self) -> u32 {
         (2.0 * self.smoothing).ceil() as u32
@@ -137,8 +143,8 @@ impl Setup {
     /// Largest flow speed at which the default Mach number is met, m/s.
     pub fn largest_speed(&self) -> f64 {
         let ratio = match self.scheme {
-            Scheme::Delta => scene::Particles::SOUND,
-            Scheme::Mueller { .. } => scene::Particles::STIFFNESS.sqrt(),
+            Scheme::Delta => Self::SOUND_RATIO,
+            Scheme::Mueller { .. } => Self::STIFFNESS_RATIO.sqrt(),
         };
         self.sound_speed / ratio
     }

@@ -20,6 +20,31 @@ const MOST: usize = 10_000_000;
 const SPECK: f64 = 1e-6;
 
 /// A rock mass to be cut.
+///
+/// ```
+/// use glam::DVec3;
+/// use riprap::geometry::{JointSet, Polyhedron, RockMass, Scatter};
+///
+/// # fn main() -> riprap::Result<()> {
+/// // A cube of 4 m cut every 1 m by joints that fall by 60° to the east.
+/// let cube = Polyhedron::cuboid(DVec3::splat(4.0))?;
+/// let mass = RockMass {
+///     joints: vec![JointSet {
+///         dip: 60.0,
+///         dip_direction: 90.0,
+///         spacing: 1.0,
+///         scatter: Scatter::None,
+///         origin: DVec3::ZERO,
+///         seed: 0,
+///         persistence: None,
+///     }],
+///     ..RockMass::new(vec![cube.faces().to_vec()])
+/// };
+/// let cut = mass.cut()?;
+/// assert_eq!(cut.blocks.len(), 6);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockMass {
     /// Convex volumes, each inside all of its faces (m); they should not overlap.

@@ -1,14 +1,20 @@
 //! From a scene to the setups of the engines: lattice, blocks, particles.
 
+#[cfg(feature = "rock")]
 mod blocks;
 mod lattice;
+#[cfg(feature = "sph")]
 mod particle_step;
+#[cfg(feature = "sph")]
 mod particles;
 mod units;
 
+#[cfg(feature = "rock")]
 pub use blocks::{BlockSetup, LeftOut, block_setup};
+#[cfg(feature = "sph")]
 pub(crate) use blocks::{rotation, shape};
 pub use lattice::{face_velocity, lattice_setup};
-
+#[cfg(feature = "sph")]
 pub(crate) use particle_step::scene_step;
+#[cfg(feature = "sph")]
 pub use particles::{boundary_particles, fill, particle_lattice, particle_setup, water_bodies};

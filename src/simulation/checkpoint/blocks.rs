@@ -1,5 +1,6 @@
 //! Blocks on disk.
 
+#[cfg(feature = "checkpoint")]
 use super::sealed;
 use crate::{Error, Result, rock::Snapshot};
 use std::path::Path;
@@ -16,10 +17,12 @@ pub struct BlockCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
+#[cfg(feature = "checkpoint")]
 const MAGIC: &sealed::Magic = b"riprap rocks  2\n";
 /// Step, time step.
 const HEADER: usize = 8 + 8;
 
+#[cfg(feature = "checkpoint")]
 impl BlockCheckpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
     ///
@@ -56,7 +59,7 @@ impl BlockCheckpoint {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "checkpoint"))]
 mod tests {
     use super::*;
 

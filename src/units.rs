@@ -28,7 +28,7 @@ impl Units {
     /// Whether all of them are positive numbers.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the first that is not.
+    /// [`Error::Argument`] naming the first that is not.
     pub fn check(&self) -> Result<()> {
         let all = [
             ("cell", self.cell),
@@ -42,7 +42,7 @@ impl Units {
             None => Ok(()),
             Some((name, unit)) => {
                 let message = format!("is {unit}; give a number greater than 0");
-                Err(Error::scene(format!("units.{name}"), message))
+                Err(Error::argument(format!("units.{name}"), message))
             }
         }
     }

@@ -278,7 +278,7 @@ impl Rock {
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         self.blocks
             .restore(snapshot)
-            .map_err(|error| crate::Error::scene("restart", error.to_string()))
+            .map_err(|error| crate::Error::argument("restart", error.to_string()))
     }
 }
 

@@ -30,7 +30,8 @@ impl TriangleMesh {
     /// # Errors
     /// If a triangle names a vertex that is not there.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Self> {
-        named(triangles, vertices.len()).map_err(|message| Error::scene("triangles", message))?;
+        named(triangles, vertices.len())
+            .map_err(|message| Error::argument("triangles", message))?;
         let (kept, of) = weld(vertices);
         let triangles = triangles
             .iter()

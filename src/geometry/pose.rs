@@ -41,7 +41,7 @@ impl Pose {
     /// Whether a block keeps a volume in it, and is not turned inside out.
     ///
     /// # Errors
-    /// [`Error::Scene`] at `place` if not.
+    /// [`Error::Argument`] at `place` if not.
     pub(crate) fn check_volume(&self, place: impl FnOnce() -> String) -> Result<()> {
         let determinant = self.deformation.determinant();
         if determinant > 0.0 {
@@ -51,7 +51,7 @@ impl Pose {
             "the determinant of its deformation F is {determinant}, which leaves no volume; give a matrix whose \
              determinant is greater than 0, for a rigid block a rotation"
         );
-        Err(Error::scene(place(), message))
+        Err(Error::argument(place(), message))
     }
 
     /// Place of the point X of the block, m.

@@ -118,7 +118,7 @@ impl RockMass {
     pub fn cut(&self) -> Result<Fragments> {
         if self.volumes.is_empty() {
             let message = "a rock mass needs a volume; give the faces of at least one";
-            return Err(Error::scene("volumes", message));
+            return Err(Error::argument("volumes", message));
         }
         for (name, least) in [
             ("smallest_volume", self.smallest_volume),
@@ -126,7 +126,7 @@ impl RockMass {
         ] {
             if !(least >= 0.0 && least.is_finite()) {
                 let message = format!("is {least}; give a number from 0");
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
         }
         // What facets are known by: all planes, in the coordinates of the mass.
@@ -175,7 +175,7 @@ impl RockMass {
                 let message = format!(
                     "it would leave up to {most} pieces, {MOST} are the most; widen the spacing"
                 );
-                return Err(Error::scene(format!("joints[{index}].spacing"), message));
+                return Err(Error::argument(format!("joints[{index}].spacing"), message));
             }
             let cut = pieces.into_par_iter().flat_map_iter(|p| cutter.cut(p));
             pieces = cut.collect();

@@ -107,7 +107,7 @@ impl Checkpoint {
             [] => None,
             _ => Some(
                 CoupledState::from_bytes(blocks).map_err(|error| match error {
-                    Error::Scene { message, .. } => broken(&message),
+                    Error::Argument { message, .. } => broken(&message),
                     other => other,
                 })?,
             ),

@@ -155,7 +155,7 @@ impl<F: Broadphase> Dry<F> {
     /// If it is of other blocks or another time step.
     pub fn restore(&mut self, checkpoint: &BlockCheckpoint) -> Result<()> {
         if checkpoint.time_step != self.time_step {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has a time step of {:e} s, the scene {:e} s; restart with the \
@@ -166,7 +166,7 @@ impl<F: Broadphase> Dry<F> {
         }
         self.blocks
             .restore(&checkpoint.snapshot)
-            .map_err(|error| Error::scene("restart", error.to_string()))?;
+            .map_err(|error| Error::argument("restart", error.to_string()))?;
         self.step = checkpoint.step;
         Ok(())
     }

@@ -41,7 +41,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// farther beyond the domain than those of its walls.
 ///
 /// # Errors
-/// [`Error::Scene`] if a block is thinner than Δx, or a block of a planar lattice is not a prism across the domain.
+/// [`Error::Argument`] if a block is thinner than Δx, or a block of a planar lattice is not a prism across the domain.
 pub fn boundary_particles(
     lattice: &ParticleLattice,
     blocks: &[Block],
@@ -277,7 +277,7 @@ fn spans(faces: &Faces, axis: usize) -> bool {
 
 /// Checks that a block can carry boundary particles.
 fn check(block: &Block, parts: &[ConvexPart<'_>], lattice: &ParticleLattice) -> Result<()> {
-    let refuse = |message: String| Err(Error::scene(format!("block {}", block.name), message));
+    let refuse = |message: String| Err(Error::argument(format!("block {}", block.name), message));
     if lattice.plane {
         for part in parts {
             let Form::Convex(_) = part.form else {

@@ -59,7 +59,7 @@ pub struct WaterBody {
 /// in `gravity` (m/s², 0 along periodic axes).
 ///
 /// # Errors
-/// [`Error::Scene`] naming `water[index]` if a body is outside the domain, overlaps another one, touches an open face
+/// [`Error::Argument`] naming `water[index]` if a body is outside the domain, overlaps another one, touches an open face
 /// through which it would fall, or has no space for a particle.
 pub fn fill(
     lattice: &ParticleLattice,
@@ -83,7 +83,7 @@ pub fn fill(
         check_inside(&key, water, lattice)?;
         let mut points = points(&key, water, &solids, lattice)?;
         if points.is_empty() {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 "no particle fits into it between the blocks; enlarge it, or use a smaller particles.spacing",
             ));
@@ -95,7 +95,7 @@ pub fn fill(
                 .fold(f64::NEG_INFINITY, f64::max)
         };
         if let Some(point) = points.iter().find(|x| deepest(x) > lattice.tolerance()) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!("it overlaps other water at {point} m; move one of them, or cut it"),
             ));
@@ -193,8 +193,8 @@ fn points(
         .fold(DVec3::NEG_INFINITY, |high, part| high.max(part.high));
     let size = ((high - low) / lattice.spacing).max(DVec3::ONE);
     if size.x * size.y * size.z > MAX_PARTICLES {
-        return Err(Error::scene(
-            "particles.spacing",
+        return Err(Error::argument(
+            "spacing",
             format!(
                 "{key} would have about {:.1e} particles, and at most {MAX_PARTICLES:.0e} are possible; use a larger spacing",
                 size.x * size.y * size.z
@@ -233,7 +233,7 @@ fn check_inside(key: &str, water: &[ConvexPart<'_>], lattice: &ParticleLattice) 
     for part in water {
         let outside = part.low.cmplt(lattice.low - slack) | part.high.cmpgt(lattice.high + slack);
         if outside.any() {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!(
                     "it extends from {} to {} m, and the domain from {} to {} m; cut it, or enlarge the domain",
@@ -262,7 +262,7 @@ fn check_open(
         }
         let touches = |x: &DVec3| (x[axis] - at).abs() < lattice.spacing;
         if points.iter().any(touches) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!(
                     "it touches the open face {}_{end}, through which it would leave at once; give that face kind = \

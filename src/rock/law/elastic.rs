@@ -35,10 +35,10 @@ impl Elastic {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Scene`] at `place`, naming the number and its range.
+    /// [`Error::Argument`] at `place`, naming the number and its range.
     pub fn check(&self, place: &str) -> Result<()> {
         let refuse =
-            |name: &str, message: String| Err(Error::scene(format!("{place}.{name}"), message));
+            |name: &str, message: String| Err(Error::argument(format!("{place}.{name}"), message));
         let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
         if !(e > 0.0 && e.is_finite()) {
             return refuse("youngs_modulus", format!("{e} must be greater than 0 Pa"));

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "rock")]
 mod blocks;
+mod keys;
 mod lattice;
 #[cfg(feature = "sph")]
 mod particle_step;
@@ -13,6 +14,11 @@ mod units;
 pub use blocks::{BlockSetup, LeftOut, block_setup};
 #[cfg(feature = "sph")]
 pub(crate) use blocks::{rotation, shape};
+pub(crate) use keys::lattice_key;
+#[cfg(feature = "sph")]
+pub(crate) use keys::particle_key;
+#[cfg(feature = "rock")]
+pub(crate) use keys::rock_key;
 pub use lattice::{face_velocity, lattice_setup};
 #[cfg(feature = "sph")]
 pub(crate) use particle_step::scene_step;

@@ -4,7 +4,10 @@ use super::{BlockSetup, rotation, shape};
 use crate::{
     Error, Result,
     rock::{Block, Motion},
-    scene::{self, Boundary, Face, Scene, build::particle_step::scene_step},
+    scene::{
+        self, Boundary, Face, Scene,
+        build::{keys::particle_key, particle_step::scene_step},
+    },
     sph::{
         self, EquationOfState, NeighbourSearch, ParticleLattice, Scheme, Setup, Side,
         SpeedEstimate, Start, WaterBody,
@@ -170,6 +173,7 @@ pub fn fill(scene: &Scene, blocks: &BlockSetup) -> Result<Start> {
         density,
         DVec3::from(gradient) / density,
     )
+    .map_err(|error| error.at_key(particle_key))
 }
 
 /// The boundary particles of the blocks of a scene ([`sph::boundary_particles`]).
@@ -179,6 +183,7 @@ pub fn fill(scene: &Scene, blocks: &BlockSetup) -> Result<Start> {
 pub fn boundary_particles(scene: &Scene, blocks: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
     let walls = blocks.in_fluid + scene.solids.len();
     sph::boundary_particles(&particle_lattice(scene)?, &blocks.setup.blocks, walls)
+        .map_err(|error| error.at_key(particle_key))
 }
 
 /// Length of a run, s. `step` gives the time step (s) for a run of a given length (s): in a longer run driven blocks may

@@ -48,7 +48,7 @@ impl BlockCheckpoint {
         };
         let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|k| header[at + k]));
         let snapshot = Snapshot::from_bytes(rest).map_err(|error| match error {
-            Error::Scene { message, .. } => Error::file(path, message),
+            Error::Argument { message, .. } => Error::file(path, message),
             other => other,
         })?;
         Ok(Self {

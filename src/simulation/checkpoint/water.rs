@@ -167,7 +167,7 @@ impl WaterCheckpoint {
             sensors,
             loads: loads.into_iter().map(load).collect(),
             blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
-                Error::Scene { message, .. } => Error::file(path, message),
+                Error::Argument { message, .. } => Error::file(path, message),
                 other => other,
             })?,
         })

@@ -27,7 +27,7 @@ fn main() -> Result<(), Error> {
         .measurement_time(Duration::from_millis(600))
         .configure_from_args();
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let one = one.map_err(|e| Error::scene("threads", e.to_string()))?;
+    let one = one.map_err(|e| Error::argument("threads", e.to_string()))?;
     let mut table = Vec::new();
     let mut group = criterion.benchmark_group("blocks/step");
     for count in COUNTS {

@@ -15,11 +15,11 @@ impl StreamOnly {
     /// Takes a periodic lattice without solids, with the state that it has.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it has walls or solids, whose reflections belong to the collision.
+    /// [`Error::Argument`] if it has walls or solids, whose reflections belong to the collision.
     pub fn new(device: &wgpu::Device, lattice: Lattice) -> Result<Self> {
         if !lattice.setup.is_all_fluid() {
             let message = "streaming alone wants a periodic box without solids";
-            return Err(Error::scene("boundaries", message));
+            return Err(Error::argument("faces", message));
         }
         let linked = program::stream_only(&lattice.setup, lattice.bindings).link()?;
         let shader = Shader::new(device, linked);

@@ -97,7 +97,7 @@ impl Blocks {
     /// The pairs of [`Blocks::items`] that may touch. What the pairs remember of each other stays.
     ///
     /// # Errors
-    /// [`Error::Scene`] if they are not sorted pairs of items.
+    /// [`Error::Argument`] if they are not sorted pairs of items.
     pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
         let block = &self.parts.block;
         let images = self.periods.as_ref().map(|periods| self.seen(periods));

@@ -43,7 +43,7 @@ impl Blocks {
             way / dt,
             dt * FARTHEST * width / way
         );
-        Err(Error::scene(self.label(block), message))
+        Err(Error::argument(self.label(block), message))
     }
 }
 

@@ -170,7 +170,7 @@ impl Scene<'_> {
             .resolve(first, second, &mut pair.cache)
             .map_err(|error| {
                 let [a, b] = blocks.map(|block| self.name(block));
-                Error::scene(format!("{a} and {b}"), error.to_string())
+                Error::argument(format!("{a} and {b}"), error.to_string())
             })?;
         if let (Some(film), Verdict::Apart | Verdict::Touching) = (self.film, verdict)
             && blocks

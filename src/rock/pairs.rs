@@ -110,14 +110,14 @@ pub(super) fn checked(
     let items = images.map_or(block.len(), <[Image]>::len);
     let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < items;
     if let Some(pair) = pairs.iter().find(|pair| !known(pair)) {
-        return Err(Error::scene(
+        return Err(Error::argument(
             "pairs",
             format!("{pair:?} must be two of the {items} items in ascending order"),
         ));
     }
     if !pairs.is_sorted_by(|a, b| a < b) {
         let message = "the finder must return the pairs sorted, each once";
-        return Err(Error::scene("pairs", message));
+        return Err(Error::argument("pairs", message));
     }
     let matters = |(parts, _): &Near| {
         let [a, b] = parts.map(|part| block[part as usize]);

@@ -57,18 +57,18 @@ impl Snapshot {
     /// From what [`Snapshot::to_bytes`] gave.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the bytes are no snapshot, or are cut short.
+    /// [`Error::Argument`] if the bytes are no snapshot, or are cut short.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
             let message = "this is no snapshot of this version of riprap";
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         };
         let snapshot = Self::read(&mut rest)?;
         if rest.is_empty() {
             Ok(snapshot)
         } else {
             let message = format!("{} bytes too many", rest.len());
-            Err(Error::scene("snapshot", message))
+            Err(Error::argument("snapshot", message))
         }
     }
 }
@@ -102,7 +102,7 @@ impl Blocks {
     /// from there.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the state is not one of these blocks.
+    /// [`Error::Argument`] if the state is not one of these blocks.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
@@ -137,7 +137,7 @@ impl Blocks {
                 self.len(),
                 self.deforming.strains.len()
             );
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         }
         self.time = snapshot.time;
         self.steps = snapshot.steps;

@@ -6,7 +6,7 @@ mod held;
 mod principal;
 mod rotation;
 
-pub(crate) use affine::axial;
+pub(crate) use crate::geometry::axial;
 pub use affine::{Affine, Pull, polar};
 pub use damped::{first_kick, second_kick};
 pub use held::Held;

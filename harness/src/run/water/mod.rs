@@ -21,6 +21,7 @@ pub use energies::Energies;
 use gauges::GaugeTable;
 use riprap::{
     Error, Result,
+    coupling::particle_advice,
     rock::Ledger,
     scene::{ProbePlace, Quantity, Scene},
     simulation::{FreeSurface, WaterLedger, checkpoint::WaterCheckpoint},
@@ -84,7 +85,7 @@ impl SphRun {
         run.first = run.simulation.ledger(&water);
         let simulation = &run.simulation;
         let setup = simulation.particles().setup();
-        let advice = sph::advise(
+        let advice = particle_advice(
             scene,
             simulation.setup(),
             simulation.blocks(),

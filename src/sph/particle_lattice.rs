@@ -1,39 +1,40 @@
 //! The initial lattice of the particles in the domain.
 
-use super::{convex_part::ConvexPart, spatial_hash::MIN_DISTANCE};
+use super::{Side, convex_part::ConvexPart, spatial_hash::MIN_DISTANCE};
 use crate::{
     geometry::{HalfSpace, uniform},
     rock::Block,
-    scene::{Boundary, Face, Particles, Scene},
 };
 use glam::DVec3;
 
 /// Points (i + ½) Δx from the lower corner of the domain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lattice {
-    /// Corners of the domain, m.
+pub struct ParticleLattice {
+    /// Lower corner of the domain, m.
     pub low: DVec3,
+    /// Upper corner of the domain, m.
     pub high: DVec3,
     /// Δx, m.
     pub spacing: f64,
     /// Layers of boundary particles.
     pub layers: u32,
-    pub periodic: [bool; 3],
+    /// Lower and upper face of the domain along each axis.
+    pub faces: [[Side; 2]; 3],
     /// Whether the scene is planar, with one row along y in the middle.
     pub plane: bool,
 }
 
-impl Lattice {
-    pub fn of(scene: &Scene, particles: &Particles) -> Self {
-        let lower = [Face::XMin, Face::YMin, Face::ZMin];
-        Self {
-            low: DVec3::from(scene.domain.origin),
-            high: DVec3::from(scene.domain.end()),
-            spacing: particles.spacing,
-            layers: particles.layers(),
-            periodic: lower.map(|face| *scene.boundaries.face(face) == Boundary::Periodic),
-            plane: particles.plane,
-        }
+impl ParticleLattice {
+    /// Whether the domain is periodic along `axis`.
+    pub fn is_periodic(&self, axis: usize) -> bool {
+        self.faces[axis][0] == Side::Periodic
+    }
+
+    /// The faces of the domain of one kind as axis and whether it is the upper one: x_min, x_max, y_min and so on.
+    pub(super) fn faces_of(&self, kind: Side) -> impl Iterator<Item = (usize, bool)> {
+        let faces = self.faces.into_iter().enumerate();
+        let faces = faces.flat_map(|(axis, [low, high])| [(axis, false, low), (axis, true, high)]);
+        faces.filter_map(move |(axis, is_upper, side)| (side == kind).then_some((axis, is_upper)))
     }
 
     /// Length far below the spacing and far above the rounding error of a coordinate, m.
@@ -60,7 +61,7 @@ impl Lattice {
 
     /// Whether the domain has no ends along `axis`.
     pub fn is_unbounded(&self, axis: usize) -> bool {
-        self.periodic[axis] || self.is_planar_axis(axis)
+        self.is_periodic(axis) || self.is_planar_axis(axis)
     }
 
     /// Whether a block shorter than the period crosses an end of the period along `axis`.
@@ -76,7 +77,7 @@ impl Lattice {
 
     /// The periodic image of `x` (m) inside the domain.
     pub fn wrapped(&self, mut x: DVec3) -> DVec3 {
-        for axis in (0..3).filter(|axis| self.periodic[*axis]) {
+        for axis in (0..3).filter(|axis| self.is_periodic(*axis)) {
             let period = self.high[axis] - self.low[axis];
             x[axis] = self.low[axis] + (x[axis] - self.low[axis]).rem_euclid(period);
         }
@@ -132,7 +133,7 @@ impl Lattice {
         let (first, last) = (index(from) - 1e-6, index(to) + 1e-6);
         let (mut first, mut last) = (first.ceil() as i64, last.floor() as i64);
         let period = self.high[axis] - self.low[axis];
-        if self.periodic[axis] && to - from > period - self.tolerance() {
+        if self.is_periodic(axis) && to - from > period - self.tolerance() {
             let count = (period / self.spacing).round() as i64;
             (first, last) = (first.max(0), last.min(count - 1));
         }
@@ -141,7 +142,7 @@ impl Lattice {
             .collect()
     }
 
-    /// The coordinates of [`Lattice::row`], and `end` (m) of the range if it is at least the least distance from all others.
+    /// The coordinates of [`ParticleLattice::row`], and `end` (m) of the range if it is at least the least distance from all others.
     pub fn row_to(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
         let mut row = self.row(axis, range);
         let least = MIN_DISTANCE * self.spacing;
@@ -151,7 +152,7 @@ impl Lattice {
         row
     }
 
-    /// The coordinates of [`Lattice::row`] where another layer continues a spacing beyond `end` (m) of the range, and one
+    /// The coordinates of [`ParticleLattice::row`] where another layer continues a spacing beyond `end` (m) of the range, and one
     /// more in the middle of the remaining interval if that is long enough.
     pub fn row_to_inset_edge(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
         let mut row = self.row(axis, range);

@@ -1,14 +1,17 @@
 //! The particle setup of a scene.
 
-use super::{
-    Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side, Start, boundary_particles,
-    convex_part::ConvexPart, fill, lattice::Lattice, solid, speed_estimate::SpeedEstimate,
-};
+use super::{BlockSetup, rotation, shape};
 use crate::{
     Error, Result,
     rock::{Block, Motion},
-    scene::{self, Boundary, Face, Scene, build::BlockSetup},
-    simulation::scene_step,
+    scene::{
+        self, Boundary, Face, Scene,
+        build::{keys::particle_key, particle_step::scene_step},
+    },
+    sph::{
+        self, EquationOfState, NeighbourSearch, ParticleLattice, Scheme, Setup, Side,
+        SpeedEstimate, Start, WaterBody,
+    },
 };
 use glam::DVec3;
 
@@ -20,60 +23,36 @@ const BISECTIONS: u32 = 20;
 /// # Errors
 /// [`Error::Scene`] naming the invalid key or block.
 pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Start)> {
-    let Some(particles) = &scene.particles else {
-        return Err(Error::scene(
-            "particles",
-            "the scene has no particles; add [particles] with a spacing",
-        ));
-    };
+    let particles = particles(scene)?;
+    let lattice = particle_lattice(scene)?;
     let mut start = fill(scene, blocks)?;
-    let boundary = match particles.scheme {
-        scene::Scheme::Delta => boundary_particles(scene, blocks)?,
+    let scheme = match particles.scheme {
+        scene::Scheme::Delta => Scheme::Delta,
+        // Set below.
+        scene::Scheme::Mueller => Scheme::Mueller { viscosity: 0.0 },
+    };
+    let boundary = match scheme {
+        Scheme::Delta => boundary_particles(scene, blocks)?,
         // This scheme has penalty walls.
-        scene::Scheme::Mueller => vec![Vec::new(); blocks.setup.blocks.len()],
+        Scheme::Mueller { .. } => vec![Vec::new(); blocks.setup.blocks.len()],
     };
     let free_slip = |(face, boundary): (Face, &Boundary)| {
         matches!(boundary, Boundary::FreeSlip).then(|| format!("wall_{}", face.name()))
     };
     let free_slip: Vec<String> = scene.boundaries.iter().filter_map(free_slip).collect();
     let all = &blocks.setup.blocks;
-    let boundary = transfer_interior(all, boundary, |block| scene.probes_block(&block.name));
-    let lattice = Lattice::of(scene, particles);
-    let mut solids = solid::solids(all, &lattice);
-    if particles.scheme == scene::Scheme::Delta {
-        solid::mark_covered_faces(all, &mut solids, &lattice);
+    let is_probed = |block: &Block| scene.probes_block(&block.name);
+    let mut bodies = sph::bodies(all, boundary, &lattice, scheme, is_probed);
+    for (body, block) in bodies.iter_mut().zip(all) {
+        body.free_slip = free_slip.contains(&block.name);
     }
-    let bodies = all.iter().zip(boundary).zip(solids);
-    let bodies = bodies.map(|((block, boundary), solids)| Body {
-        boundary,
-        solids: solids
-            .into_iter()
-            .map(|solid| solid.in_body_frame(block))
-            .collect(),
-        moves: block.motion != Motion::Fixed,
-        // The energy ledger needs the loads on all moving bodies.
-        loaded: block.motion != Motion::Fixed || scene.probes_block(&block.name),
-        accelerates: matches!(block.motion, Motion::Driven { .. }),
-        free_slip: free_slip.contains(&block.name),
-    });
-    let side = |boundary: &Boundary| match boundary {
-        Boundary::Periodic => Side::Periodic,
-        Boundary::Open => Side::Open,
-        _ => Side::Wall,
-    };
-    let faces = &scene.boundaries;
-    let sides = [
-        [side(&faces.x_min), side(&faces.x_max)],
-        [side(&faces.y_min), side(&faces.y_max)],
-        [side(&faces.z_min), side(&faces.z_max)],
-    ];
     let gravity = DVec3::from_array(
         [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0)),
     );
     let mut setup = Setup {
         origin: DVec3::from(scene.domain.origin),
         size: DVec3::from(scene.domain.size),
-        faces: sides,
+        faces: lattice.faces,
         spacing: particles.spacing,
         smoothing: particles.smoothing,
         // Set below.
@@ -92,18 +71,18 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
             scene::EquationOfState::Tait => EquationOfState::Tait,
         },
         plane: particles.plane,
-        scheme: Scheme::Delta,
+        scheme,
         neighbours: NeighbourSearch::Cells,
-        bodies: bodies.collect(),
+        bodies,
     };
     let speeds = SpeedEstimate::new(&start.positions, particles.spacing, gravity);
     let of_water = speeds.of_start(&start);
     let sound_speed = |length: f64| {
         let fastest = largest_speed(particles, all, of_water, &speeds.over(length));
         match particles.scheme {
-            scene::Scheme::Delta => scene::Particles::SOUND * fastest,
+            scene::Scheme::Delta => Setup::SOUND_RATIO * fastest,
             scene::Scheme::Mueller => {
-                let default = scene::Particles::STIFFNESS * fastest.powi(2);
+                let default = Setup::STIFFNESS_RATIO * fastest.powi(2);
                 particles.stiffness.unwrap_or(default).sqrt()
             }
         }
@@ -121,54 +100,90 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         };
         setup.scheme = Scheme::Mueller { viscosity };
     }
-    add_disorder(
-        &mut start,
-        particles.disorder,
-        &lattice,
-        setup.density * gravity,
-    );
+    start.add_disorder(particles.disorder, &lattice, setup.density * gravity);
     Ok((setup, start))
 }
 
-/// Displaces particles under pressure by at most `disorder` spacings along each axis, because a regular lattice under
-/// pressure resists shear, and adapts their pressures with the specific `weight` (N/m³).
-fn add_disorder(start: &mut Start, disorder: f64, lattice: &Lattice, weight: DVec3) {
-    let pressures = start.pressures.iter_mut().enumerate();
-    for (index, pressure) in pressures.filter(|(_, pressure)| **pressure > 0.0) {
-        let displacement = disorder * lattice.jitter(index);
-        start.positions[index] += displacement;
-        *pressure += weight.dot(displacement);
-    }
+/// The particles of a scene.
+fn particles(scene: &Scene) -> Result<&scene::Particles> {
+    scene.particles.as_ref().ok_or_else(|| {
+        Error::scene(
+            "particles",
+            "the scene has no particles; add [particles] with a spacing",
+        )
+    })
 }
 
-/// Transfers the boundary particles that a fixed block with a load probe (`is_probed`) has inside adjacent walls to a
-/// fixed block without one, so that the load on the probed block acts on its own surface only.
-fn transfer_interior(
-    blocks: &[Block],
-    mut boundary: Vec<Vec<DVec3>>,
-    is_probed: impl Fn(&Block) -> bool,
-) -> Vec<Vec<DVec3>> {
-    let is_fixed = |block: &Block| block.motion == Motion::Fixed;
-    let takes = |block: &Block| is_fixed(block) && !is_probed(block);
-    let Some(target) = blocks.iter().position(takes) else {
-        return boundary;
+/// The initial lattice of the particles of a scene.
+///
+/// # Errors
+/// [`Error::Scene`] if the scene has no particles.
+pub fn particle_lattice(scene: &Scene) -> Result<ParticleLattice> {
+    let particles = particles(scene)?;
+    let side = |boundary: &Boundary| match boundary {
+        Boundary::Periodic => Side::Periodic,
+        Boundary::Open => Side::Open,
+        _ => Side::Wall,
     };
-    for (n, block) in blocks.iter().enumerate() {
-        if !is_fixed(block) || !is_probed(block) {
-            continue;
-        }
-        let parts = ConvexPart::of_block(block);
-        let world = |x: &DVec3| block.centre + block.rotation * *x;
-        let is_own = |x: &DVec3| parts.iter().any(|part| part.depth(world(x)) > 0.0);
-        let (kept, beyond): (Vec<_>, Vec<_>) = boundary[n].iter().copied().partition(is_own);
-        boundary[n] = kept;
-        let to = &blocks[target];
-        let moved = beyond
-            .iter()
-            .map(|x| to.rotation.inverse() * (world(x) - to.centre));
-        boundary[target].extend(moved);
-    }
-    boundary
+    let faces = &scene.boundaries;
+    Ok(ParticleLattice {
+        low: DVec3::from(scene.domain.origin),
+        high: DVec3::from(scene.domain.end()),
+        spacing: particles.spacing,
+        layers: particles.layers(),
+        faces: [
+            [side(&faces.x_min), side(&faces.x_max)],
+            [side(&faces.y_min), side(&faces.y_max)],
+            [side(&faces.z_min), side(&faces.z_max)],
+        ],
+        plane: particles.plane,
+    })
+}
+
+/// The bodies of water of a scene.
+///
+/// # Errors
+/// [`Error::Scene`] naming the body whose shape is invalid.
+pub fn water_bodies(scene: &Scene) -> Result<Vec<WaterBody>> {
+    let bodies = scene.water.iter().enumerate();
+    let bodies = bodies.map(|(index, water)| {
+        let (shape, centroid) = shape(scene, &format!("water[{index}]"), &water.shape)?;
+        let rotation = rotation(&water.rotation);
+        Ok(WaterBody {
+            shape,
+            centre: DVec3::from(water.position) + rotation * centroid,
+            rotation,
+            velocity: DVec3::from(water.velocity),
+        })
+    });
+    bodies.collect()
+}
+
+/// The fluid particles of a scene at the time 0 ([`sph::fill`]).
+///
+/// # Errors
+/// [`Error::Scene`] if the scene has no particles, or a body of water has an invalid shape or place.
+pub fn fill(scene: &Scene, blocks: &BlockSetup) -> Result<Start> {
+    let (_, gradient) = scene.hydrostatic();
+    let density = scene.fluid.density;
+    sph::fill(
+        &particle_lattice(scene)?,
+        &water_bodies(scene)?,
+        &blocks.setup.blocks,
+        density,
+        DVec3::from(gradient) / density,
+    )
+    .map_err(|error| error.at_key(particle_key))
+}
+
+/// The boundary particles of the blocks of a scene ([`sph::boundary_particles`]).
+///
+/// # Errors
+/// [`Error::Scene`] if the scene has no particles, or naming the block that cannot carry boundary particles.
+pub fn boundary_particles(scene: &Scene, blocks: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
+    let walls = blocks.in_fluid + scene.solids.len();
+    sph::boundary_particles(&particle_lattice(scene)?, &blocks.setup.blocks, walls)
+        .map_err(|error| error.at_key(particle_key))
 }
 
 /// Length of a run, s. `step` gives the time step (s) for a run of a given length (s): in a longer run driven blocks may

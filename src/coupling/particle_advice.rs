@@ -1,13 +1,15 @@
 //! Warnings about scenes that particles resolve poorly.
 
-use super::{Scheme, Setup, Side, convex_part::ConvexPart, fill, speed_estimate::SpeedEstimate};
+use super::{Gap, gaps};
 use crate::{
     Result,
-    coupling::{Gap, gaps},
     geometry::Form,
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase},
-    scene::{Advice, ProbePlace, Scene, Warning, build::BlockSetup},
-    simulation::scene_step,
+    scene::{
+        Advice, ProbePlace, Scene, Warning,
+        build::{BlockSetup, particle_lattice, scene_step, water_bodies},
+    },
+    sph::{ConvexPart, Scheme, Setup, Side, SpeedEstimate, water_volume},
 };
 use glam::DVec3;
 
@@ -30,7 +32,7 @@ const FALL_SPEED_RATIO: f64 = 1.5;
 ///
 /// # Errors
 /// [`crate::Error::Scene`] if a body of water has an invalid shape; those of the search for gaps.
-pub async fn advise(
+pub async fn particle_advice(
     scene: &Scene,
     blocks: &BlockSetup,
     state: &Blocks,
@@ -138,7 +140,11 @@ fn check_mass(
     particles: usize,
     warn: &mut impl FnMut(String, String),
 ) -> Result<()> {
-    let volume = fill::volume(scene, blocks)?;
+    let volume = water_volume(
+        &particle_lattice(scene)?,
+        &water_bodies(scene)?,
+        &blocks.setup.blocks,
+    );
     let expected = setup.density * volume;
     let mass = setup.particle_mass() * particles as f64;
     if (mass / expected - 1.0).abs() > MASS_TOLERANCE {

@@ -1,6 +1,6 @@
 //! A polyhedron where it is now: computed once a step, read by all of its pairs.
 
-use crate::geometry::{Form, HalfSpace, Part, Polyhedron, Pose};
+use super::{Form, HalfSpace, Part, Polyhedron, Pose};
 use glam::{DMat3, DVec3};
 
 /// A convex polyhedron, or a sphere if it has no faces, in the world; vectors along the world's axes.

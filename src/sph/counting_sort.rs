@@ -44,7 +44,7 @@ impl CountingSort {
         let constants = program::constants(setup, grid);
         let kernel = |name| {
             let linked = program::program(setup, grid, name).link()?;
-            Kernel::new(device, &linked, name, &constants)
+            Kernel::new(device, &linked, name, &linked.constants_of(&constants))
         };
         Ok(Self {
             count: kernel("sort_count")?,

@@ -136,8 +136,7 @@ fn a_device_with_what_a_scene_needs_runs_it() {
         material("rock", 2000.0)
     );
     let scene = Scene::from_toml(&text, Path::new(""), "scene.toml").unwrap();
-    let name = std::env::var("RIPRAP_ADAPTER").ok();
-    let adapter = kit::gpu::pick(name.as_deref()).unwrap();
+    let adapter = kit::gpu::selected().unwrap();
     let needs = Needs::of(&scene, &adapter).unwrap();
     let (device, queue) = kit::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
     let rig = Rig { device, queue };

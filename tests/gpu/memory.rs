@@ -139,7 +139,7 @@ fn full() -> Option<Rig> {
         },
         ..wgpu::InstanceDescriptor::new_without_display_handle()
     });
-    let usual = gpu::pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref()).unwrap();
+    let usual = gpu::selected().unwrap();
     let (name, backend) = (usual.get_info().name, usual.get_info().backend);
     let all = pollster::block_on(instance.enumerate_adapters(backend.into()));
     let adapter = all.into_iter().find(|a| a.get_info().name == name)?;

@@ -7,9 +7,9 @@ use riprap::{
 };
 use std::time::Duration;
 
-/// A device with timestamps, where the first adapter has them.
+/// A device with timestamps, where the adapter has them.
 fn timed() -> Option<(wgpu::Device, wgpu::Queue)> {
-    let adapter = kit::gpu::pick(None).unwrap();
+    let adapter = kit::gpu::selected().unwrap();
     let wanted = wgpu::Features::TIMESTAMP_QUERY;
     adapter
         .features()

@@ -77,6 +77,14 @@ pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
     })
 }
 
+/// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one: what tests run on.
+///
+/// # Errors
+/// Those of [`pick`].
+pub fn selected() -> Result<wgpu::Adapter> {
+    pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref())
+}
+
 /// A device with the given features and limits.
 ///
 /// # Errors

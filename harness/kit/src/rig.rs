@@ -16,15 +16,14 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// The first adapter, or the one that RIPRAP_ADAPTER names, with all it offers; panics with the
-    /// install hint where there is none.
+    /// The [selected](gpu::selected) adapter with all it offers; panics with the install hint where there is none.
     pub fn new() -> Self {
-        Self::with_limits(adapter().limits())
+        Self::with_limits(gpu::selected().unwrap().limits())
     }
 
     /// The same with these limits.
     pub fn with_limits(limits: wgpu::Limits) -> Self {
-        let adapter = adapter();
+        let adapter = gpu::selected().unwrap();
         let wide = adapter.features() & wgpu::Features::SHADER_INT64;
         let (device, queue) = gpu::open(&adapter, wide, limits).unwrap();
         Self { device, queue }
@@ -76,8 +75,4 @@ impl Rig {
         self.wait(observer.state(&self.device, &self.queue, lattice))
             .unwrap()
     }
-}
-
-fn adapter() -> wgpu::Adapter {
-    gpu::pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref()).unwrap()
 }

@@ -2,6 +2,7 @@
 //! memory has no room for say so.
 
 use crate::fixture::folder;
+use riprap_harness::gpu;
 use std::{
     fs,
     path::Path,
@@ -142,12 +143,8 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_run_without_memory_for_its_cells_says_how_much_they_take() {
-    let asked = std::env::var("RIPRAP_ADAPTER").ok();
-    if !riprap_harness::gpu::is_software(
-        &riprap_harness::gpu::pick(asked.as_deref())
-            .unwrap()
-            .get_info(),
-    ) {
+    let adapter = gpu::selected().unwrap();
+    if !gpu::is_software(&adapter.get_info()) {
         eprintln!(
             "this adapter has its own memory, which no limit of the process bounds: nothing to test"
         );

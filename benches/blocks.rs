@@ -3,9 +3,6 @@
 //! An iteration is a step. Times are CPU time on one core and wall time on all. At the end a table
 //! gives the fastest sample of each, and the exponent p of cost ∝ Nᵖ.
 
-#[allow(dead_code)] // Each bench uses its part.
-mod kit;
-
 use cpu_time::ThreadTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{exponent::exponent, pile::Pile};

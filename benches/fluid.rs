@@ -4,9 +4,6 @@
 //! on software adapters, wall time where a GPU has no timestamps. At the end a table compares the
 //! adapters.
 
-#[allow(dead_code)] // Each bench uses its part.
-mod kit;
-
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{
     clock::Clock,

@@ -4,8 +4,6 @@ pub mod adapters;
 pub mod bench;
 pub mod check;
 pub mod fingerprint;
-#[path = "../../benches/kit/mod.rs"]
-mod kit;
 pub mod picture;
 pub mod print;
 pub mod records;

@@ -5,7 +5,7 @@ use super::{
     roofline::flops_a_step,
     variant::{Group, STREAM_ONLY, Variant},
 };
-use crate::kit::{
+use kit::{
     arithmetic::Arithmetic,
     clock::{Clock, Spent},
     copy::{Copy, METHODS},

@@ -12,10 +12,10 @@ mod unused;
 mod variant;
 mod water;
 
-pub use crate::kit::copy::copy_bandwidth;
+pub use kit::copy::copy_bandwidth;
 pub use report::Machine;
 
-use crate::kit::{clock::Clock, gpu};
+use kit::{clock::Clock, gpu};
 use report::Row;
 use riprap::wgpu;
 use serde::Serialize;

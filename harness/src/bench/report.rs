@@ -4,7 +4,7 @@ use super::{
     roofline::{self, Ceilings, Parts},
     variant::Variant,
 };
-use crate::kit::{
+use kit::{
     clock::{self, Spent},
     gpu,
 };

@@ -92,7 +92,7 @@ impl fmt::Display for Parts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::arithmetic::FLOPS;
+    use kit::arithmetic::FLOPS;
     use riprap::gpu::{link::Program, work::Work};
 
     #[test]

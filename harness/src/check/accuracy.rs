@@ -345,5 +345,4 @@ fn around(values: impl Iterator<Item = f64>, x: f64) -> Option<[f64; 2]> {
 }
 
 #[cfg(test)]
-#[path = "accuracy_tests.rs"]
 mod tests;

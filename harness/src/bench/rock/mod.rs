@@ -10,7 +10,7 @@ mod split;
 mod step;
 mod targets;
 
-pub use crate::kit::exponent::exponent;
+pub use kit::exponent::exponent;
 pub use row::Row;
 
 use super::report::Machine;

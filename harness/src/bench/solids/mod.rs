@@ -10,7 +10,7 @@ pub use turns::Turns;
 pub use world::{World, crowd};
 
 use super::{report::Machine, targets::Target, targets::show};
-use crate::kit::exponent::exponent;
+use kit::exponent::exponent;
 use riprap::wgpu;
 
 /// Cells across the spheres of a crowd.

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `validate GLOB...` has the limits of each case, `values GLOB...` all its values, `bench PART` one line for each row of the
-//! benchmark, and `headline` those of [`HEADLINES`]. What stands between the comments is replaced.
+//! benchmark, `targets PART` its targets, and `headline` those of [`HEADLINES`]. What stands between the comments is replaced.
 
 use super::index::Index;
 use crate::validate::{self, Case};
@@ -55,9 +55,10 @@ fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
             Some(("validate", patterns)) => limits(index, &cases(patterns)?)?,
             Some(("values", patterns)) => values(index, &cases(patterns)?)?,
             Some(("bench", part)) => bench(index, part)?,
+            Some(("targets", part)) => targets(index, part)?,
             None if request == "headline" => headline(index)?,
             _ => bail!(
-                "there is no such table: validate GLOB, values GLOB, bench PART and headline are known"
+                "there is no such table: validate GLOB, values GLOB, bench PART, targets PART and headline are known"
             ),
         };
         if !lines.is_empty() {
@@ -239,7 +240,8 @@ fn columns(part: &str) -> anyhow::Result<&'static [(&'static str, &'static str)]
 
 fn bench(index: &Index, part: &str) -> anyhow::Result<String> {
     let columns = columns(part)?;
-    let rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
+    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
+    rows.retain(|row| !is_target(row));
     if rows.is_empty() {
         return Ok(String::new());
     }
@@ -261,6 +263,37 @@ fn bench(index: &Index, part: &str) -> anyhow::Result<String> {
         line(
             &mut text,
             &cells.chain([cell("commit")]).collect::<Vec<_>>(),
+        );
+    }
+    Ok(text)
+}
+
+fn is_target(row: &Map<String, Value>) -> bool {
+    row.get("part").and_then(Value::as_str) == Some("target")
+}
+
+/// The targets of a part of the benchmark: what was found, and whether that meets them.
+fn targets(index: &Index, part: &str) -> anyhow::Result<String> {
+    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
+    rows.retain(is_target);
+    if rows.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = String::from("| target | of | result | commit |\n|---|---|---|---|\n");
+    for row in &rows {
+        let word = |key: &str| {
+            row.get(key)
+                .and_then(Value::as_str)
+                .unwrap_or("–")
+                .to_owned()
+        };
+        let found = row.get("found").and_then(Value::as_f64);
+        let found = found.map_or("no number".into(), number);
+        let met = row.get("met").and_then(Value::as_bool) == Some(true);
+        let verdict = if met { "" } else { ", **missed**" };
+        line(
+            &mut text,
+            &[word("says"), word("of"), found + verdict, word("commit")],
         );
     }
     Ok(text)

@@ -8,5 +8,6 @@ pub mod flow;
 #[path = "../../tests/rig/gpu.rs"]
 pub mod gpu;
 pub mod pile;
+pub mod stream_only;
 pub mod subject;
 pub mod tank;

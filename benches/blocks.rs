@@ -32,7 +32,7 @@ fn main() -> Result<(), Error> {
         println!(
             "{} free blocks, {} candidates, {} contacts, {:.1e} m/s after {} steps",
             pile.free,
-            pile.blocks.candidates(),
+            pile.blocks.candidate_pair_count(),
             pile.blocks.contacts().count(),
             pile.blocks.largest_speed(),
             pile.steps

@@ -43,7 +43,7 @@ pub(crate) async fn begin(
     }
     if blocks.time_step().is_finite() {
         let start = blocks.snapshot();
-        let pairs = finder.pairs(&blocks.items()).await?;
+        let pairs = finder.pairs(&blocks.aabbs()).await?;
         blocks.set_pairs(pairs)?;
         blocks.step()?;
         blocks.restore(&start)?;

@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use glam::DVec3;
 
-/// Which ways are up and north.
+/// Directions of up and north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compass {
     /// Against gravity, of any length.

@@ -36,9 +36,9 @@ impl Placed {
         self.faces.is_empty()
     }
 
-    /// Becomes `other` moved by `way` (m), in the memory that it has.
-    pub fn copy_moved(&mut self, other: &Self, way: DVec3) {
-        self.centre = other.centre + way;
+    /// Becomes `other` moved by `shift` (m), in the memory that it has.
+    pub fn copy_moved(&mut self, other: &Self, shift: DVec3) {
+        self.centre = other.centre + shift;
         self.deformation = other.deformation;
         self.faces.clone_from(&other.faces);
         self.vertices.clone_from(&other.vertices);

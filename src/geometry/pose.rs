@@ -176,12 +176,12 @@ impl Load {
     /// the middle.
     pub fn work(&self, from: &Pose, to: &Pose) -> f64 {
         let change = to.deformation - from.deformation;
-        let way = self.force.dot(to.centre - from.centre);
+        let translation = self.force.dot(to.centre - from.centre);
         if change == DMat3::ZERO {
-            return way;
+            return translation;
         }
         let middle = 0.5 * (from.deformation + to.deformation);
-        way + inner(self.moment, change * middle.inverse())
+        translation + inner(self.moment, change * middle.inverse())
     }
 
     /// Torque about the centroid, Σ r × f, N m.

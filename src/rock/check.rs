@@ -2,7 +2,7 @@
 
 mod deformable;
 
-use super::{Guide, Motion, Setup, Sleep, narrow::Joints, narrow::label};
+use super::{Guide, Motion, Setup, Sleep, narrowphase::Joints, narrowphase::label};
 use crate::{Error, Result, rock::law::Joint};
 use glam::DVec3;
 
@@ -72,7 +72,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         check_block(setup, i)?;
         let place = label(i, &block.name);
         deformable::check(setup, block, &place)?;
-        deformable::check_acting(block, &place)?;
+        deformable::check_applied_forces(block, &place)?;
     }
     setup
         .guides
@@ -83,8 +83,8 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
 /// A guided block is free and rigid, and starts along its guide.
 fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
     let Some(block) = setup.blocks.get(guide.block) else {
-        let (asked, known) = (guide.block, setup.blocks.len());
-        let message = format!("there is no block {asked}, only {known}");
+        let (number, known) = (guide.block, setup.blocks.len());
+        let message = format!("there is no block {number}, only {known}");
         return Err(Error::argument("guides", message));
     };
     let refuse = |message: &str| {
@@ -116,8 +116,8 @@ fn check_block(setup: &Setup, index: usize) -> Result<()> {
     let block = &setup.blocks[index];
     let refuse = |message: String| Err(Error::argument(label(index, &block.name), message));
     let Some(material) = setup.materials.get(block.material) else {
-        let (asked, known) = (block.material, setup.materials.len());
-        return refuse(format!("there is no material {asked}, only {known}"));
+        let (number, known) = (block.material, setup.materials.len());
+        return refuse(format!("there is no material {number}, only {known}"));
     };
     let mass = material.density * block.shape.volume();
     if !(mass > 0.0 && mass.is_finite()) {

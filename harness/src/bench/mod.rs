@@ -11,9 +11,11 @@ mod targets;
 mod unused;
 mod variant;
 mod water;
+mod work;
 
 pub use kit::copy::copy_bandwidth;
 pub use report::Machine;
+pub use work::Work;
 
 use kit::{clock::Clock, gpu};
 use report::Row;

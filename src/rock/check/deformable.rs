@@ -3,11 +3,11 @@
 use crate::{
     Error, Result,
     geometry::Form,
-    rock::{Block, Deformable, Motion, Setup, acting::value},
+    rock::{Block, Deformable, Motion, Setup, applied_forces::value},
 };
 
 /// Speed of a fixed point that rounding may leave, as a share of the speeds it is the sum of.
-const STILL: f64 = 1e-12;
+const SPEED_ROUNDING: f64 = 1e-12;
 
 /// # Errors
 /// [`Error::Argument`] at `place` if the block cannot deform.
@@ -53,19 +53,19 @@ pub(super) fn check(setup: &Setup, block: &Block, place: &str) -> Result<()> {
             "its initial stress {initial_stress} Pa must be finite and symmetric"
         ));
     }
-    for (number, held) in fixed_points.iter().enumerate() {
+    for (number, fixed) in fixed_points.iter().enumerate() {
         let place = format!("{place}: fixed point {number}");
-        if !held.point.is_finite() {
+        if !fixed.point.is_finite() {
             return Err(Error::argument(place, "its place is not finite"));
         }
-        if held.axes == [false; 3] {
+        if fixed.axes == [false; 3] {
             let message = "it is held along no axis; name one at least, or leave it out";
             return Err(Error::argument(place, message));
         }
-        let turning = block.spin.cross(block.rotation * held.point);
+        let turning = block.spin.cross(block.rotation * fixed.point);
         let velocity = block.velocity + turning;
         let scale = block.velocity.length() + turning.length();
-        let moves = |k: usize| held.axes[k] && velocity[k].abs() > STILL * scale;
+        let moves = |k: usize| fixed.axes[k] && velocity[k].abs() > SPEED_ROUNDING * scale;
         if (0..3).any(moves) {
             let message = format!(
                 "it starts with {velocity} m/s where it is held; let the block start at rest, or about \
@@ -79,7 +79,7 @@ pub(super) fn check(setup: &Setup, block: &Block, place: &str) -> Result<()> {
 
 /// # Errors
 /// [`Error::Argument`] at `place` if a force acts on a block that no force moves, or is no number at the start.
-pub(super) fn check_acting(block: &Block, place: &str) -> Result<()> {
+pub(super) fn check_applied_forces(block: &Block, place: &str) -> Result<()> {
     let acts = !block.point_loads.is_empty() || block.acceleration.is_some();
     if acts && block.motion != Motion::Free {
         let message = "point loads and an acceleration act on free blocks alone, and it is fixed or driven; \

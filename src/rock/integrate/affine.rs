@@ -37,7 +37,7 @@ pub struct Affine {
 
 /// Forces on an affine body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
+pub struct Wrench {
     /// Σ f, N.
     pub force: DVec3,
     /// Σ f ⊗ r, r from the centroid in the world, N m.
@@ -100,12 +100,12 @@ impl Affine {
         axial(rate * self.second_moment * f.transpose())
     }
 
-    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `pull` and its own stress.
-    pub fn accelerations(&self, f: DMat3, pull: &Pull) -> (DVec3, DMat3) {
+    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `wrench` and its own stress.
+    pub fn accelerations(&self, f: DMat3, wrench: &Wrench) -> (DVec3, DMat3) {
         // f ⊗ X with X = F⁻¹ r.
-        let outer = pull.moment * f.inverse().transpose();
+        let outer = wrench.moment * f.inverse().transpose();
         let stress = f * self.inner_stress(f) * self.volume;
-        (pull.force / self.mass, (outer - stress) * self.inverse)
+        (wrench.force / self.mass, (outer - stress) * self.inverse)
     }
 
     /// Bound of ω² of its stiffest mode when deformed by `f`, rad²/s²; exact without strain.

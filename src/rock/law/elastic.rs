@@ -43,7 +43,7 @@ impl Elastic {
         if !(e > 0.0 && e.is_finite()) {
             return refuse("youngs_modulus", format!("{e} must be greater than 0 Pa"));
         }
-        // Outside, a body would give way to pressure or to shear.
+        // Outside these bounds the elastic energy is not positive definite.
         if !(nu > -1.0 && nu < 0.5) {
             let message = format!("{nu} must lie between -1 and 0.5, both excluded");
             return refuse("poissons_ratio", message);

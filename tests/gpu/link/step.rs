@@ -1,9 +1,7 @@
 //! The step: all slots, and each pair of a slot's file and a number of bindings.
 
-use super::specialise::{BINDINGS, LAYOUTS, bindings_of, forces, names, specialise, variants};
-use riprap::lattice::{
-    Collision, Equilibrium, Reach, Setup, SolidOperator, collide_stream, stream_only,
-};
+use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
+use riprap::lattice::{Collision, Equilibrium, Reach, Setup, SolidOperator, collide_stream};
 
 /// What kinds of brick there are, each operator of solids once.
 const REACHES: [(Reach, Option<SolidOperator>); 6] = [
@@ -53,17 +51,5 @@ fn the_step_in_all_variants() {
             &setup,
             variant.iter().sum::<usize>() % 2 == 1,
         );
-    }
-}
-
-#[test]
-fn streaming_alone_in_all_layouts() {
-    for variant in variants(&[LAYOUTS.len(), BINDINGS.len()]) {
-        let mut setup = Setup::periodic([4; 3], 0.1);
-        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[variant[0]];
-        let count = BINDINGS[variant[1]];
-        let linked = stream_only(&setup, count).link().unwrap();
-        assert_eq!(names(&linked, "stream_only"), ([].into(), count as usize));
-        specialise(&linked, "stream_only", &setup, false);
     }
 }

@@ -22,7 +22,7 @@ use gauges::GaugeTable;
 use riprap::{
     Error, Result,
     coupling::particle_advice,
-    rock::Ledger,
+    rock::EnergyLedger,
     scene::{ProbePlace, Quantity, Scene},
     simulation::{FreeSurface, WaterLedger, checkpoint::WaterCheckpoint},
     sph::{self, Totals, Water},
@@ -42,7 +42,7 @@ pub struct SphRun {
     /// Warnings about the scene.
     pub warnings: Vec<String>,
     /// Energies of the blocks at the start of the scene, before any restart.
-    start: Ledger,
+    start: EnergyLedger,
     /// Energies of the water at the start of the scene, before any restart.
     first: WaterLedger,
     /// Step and state of the last readback, which several recorders share.

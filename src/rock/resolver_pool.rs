@@ -7,12 +7,12 @@ use std::{
 };
 
 /// One resolver a thread.
-pub(super) struct Resolvers {
+pub(super) struct ResolverPool {
     options: Options,
     one_a_thread: Vec<Mutex<Resolver>>,
 }
 
-impl fmt::Debug for Resolvers {
+impl fmt::Debug for ResolverPool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Resolvers")
             .field("options", &self.options)
@@ -21,7 +21,7 @@ impl fmt::Debug for Resolvers {
     }
 }
 
-impl Resolvers {
+impl ResolverPool {
     pub fn new(options: Options) -> Self {
         Self {
             options,

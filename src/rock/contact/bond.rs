@@ -1,18 +1,18 @@
-//! Two faces that touch: where they do, as each of the two parts carries it along.
+//! A bond between two faces that touch: the patch of contact, in the frames of both parts.
 
-use super::{Placed, squeeze::meeting};
+use super::{Placed, thin_gap::face_pair};
 use glam::{DMat3, DVec2, DVec3};
 
 /// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
-const CLOSED: f64 = 1e-9;
+const TOUCHING_GAP: f64 = 1e-9;
 /// Least area of a patch, as a share of the square of that radius: parts that touch with an edge alone have one of the
-/// width of rounding, over which nothing is glued.
-const LEAST: f64 = 1e-6;
+/// width of rounding, over which nothing is bonded.
+const SMALLEST_PATCH: f64 = 1e-6;
 
 /// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
 /// the axes of its block's frame, before it deforms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seam {
+pub struct Bond {
     /// m².
     pub area: f64,
     /// Mean overlap, m; 0 where the faces touch within rounding.
@@ -29,45 +29,46 @@ pub struct Seam {
     pub seconds: [f64; 2],
 }
 
-/// A [`Seam`] where its parts are now, vectors along the axes of the world.
+/// A [`Bond`] at the present poses of its parts, vectors along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Opened {
+pub struct BondState {
     /// Half-way between the centroids of the patch, m.
     pub point: DVec3,
     /// Unit normal from the first part to the second.
     pub normal: DVec3,
-    /// Mean overlap; less than 0 where the seam is open, m.
+    /// Mean overlap; less than 0 where the bond is open, m.
     pub overlap: f64,
     /// Principal axes of the patch.
     pub axes: [DVec3; 2],
-    /// Turn of the second part against the first about each of the axes, rad.
+    /// Rotation of the second part against the first about each of the axes, rad.
     pub tilts: [f64; 2],
 }
 
-impl Seam {
-    /// The seam of two parts that touch or overlap, if they do so with faces that are parallel to 5°, and not along an
+impl Bond {
+    /// The bond of two parts that touch or overlap, if they do so with faces that are parallel to 5°, and not along an
     /// edge alone.
     pub fn between(first: &Placed, second: &Placed) -> Option<Self> {
         if first.is_sphere() || second.is_sphere() {
             return None;
         }
         let radius = first.radius.min(second.radius);
-        let range = CLOSED * radius;
-        let meeting = meeting(first, second, range).filter(|meeting| meeting.flatness == 1.0)?;
-        let seconds = meeting.polygon.second_moments()?;
-        if seconds.area <= LEAST * radius * radius {
+        let range = TOUCHING_GAP * radius;
+        let face_pair =
+            face_pair(first, second, range).filter(|face_pair| face_pair.flatness == 1.0)?;
+        let seconds = face_pair.polygon.second_moments()?;
+        if seconds.area <= SMALLEST_PATCH * radius * radius {
             return None;
         }
-        let normal = meeting.normal();
-        let overlap = -(meeting.gap + meeting.slope.dot(seconds.centre));
-        let point = meeting.lift(seconds.centre) - meeting.out * (0.5 * overlap);
-        let axis = meeting.x * seconds.axis.x + meeting.y * seconds.axis.y;
-        let along = [seconds.axis, meeting.flat(normal.cross(axis))];
+        let normal = face_pair.normal();
+        let overlap = -(face_pair.gap + face_pair.slope.dot(seconds.centre));
+        let point = face_pair.lift(seconds.centre) - face_pair.out * (0.5 * overlap);
+        let axis = face_pair.x * seconds.axis.x + face_pair.y * seconds.axis.y;
+        let along = [seconds.axis, face_pair.flat(normal.cross(axis))];
         let extents = along.map(|axis: DVec2| {
-            let heights = meeting.polygon.corners.iter();
+            let heights = face_pair.polygon.corners.iter();
             let heights = heights.map(|corner| axis.dot(*corner - seconds.centre));
-            heights.fold([0.0, 0.0], |[least, most]: [f64; 2], height| {
-                [least.min(height), most.max(height)]
+            heights.fold([0.0, 0.0], |[smallest_overlap, most]: [f64; 2], height| {
+                [smallest_overlap.min(height), most.max(height)]
             })
         });
         let [own, other] = [first, second].map(|part| part.deformation.inverse());
@@ -87,8 +88,8 @@ impl Seam {
         })
     }
 
-    /// Where it is in parts that have moved.
-    pub fn of(&self, first: &Placed, second: &Placed) -> Opened {
+    /// Its state at the present poses of the parts.
+    pub fn state(&self, first: &Placed, second: &Placed) -> BondState {
         let carried =
             |part: &Placed, normal: DVec3| (cofactor(part.deformation) * normal).normalize();
         let [a, b] = [
@@ -104,7 +105,7 @@ impl Seam {
         let axis = axis.normalize();
         let axes = [axis, normal.cross(axis)];
         let tilt = n_a.cross(n_b);
-        Opened {
+        BondState {
             point: 0.5 * (a + b),
             normal,
             overlap: self.overlap - (b - a).dot(normal),
@@ -115,25 +116,27 @@ impl Seam {
 
     /// Largest extent of the patch, m.
     pub fn width(&self) -> f64 {
-        let [along, across] = self.extents.map(|[least, most]| most - least);
+        let [along, across] = self
+            .extents
+            .map(|[smallest_overlap, most]| most - smallest_overlap);
         along.hypot(across)
     }
 }
 
-impl Opened {
-    /// Overlap where the seam is open the widest, m: u + θ₂ x₁ − θ₁ x₂ at the corners of the rectangle along the
+impl BondState {
+    /// Overlap where the opening is the largest, m: u + θ₂ x₁ − θ₁ x₂ at the corners of the rectangle along the
     /// axes that holds the patch.
-    pub fn least(&self, seam: &Seam) -> f64 {
-        let least = |slope: f64, [low, high]: [f64; 2]| (slope * low).min(slope * high);
+    pub fn smallest_overlap(&self, bond: &Bond) -> f64 {
+        let smallest_overlap = |slope: f64, [low, high]: [f64; 2]| (slope * low).min(slope * high);
         self.overlap
-            + least(self.tilts[1], seam.extents[0])
-            + least(-self.tilts[0], seam.extents[1])
+            + smallest_overlap(self.tilts[1], bond.extents[0])
+            + smallest_overlap(-self.tilts[0], bond.extents[1])
     }
 
     /// Moment of bending alone: a bond has no spring in torsion, about its normal. That of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point, over
     /// its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments.
-    pub fn moment(&self, seam: &Seam) -> DVec3 {
-        let [first, second] = seam.seconds;
+    pub fn moment(&self, bond: &Bond) -> DVec3 {
+        let [first, second] = bond.seconds;
         -(self.axes[0] * (second * self.tilts[0]) + self.axes[1] * (first * self.tilts[1]))
     }
 }

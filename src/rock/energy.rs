@@ -1,21 +1,69 @@
-//! Keeping the energy ledger: works by the trapezoidal rule over a step, as velocity Verlet has them.
+//! The energy ledger: where the energy is and where it went. Works follow the trapezoidal rule over a step, as in velocity Verlet.
 
 use super::{
-    Body, Ledger,
+    Body,
     body::State,
-    deforming::{DeformingBlocks, Under},
-    touches::{Chunk, Touches},
+    contact_list::{Chunk, ContactList},
+    deforming::{DeformingBlocks, StepParams},
 };
 use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+/// Energies since the start, J.
+///
+/// A block's kinetic and potential energy counts only if it is free. The law's springs conserve energy
+/// only while the area of their contact stays (k_n A u_n has a potential in u_n alone): what they hold is
+/// therefore the work that was done on them, and what they still hold when their contact ends is counted
+/// as `lost`, positive or negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyLedger {
+    /// ½mv² + ½ω·L of the free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of those that deform.
+    pub kinetic: f64,
+    /// −m g·x of the free blocks, from the origin of the coordinates.
+    pub potential: f64,
+    /// ∫ ½E:C:E + σ₀:E of the blocks that deform.
+    pub strain: f64,
+    /// Work done on the springs of the present contacts, less what friction took of it. Negative where the area of a
+    /// contact grew while it was pressed: its springs then give back more than they took.
+    pub elastic: f64,
+    /// Taken by friction.
+    pub friction: f64,
+    /// Taken by the dashpots of the contacts.
+    pub dashpot: f64,
+    /// Taken by the mass damping α.
+    pub mass_damping: f64,
+    /// Taken by films of fluid between blocks that nearly touch.
+    pub film: f64,
+    /// Held by springs whose contact ended: what the contact law took out, or put in where it is negative.
+    pub lost: f64,
+    /// Done on the blocks by what moves the driven ones.
+    pub driven: f64,
+    /// Done on the blocks by external loads, point loads and accelerations.
+    pub loads: f64,
+}
+
+impl EnergyLedger {
+    /// What is there and what was taken, less what was put in: constant but for the error of the time
+    /// integration.
+    pub fn balance(&self) -> f64 {
+        self.kinetic + self.potential + self.strain + self.elastic + self.taken()
+            - self.driven
+            - self.loads
+    }
+
+    /// Taken for good.
+    pub fn taken(&self) -> f64 {
+        self.friction + self.dashpot + self.mass_damping + self.film + self.lost
+    }
+}
+
 /// Chunks of contacts that one thread takes at least.
-const FEW: usize = 8;
+const CHUNKS_PER_TASK: usize = 8;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Books {
+pub(super) struct WorkSums {
     pub friction: f64,
     pub lost: f64,
     pub film: f64,
@@ -26,18 +74,18 @@ pub(super) struct Books {
 
 /// All blocks and their state.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct All<'a> {
+pub(super) struct BodyStates<'a> {
     pub bodies: &'a [Body],
     pub states: &'a [State],
     pub deforming: &'a DeformingBlocks,
 }
 
-impl All<'_> {
+impl BodyStates<'_> {
     /// Velocity of a block where it is at `at` (m), m/s.
     fn velocity(&self, block: usize, at: DVec3) -> DVec3 {
         let state = &self.states[block];
         let r = at - state.centre;
-        // Among rigid blocks alone nobody looks into the bodies, which are far away in memory.
+        // Among rigid blocks alone the bodies, which are far away in memory, are not read.
         let strained = !self.deforming.is_empty();
         let strain = strained
             .then(|| self.deforming.of(&self.bodies[block]))
@@ -49,30 +97,38 @@ impl All<'_> {
     }
 }
 
-impl Books {
-    /// Books the step `under` at whose end the contacts are `touches`, with the velocities there.
-    pub fn step(&mut self, all: All<'_>, touches: &mut Touches, under: Under) {
-        let All {
+impl WorkSums {
+    /// Adds the works of a step that ends with `contacts` and the velocities of `all`.
+    pub fn add_step(
+        &mut self,
+        all: BodyStates<'_>,
+        contacts: &mut ContactList,
+        params: StepParams,
+    ) {
+        let BodyStates {
             bodies,
             states,
             deforming,
         } = all;
-        let (damping, dt) = (under.damping, under.dt);
-        let chunks = touches.chunks.par_iter_mut().with_min_len(FEW);
+        let (damping, dt) = (params.damping, params.dt);
+        let chunks = contacts.chunks.par_iter_mut().with_min_len(CHUNKS_PER_TASK);
         chunks.for_each(|chunk| work(chunk, &all, dt));
         let mut power = [0.0; 4];
         // One after the other: the bits must not depend on the number of threads.
-        for chunk in &touches.chunks {
-            for (touch, dashpots) in chunk.touches.iter().zip(&chunk.dashpots) {
+        for chunk in &contacts.chunks {
+            for (contact, dashpots) in chunk.contacts.iter().zip(&chunk.dashpots) {
                 power[0] -= dashpots;
-                self.friction += touch.force.friction;
+                self.friction += contact.force.friction;
             }
-            self.lost = chunk.ended.iter().fold(self.lost, |lost, held| lost + held);
+            self.lost = chunk
+                .ended
+                .iter()
+                .fold(self.lost, |lost, stored| lost + stored);
         }
         for (body, state) in bodies.iter().zip(states) {
             if body.is_free() {
                 power[1] += damping * 2.0 * kinetic(deforming, body, state);
-                power[3] += load_power(deforming, body, state, under.time + dt);
+                power[3] += load_power(deforming, body, state, params.time + dt);
             } else if !body.is_fixed() {
                 power[2] -= state.force.dot(state.velocity) + state.torque.dot(state.spin);
             }
@@ -84,7 +140,7 @@ impl Books {
     }
 
     /// Takes new loads over: the next step begins under them at the time `t` (s).
-    pub fn reload(&mut self, all: All<'_>, t: f64) {
+    pub fn reload(&mut self, all: BodyStates<'_>, t: f64) {
         let each = all.bodies.iter().zip(all.states);
         let free = each.filter(|(body, _)| body.is_free());
         self.power[3] = free
@@ -93,8 +149,13 @@ impl Books {
     }
 
     /// The ledger of the present state.
-    pub fn ledger(&self, all: All<'_>, touches: &Touches, gravity: DVec3) -> Ledger {
-        let All {
+    pub fn ledger(
+        &self,
+        all: BodyStates<'_>,
+        contacts: &ContactList,
+        gravity: DVec3,
+    ) -> EnergyLedger {
+        let BodyStates {
             bodies,
             states,
             deforming,
@@ -102,7 +163,7 @@ impl Books {
         let free = || bodies.iter().zip(states).filter(|(body, _)| body.is_free());
         let strained = deforming.list.iter().zip(&deforming.strains);
         let [dashpot, mass_damping, driven, loads] = self.work;
-        Ledger {
+        EnergyLedger {
             kinetic: free()
                 .map(|(body, state)| kinetic(deforming, body, state))
                 .sum(),
@@ -112,7 +173,7 @@ impl Books {
             strain: strained
                 .map(|(one, strain)| one.affine.strain_energy(strain.deformation))
                 .sum(),
-            elastic: touches.iter().map(|touch| touch.stored).sum(),
+            elastic: contacts.iter().map(|contact| contact.stored).sum(),
             friction: self.friction,
             dashpot,
             mass_damping,
@@ -125,19 +186,19 @@ impl Books {
 }
 
 /// Works on the springs of some contacts in a step of `dt` (s), and the powers at its end.
-fn work(chunk: &mut Chunk, all: &All<'_>, dt: f64) {
+fn work(chunk: &mut Chunk, all: &BodyStates<'_>, dt: f64) {
     chunk.dashpots.clear();
-    for touch in &mut chunk.touches {
-        let force = touch.force;
-        let [first, second] = touch.blocks.map(|block| block as usize);
-        let velocity = all.velocity(second, touch.pressure_centre - touch.way)
-            - all.velocity(first, touch.pressure_centre);
+    for contact in &mut chunk.contacts {
+        let force = contact.force;
+        let [first, second] = contact.blocks.map(|block| block as usize);
+        let velocity = all.velocity(second, contact.pressure_centre - contact.image_shift)
+            - all.velocity(first, contact.pressure_centre);
         let spin = all.states[second].spin - all.states[first].spin;
         let spring = -force.spring.dot(velocity) - force.bending.dot(spin);
         let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
         chunk.dashpots.push(dashpots);
-        touch.stored += 0.5 * dt * (touch.power + spring) - force.friction;
-        touch.power = spring;
+        contact.stored += 0.5 * dt * (contact.power + spring) - force.friction;
+        contact.power = spring;
     }
 }
 
@@ -151,7 +212,7 @@ fn kinetic(deforming: &DeformingBlocks, body: &Body, state: &State) -> f64 {
     }
 }
 
-/// What the load on a free block, and what acts on it alone, do a second at the time `t` (s), W.
+/// Power of the load and of the applied forces on a free block at the time `t` (s), W.
 fn load_power(deforming: &DeformingBlocks, body: &Body, state: &State, t: f64) -> f64 {
     let strain = deforming.of(body).map(|(_, strain)| strain);
     let turning = match strain {
@@ -159,13 +220,13 @@ fn load_power(deforming: &DeformingBlocks, body: &Body, state: &State, t: f64) -
         Some(strain) => inner(strain.load, strain.gradient()),
     };
     let power = state.load.dot(state.velocity) + turning;
-    let Some(acting) = body.acting() else {
+    let Some(applied_forces) = body.applied_forces() else {
         return power;
     };
     let (deformation, gradient) = match strain {
         None => (DMat3::from_quat(state.rotation), skew(state.spin)),
         Some(strain) => (strain.deformation, strain.gradient()),
     };
-    let pull = acting.pull(deformation, body.mass, t);
-    power + pull.force.dot(state.velocity) + inner(pull.moment, gradient)
+    let wrench = applied_forces.wrench(deformation, body.mass, t);
+    power + wrench.force.dot(state.velocity) + inner(wrench.moment, gradient)
 }

@@ -1,17 +1,17 @@
 //! Forces on single blocks that are formulas of time: at points, and on all of their mass.
 
 use super::{Block, PointLoad};
-use crate::{formula::Formula, geometry::outer, rock::integrate::Pull};
+use crate::{formula::Formula, geometry::outer, rock::integrate::Wrench};
 use glam::{DMat3, DVec3};
 
-/// What acts on one block beside gravity, contacts and loads.
+/// Point loads and the acceleration of one block, in addition to gravity, contacts and loads.
 #[derive(Clone, Debug)]
-pub(super) struct Acting {
+pub(super) struct AppliedForces {
     point_loads: Vec<PointLoad>,
     acceleration: Option<[Formula; 3]>,
 }
 
-impl Acting {
+impl AppliedForces {
     /// Of a block, if there is something.
     pub fn of(block: &Block) -> Option<Box<Self>> {
         let some = !block.point_loads.is_empty() || block.acceleration.is_some();
@@ -25,8 +25,8 @@ impl Acting {
 
     /// Force and moment about the centroid at the time `t` (s) on the block of `mass` (kg) and
     /// `deformation`.
-    pub fn pull(&self, deformation: DMat3, mass: f64, t: f64) -> Pull {
-        let mut pull = Pull {
+    pub fn wrench(&self, deformation: DMat3, mass: f64, t: f64) -> Wrench {
+        let mut wrench = Wrench {
             force: self
                 .acceleration
                 .as_ref()
@@ -35,10 +35,10 @@ impl Acting {
         };
         for load in &self.point_loads {
             let force = value(&load.force, t);
-            pull.force += force;
-            pull.moment += outer(force, deformation * load.point);
+            wrench.force += force;
+            wrench.moment += outer(force, deformation * load.point);
         }
-        pull
+        wrench
     }
 }
 

@@ -2,20 +2,20 @@
 
 use super::{
     Body,
-    body::Flight,
+    body::MidStep,
     bonds::unbonded,
+    candidate_pairs::CandidatePair,
+    contact_list::{CHUNK, Chunk, Contact, ContactList, DISTANCES_PER_LIMIT, NO_CONTACT},
     deforming::{DeformingBlocks, RIGID},
     films::Film,
-    parts::Parts,
     period::Periods,
-    resolvers::Resolvers,
-    touch::{NONE, Pair, TENTHS, Touch},
-    touches::{CHUNK, Chunk, Touches},
+    placed_parts::PlacedParts,
+    resolver_pool::ResolverPool,
 };
 use crate::{
     Error, Result,
     rock::{
-        contact::{Contact, Placed, Resolver, Seam, Squeeze, Verdict},
+        contact::{Bond, ContactGeometry, Resolver, ThinGap, Verdict},
         law::{self, History, Joint},
     },
 };
@@ -24,17 +24,26 @@ use rayon::prelude::*;
 
 /// Share of the square of a block's width that one of the four corners of its face carries: see
 /// [`Setup::corner_area`](super::Setup::corner_area).
-const CORNER: f64 = 0.25;
+const CORNER_SHARE: f64 = 0.25;
+
+/// Parts and blocks of a pair, and the image of the second part that it means.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PairIds {
+    pub parts: [u32; 2],
+    pub blocks: [u32; 2],
+    /// Shift of the second part to its image, m.
+    pub image_shift: DVec3,
+}
 
 /// What the contacts are computed from.
-pub(super) struct Scene<'a> {
+pub(super) struct Narrowphase<'a> {
     pub bodies: &'a [Body],
-    pub flights: &'a [Flight],
+    pub mid_steps: &'a [MidStep],
     pub deforming: &'a DeformingBlocks,
-    pub parts: &'a Parts,
+    pub parts: &'a PlacedParts,
     pub joints: &'a Joints,
     /// Contacts of the last step.
-    pub touches: &'a Touches,
+    pub contacts: &'a ContactList,
     /// s; 0 at the start.
     pub time_step: f64,
     /// Whether faces that touch now are bonded.
@@ -66,20 +75,21 @@ impl Joints {
 /// # Errors
 /// That of the first pair that cannot be resolved.
 pub(super) fn resolve(
-    scene: &Scene<'_>,
-    resolvers: &mut Resolvers,
-    pairs: &[Pair],
-    next: &mut Vec<Pair>,
-    found: &mut Touches,
+    narrowphase: &Narrowphase<'_>,
+    resolver_pool: &mut ResolverPool,
+    pairs: &[CandidatePair],
+    next: &mut Vec<CandidatePair>,
+    found: &mut ContactList,
 ) -> Result<()> {
-    resolvers.prepare(rayon::current_num_threads());
-    let resolvers = &*resolvers;
-    next.resize(pairs.len(), Pair::new([0; 2], [0; 3]));
+    resolver_pool.prepare(rayon::current_num_threads());
+    let resolver_pool = &*resolver_pool;
+    next.resize(pairs.len(), CandidatePair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
     let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
     let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
     let failed = chunks.filter_map(|(n, (pairs, (next, found)))| {
-        let done = resolvers.with(|resolver| scene.chunk(resolver, n, pairs, next, found));
+        let done =
+            resolver_pool.with(|resolver| narrowphase.chunk(resolver, n, pairs, next, found));
         done.err().map(|error| (n, error))
     });
     match failed.min_by_key(|(n, _)| *n) {
@@ -88,34 +98,33 @@ pub(super) fn resolve(
     }
 }
 
-impl Scene<'_> {
+impl Narrowphase<'_> {
     /// The chunk `n` of the pairs.
     fn chunk(
         &self,
         resolver: &mut Resolver,
         n: usize,
-        pairs: &[Pair],
-        next: &mut [Pair],
+        pairs: &[CandidatePair],
+        next: &mut [CandidatePair],
         found: &mut Chunk,
     ) -> Result<()> {
-        found.touches.clear();
+        found.contacts.clear();
         found.ended.clear();
         found.films.clear();
         for (pair, next) in pairs.iter().zip(next) {
             *next = *pair;
-            let before = self.touches.of(pair);
-            let room = (&mut found.films, &mut found.image);
-            let touch = self.pair(resolver, next, before, room)?;
-            next.touch = match touch {
-                Some(_) => (n * CHUNK + found.touches.len()) as u32,
-                None => NONE,
+            let before = self.contacts.of(pair);
+            let contact = self.pair(resolver, next, before, found)?;
+            next.contact = match contact {
+                Some(_) => (n * CHUNK + found.contacts.len()) as u32,
+                None => NO_CONTACT,
             };
-            if let (Some(before), None) = (before, touch) {
-                // Its force acted for half a step yet.
-                let held = before.stored + 0.5 * self.time_step * before.power;
-                found.ended.push(held);
+            if let (Some(before), None) = (before, contact) {
+                // Its force acted during the first half of the step.
+                let stored = before.stored + 0.5 * self.time_step * before.power;
+                found.ended.push(stored);
             }
-            found.touches.extend(touch);
+            found.contacts.extend(contact);
         }
         Ok(())
     }
@@ -123,48 +132,49 @@ impl Scene<'_> {
     fn pair(
         &self,
         resolver: &mut Resolver,
-        pair: &mut Pair,
-        before: Option<&Touch>,
-        (films, image): (&mut Vec<Film>, &mut Placed),
-    ) -> Result<Option<Touch>> {
+        pair: &mut CandidatePair,
+        before: Option<&Contact>,
+        found: &mut Chunk,
+    ) -> Result<Option<Contact>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
-        if blocks.iter().all(|&b| self.flights[b as usize].rests) {
+        if blocks.iter().all(|&b| self.mid_steps[b as usize].rests) {
             // Nothing slips where nothing moves.
-            return Ok(before.map(|touch| Touch {
+            return Ok(before.map(|contact| Contact {
                 force: law::Force {
                     friction: 0.0,
-                    ..touch.force
+                    ..contact.force
                 },
-                ..*touch
+                ..*contact
             }));
         }
         let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
-        let way = self
+        let image_shift = self
             .periods
-            .map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
-        let second = match pair.turns {
+            .map_or(DVec3::ZERO, |periods| periods.period.shift(pair.offset));
+        let second = match pair.offset {
             [0, 0, 0] => second,
             _ => {
-                image.copy_moved(second, way);
-                image
+                found.image.copy_moved(second, image_shift);
+                &found.image
             }
         };
-        let bonded = before.filter(|touch| touch.seam.area > 0.0);
-        if let Some(touch) = bonded {
-            let place = (pair.parts, blocks, way);
-            if let Some(held) = self.held(place, [first, second], &touch.seam, before) {
-                return self.hard(held, blocks).map(Some);
-            }
+        let ids = PairIds {
+            parts: pair.parts,
+            blocks,
+            image_shift,
+        };
+        if let Some(contact) = before.filter(|contact| contact.bond.area > 0.0)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], &contact.bond, before)
+        {
+            return self.check_depth(bonded, blocks).map(Some);
         }
         let joint = self.joint(blocks);
         if self.bonding
             && joint.tensile_strength > 0.0
-            && let Some(seam) = Seam::between(first, second)
+            && let Some(bond) = Bond::between(first, second)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], &bond, None)
         {
-            let place = (pair.parts, blocks, way);
-            if let Some(held) = self.held(place, [first, second], &seam, None) {
-                return Ok(Some(held));
-            }
+            return Ok(Some(bonded));
         }
         let verdict = resolver
             .resolve(first, second, &mut pair.cache)
@@ -172,55 +182,57 @@ impl Scene<'_> {
                 let [a, b] = blocks.map(|block| self.name(block));
                 Error::argument(format!("{a} and {b}"), error.to_string())
             })?;
-        if let (Some(film), Verdict::Apart | Verdict::Touching) = (self.film, verdict)
+        if let (Some(film), Verdict::Apart | Verdict::Undecided) = (self.film, verdict)
             && blocks
                 .iter()
                 .all(|&b| self.bodies[b as usize].deforming == RIGID)
-            && let Some(squeeze) = Squeeze::between(first, second, film.reach())
+            && let Some(thin_gap) = ThinGap::between(first, second, film.reach())
         {
-            let [a, b] = blocks.map(|block| self.flights[block as usize].centre);
-            let centres = [a, b + way];
-            films.extend(Film::of(&squeeze, film, blocks, centres));
+            let [a, b] = blocks.map(|block| self.mid_steps[block as usize].centre);
+            let centres = [a, b + image_shift];
+            found
+                .films
+                .extend(Film::of(&thin_gap, film, blocks, centres));
         }
         Ok(match verdict {
             Verdict::Apart => None,
-            Verdict::Touching => before.map(|touch| Touch {
-                seam: Seam::default(),
+            Verdict::Undecided => before.map(|contact| Contact {
+                bond: Bond::default(),
                 overlap: 0.0,
                 area: 0.0,
                 section: 0.0,
                 force: law::Force {
-                    history: unbonded(touch),
+                    history: unbonded(contact),
                     ..law::Force::default()
                 },
-                ..*touch
+                ..*contact
             }),
-            Verdict::Contact(contact) => {
-                let touch = self.touch((pair.parts, blocks, way), &contact, before);
-                Some(self.hard(touch, blocks)?)
+            Verdict::Contact(geometry) => {
+                let contact = self.contact(ids, &geometry, before);
+                Some(self.check_depth(contact, blocks)?)
             }
         })
     }
 
-    /// Refuses what is pressed in too deep.
-    fn hard(&self, touch: Touch, blocks: [u32; 2]) -> Result<Touch> {
-        let limit = TENTHS * self.largest_overlap * touch.limit;
-        if touch.overlap <= limit {
-            return Ok(touch);
+    /// Refuses a contact that is too deep.
+    fn check_depth(&self, contact: Contact, blocks: [u32; 2]) -> Result<Contact> {
+        let limit = DISTANCES_PER_LIMIT * self.largest_overlap * contact.limit;
+        if contact.overlap <= limit {
+            return Ok(contact);
         }
         let usual = "take a greater normal_stiffness, press them together more slowly, or allow a \
                      greater largest_overlap";
-        let corner = CORNER * (2.0 * TENTHS * touch.limit).powi(2);
+        let corner = CORNER_SHARE * (2.0 * DISTANCES_PER_LIMIT * contact.limit).powi(2);
         Err(Error::DeepOverlap {
             first: self.name(blocks[0]),
             second: self.name(blocks[1]),
-            depth: touch.overlap,
+            depth: contact.overlap,
             limit,
-            remedy: match touch.area < corner {
+            remedy: match contact.area < corner {
                 true => format!(
                     "they touch with a corner or an edge, over {:.1e} m², which is soft: set \
-                     rock.corner_area = {CORNER}, which counts it as {corner:.1e} m²; or {usual}",
-                    touch.area
+                     rock.corner_area = {CORNER_SHARE}, which counts it as {corner:.1e} m²; or {usual}",
+                    contact.area
                 ),
                 false => usual.into(),
             },
@@ -228,22 +240,23 @@ impl Scene<'_> {
     }
 
     pub(super) fn joint(&self, blocks: [u32; 2]) -> &Joint {
-        let [a, b] = blocks.map(|block| self.flights[block as usize].material);
+        let [a, b] = blocks.map(|block| self.mid_steps[block as usize].material);
         self.joints.of(a, b)
     }
 
-    /// How two blocks move about `at` (m), beside the first.
-    pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, way: DVec3) -> law::Motion {
-        let [a, b] = blocks.map(|block| &self.flights[block as usize]);
-        let [ra, rb] = [at - a.centre, at - way - b.centre];
+    /// Relative motion of two blocks at the point `at` (m) of the first; the second is its image, shifted by
+    /// `image_shift` (m).
+    pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, image_shift: DVec3) -> law::Motion {
+        let [a, b] = blocks.map(|block| &self.mid_steps[block as usize]);
+        let [ra, rb] = [at - a.centre, at - image_shift - b.centre];
         let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
         let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
         if !self.deforming.is_empty() {
-            let [more, end_more] = self.stretch(blocks, [ra, rb]);
+            let [more, end_more] = self.strain_velocity(blocks, [ra, rb]);
             (mean, end) = (mean + more, end + end_more);
         }
         law::Motion {
-            way: mean * self.time_step,
+            displacement: mean * self.time_step,
             velocity: end,
             spin: b.spin - a.spin,
             frame: a.rotation,
@@ -252,50 +265,55 @@ impl Scene<'_> {
         }
     }
 
-    fn touch(
+    fn contact(
         &self,
-        (parts, blocks, way): ([u32; 2], [u32; 2], DVec3),
-        contact: &Contact,
-        before: Option<&Touch>,
-    ) -> Touch {
+        ids: PairIds,
+        geometry: &ContactGeometry,
+        before: Option<&Contact>,
+    ) -> Contact {
+        let at = geometry.pressure_centre;
+        let PairIds {
+            parts,
+            blocks,
+            image_shift,
+        } = ids;
         let joint = self.joint(blocks);
-        let at = contact.pressure_centre;
-        let motion = self.motion(blocks, at, way);
-        let square = (2.0 * TENTHS * contact.limit).powi(2);
+        let motion = self.motion(blocks, at, image_shift);
+        let square = (2.0 * DISTANCES_PER_LIMIT * geometry.limit).powi(2);
         let section = law::Section {
-            normal: contact.normal,
-            overlap: contact.overlap,
-            area: contact.area,
-            elastic_area: contact.area.max(self.corner_area * square),
+            normal: geometry.normal,
+            overlap: geometry.overlap,
+            area: geometry.area,
+            elastic_area: geometry.area.max(self.corner_area * square),
             rolls: parts
                 .iter()
                 .any(|&part| self.parts.placed[part as usize].is_sphere()),
-            gape: 0.0,
+            opening: 0.0,
         };
-        // What was bonded is so no more.
+        // A broken bond stays broken.
         let history = before.map_or_else(History::default, unbonded);
-        Touch {
+        Contact {
             parts,
             blocks,
-            way,
-            point: contact.point,
+            image_shift,
+            point: geometry.point,
             pressure_centre: at,
-            normal: contact.normal,
-            overlap: contact.overlap,
+            normal: geometry.normal,
+            overlap: geometry.overlap,
             area: section.elastic_area,
             section: section.area,
-            width: contact.width,
-            limit: contact.limit,
+            width: geometry.width,
+            limit: geometry.limit,
             force: law::force(joint, &section, &motion, &history),
-            seam: Seam::default(),
-            stored: before.map_or(0.0, |touch| touch.stored),
-            power: before.map_or(0.0, |touch| touch.power),
+            bond: Bond::default(),
+            stored: before.map_or(0.0, |contact| contact.stored),
+            power: before.map_or(0.0, |contact| contact.power),
         }
     }
 
     /// What deformation adds to the velocity of the second of two blocks against the first, over the step and
     /// at its end, m/s: the symmetric part of ∂v/∂x, whose skew part is the spin.
-    fn stretch(&self, blocks: [u32; 2], arms: [DVec3; 2]) -> [DVec3; 2] {
+    fn strain_velocity(&self, blocks: [u32; 2], arms: [DVec3; 2]) -> [DVec3; 2] {
         let mut sums = [DVec3::ZERO; 2];
         for ((block, arm), sign) in blocks.into_iter().zip(arms).zip([-1.0, 1.0]) {
             let body = &self.bodies[block as usize];

@@ -27,11 +27,11 @@ struct Condition {
 
 /// The conditions along the three axes, at most four each.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Held {
+pub struct PointConstraints {
     conditions: [Vec<Condition>; 3],
 }
 
-impl Held {
+impl PointConstraints {
     /// Holds points X of `body` (m from the centroid, own frame) where they are at `centre` (m) and
     /// `deformation`, each along the axes of the world that are set. Those that follow from others change
     /// nothing.
@@ -40,14 +40,19 @@ impl Held {
         (centre, deformation): (DVec3, DMat3),
         points: impl IntoIterator<Item = (DVec3, [bool; 3])>,
     ) -> Self {
-        let mut held = Self::default();
+        let mut constraints = Self::default();
         for (point, axes) in points {
             for (axis, _) in axes.iter().enumerate().filter(|(_, set)| **set) {
                 let now = (centre[axis], deformation.row(axis));
-                held.conditions[axis].extend(held.next(body, axis, (1.0, point), now));
+                constraints.conditions[axis].extend(constraints.next(
+                    body,
+                    axis,
+                    (1.0, point),
+                    now,
+                ));
             }
         }
-        held
+        constraints
     }
 
     /// What is new in a condition on an axis whose row is `now`.

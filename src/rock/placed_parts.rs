@@ -4,24 +4,24 @@ use super::{
     Body,
     body::State,
     deforming::{Strain, pose},
-    step::FEW,
+    step::BLOCKS_PER_TASK,
 };
 use crate::{
     geometry::{Form, Pose},
-    rock::{broadphase::Item, contact::Placed},
+    rock::{broadphase::Aabb, contact::Placed},
 };
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// All parts of all blocks, in order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
+pub(super) struct PlacedParts {
     /// Block of each part.
     pub block: Vec<u32>,
     pub placed: Vec<Placed>,
 }
 
-impl Parts {
+impl PlacedParts {
     pub fn new(bodies: &[Body]) -> Self {
         let mut parts = Self::default();
         for (i, body) in bodies.iter().enumerate() {
@@ -35,34 +35,35 @@ impl Parts {
 
     /// The boxes of all parts, each grown by the room of its block (m). What forces do not move is one
     /// group.
-    pub fn items(&self, bodies: &[Body], room: impl Fn(usize) -> f64) -> Vec<Item> {
-        let held = bodies.len() as u32;
-        let item = |(placed, &block): (&Placed, &u32)| {
+    pub fn aabbs(&self, bodies: &[Body], skin_margin: impl Fn(usize) -> f64) -> Vec<Aabb> {
+        let immovable = bodies.len() as u32;
+        let aabb = |(placed, &block): (&Placed, &u32)| {
             let (min, max) = bounds(placed);
-            let grow = DVec3::splat(room(block as usize));
+            let grow = DVec3::splat(skin_margin(block as usize));
             let free = bodies[block as usize].is_free();
-            Item {
+            Aabb {
                 min: (min - grow).to_array(),
                 max: (max + grow).to_array(),
-                group: if free { block } else { held },
+                group: if free { block } else { immovable },
             }
         };
-        self.placed.iter().zip(&self.block).map(item).collect()
+        self.placed.iter().zip(&self.block).map(aabb).collect()
     }
 
     /// Moves the parts of the blocks that move.
-    pub fn follow(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
+    pub fn place_moving(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let all = self.placed.par_iter_mut().zip(&self.block).enumerate();
-        all.with_min_len(FEW).for_each(|(index, (placed, &block))| {
-            let (body, state) = (&bodies[block as usize], &states[block as usize]);
-            if !body.is_fixed() && !state.asleep {
-                place(body, index, &pose(body, state, strains), placed);
-            }
-        });
+        all.with_min_len(BLOCKS_PER_TASK)
+            .for_each(|(index, (placed, &block))| {
+                let (body, state) = (&bodies[block as usize], &states[block as usize]);
+                if !body.is_fixed() && !state.asleep {
+                    place(body, index, &pose(body, state, strains), placed);
+                }
+            });
     }
 
     /// Puts all parts where their blocks are.
-    pub fn put(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
+    pub fn place_all(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let all = self.placed.iter_mut().zip(&self.block).enumerate();
         for (index, (placed, &block)) in all {
             let (body, state) = (&bodies[block as usize], &states[block as usize]);
@@ -71,7 +72,7 @@ impl Parts {
     }
 
     /// Puts the parts of one block where it is.
-    pub fn put_one(&mut self, body: &Body, pose: &Pose) {
+    pub fn place_block(&mut self, body: &Body, pose: &Pose) {
         let own = self.placed[body.parts.clone()].iter_mut();
         for (index, placed) in body.parts.clone().zip(own) {
             place(body, index, pose, placed);

@@ -3,7 +3,7 @@
 use super::{
     Placed,
     polygon::Polygon,
-    section::{FLAT, ramp},
+    section::{FLAT_FACES, ramp},
     sphere,
 };
 use glam::{DVec2, DVec3};
@@ -14,7 +14,7 @@ const OVER_FACE: f64 = 1.0 - 1e-9;
 
 /// A thin gap between two parts, vectors along the world's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Squeeze {
+pub struct ThinGap {
     /// Unit normal from the first part to the second.
     pub normal: DVec3,
     /// Middle of what faces the gap, half-way between the parts, m.
@@ -22,12 +22,12 @@ pub struct Squeeze {
     /// Width of the gap there, m; 0 where they touch within rounding.
     pub gap: f64,
     /// What faces it.
-    pub shape: Facing,
+    pub shape: GapShape,
 }
 
 /// What faces a thin gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Facing {
+pub enum GapShape {
     /// Two spheres, or a sphere and a face.
     Round {
         /// R₁R₂/(R₁ + R₂), the radius of the one sphere that a plane would have to face, m.
@@ -46,10 +46,10 @@ pub enum Facing {
     },
 }
 
-impl Squeeze {
+impl ThinGap {
     /// The gap between `first` and `second`, which do not overlap, if it is narrower than `range` (m) and a face or
-    /// a sphere is on both of its sides. An edge or a corner leaves the fluid a way out of a finite slope: what
-    /// resists it stays finite as the gap closes, and is none of this.
+    /// a sphere is on both of its sides. At an edge or a corner the walls diverge at a finite slope: the resistance
+    /// stays finite as the gap closes, and is not counted.
     pub fn between(first: &Placed, second: &Placed, range: f64) -> Option<Self> {
         let apart = second.centre - first.centre;
         if apart.length() >= first.radius + second.radius + range {
@@ -61,14 +61,14 @@ impl Squeeze {
             (true, false) => ball_over_face(second, first).map(Self::swapped),
             (false, false) => faces(first, second, range),
         };
-        found.filter(|squeeze| squeeze.gap < range)
+        found.filter(|gap| gap.gap < range)
     }
 
     /// One of the two axes about which a gap between faces may tilt; none between spheres.
     pub fn axis(&self, k: usize) -> DVec3 {
         match &self.shape {
-            Facing::Round { .. } => DVec3::ZERO,
-            Facing::Flat { axes, .. } => axes[k],
+            GapShape::Round { .. } => DVec3::ZERO,
+            GapShape::Flat { axes, .. } => axes[k],
         }
     }
 
@@ -80,38 +80,38 @@ impl Squeeze {
     }
 }
 
-fn balls(a: &Placed, b: &Placed) -> Squeeze {
+fn balls(a: &Placed, b: &Placed) -> ThinGap {
     let between = b.centre - a.centre;
     let gap = (between.length() - a.radius - b.radius).max(0.0);
     let normal = between.normalize_or(DVec3::X);
-    Squeeze {
+    ThinGap {
         normal,
         point: a.centre + normal * (a.radius + 0.5 * gap),
         gap,
-        shape: Facing::Round {
+        shape: GapShape::Round {
             radius: a.radius * b.radius / (a.radius + b.radius),
         },
     }
 }
 
-/// A sphere beside a polyhedron, unless it is over an edge or a corner.
-fn ball_over_face(block: &Placed, ball: &Placed) -> Option<Squeeze> {
+/// A sphere near a polyhedron, unless it is over an edge or a corner.
+fn ball_over_face(block: &Placed, ball: &Placed) -> Option<ThinGap> {
     let near = sphere::polyhedron(block, ball);
     let normal = near.contact.normal;
     let over = |face: &crate::geometry::HalfSpace| face.normal.dot(normal) > OVER_FACE;
     let gap = near.gap.max(0.0);
-    block.faces.iter().any(over).then(|| Squeeze {
+    block.faces.iter().any(over).then(|| ThinGap {
         normal,
         point: near.contact.point + normal * (0.5 * gap),
         gap,
-        shape: Facing::Round {
+        shape: GapShape::Round {
             radius: ball.radius,
         },
     })
 }
 
 /// Two faces that look at each other, and the polygon of the first that lies over the second.
-pub(super) struct Meeting {
+pub(super) struct FacePair {
     /// Whether the first of the two faces is that of the second part.
     pub flipped: bool,
     /// Normals of the two faces.
@@ -130,7 +130,7 @@ pub(super) struct Meeting {
     pub flatness: f64,
 }
 
-impl Meeting {
+impl FacePair {
     /// Unit normal from the first part to the second.
     pub fn normal(&self) -> DVec3 {
         let normal = (self.out - self.opposite).normalize();
@@ -149,7 +149,7 @@ impl Meeting {
 }
 
 /// The faces of two polyhedra that look at each other over less than `range` (m).
-pub(super) fn meeting(first: &Placed, second: &Placed, range: f64) -> Option<Meeting> {
+pub(super) fn face_pair(first: &Placed, second: &Placed, range: f64) -> Option<FacePair> {
     // The face from which the other part is farthest parts the two; none is farther than they are apart.
     let of_first = beyond(first, second, range)?;
     let of_second = beyond(second, first, range)?;
@@ -161,7 +161,7 @@ pub(super) fn meeting(first: &Placed, second: &Placed, range: f64) -> Option<Mee
     let out = own.faces[f].normal;
     let cosine = |k: &usize| other.faces[*k].normal.dot(out);
     let g = (0..other.faces.len()).min_by(|a, b| cosine(a).total_cmp(&cosine(b)))?;
-    let flatness = ramp(-cosine(&g), FLAT);
+    let flatness = ramp(-cosine(&g), FLAT_FACES);
     if flatness == 0.0 {
         return None;
     }
@@ -193,7 +193,7 @@ pub(super) fn meeting(first: &Placed, second: &Placed, range: f64) -> Option<Mee
         );
     }
     polygon.clip(t1, range - t0);
-    Some(Meeting {
+    Some(FacePair {
         flipped,
         out,
         opposite: opposite.normal,
@@ -208,10 +208,10 @@ pub(super) fn meeting(first: &Placed, second: &Placed, range: f64) -> Option<Mee
 }
 
 /// The gap between the faces of two polyhedra that look at each other.
-fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
-    let meeting = meeting(first, second, range)?;
-    let seconds = meeting.polygon.second_moments()?;
-    let gap = (meeting.gap + meeting.slope.dot(seconds.centre)).max(0.0);
+fn faces(first: &Placed, second: &Placed, range: f64) -> Option<ThinGap> {
+    let face_pair = face_pair(first, second, range)?;
+    let seconds = face_pair.polygon.second_moments()?;
+    let gap = (face_pair.gap + face_pair.slope.dot(seconds.centre)).max(0.0);
     let area = seconds.area;
     let [large, least] = seconds.principal;
     // The ellipse of the same area and ratio of axes; the sides of a strip of rounding make none.
@@ -224,17 +224,17 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<Squeeze> {
     let tilt = |long: f64, short: f64| {
         PI * long.powi(2) * (long * short).sqrt() * short / (6.0 * short + 2.0 * long)
     };
-    let along = meeting.x * seconds.axis.x + meeting.y * seconds.axis.y;
-    Some(Squeeze {
-        normal: meeting.normal(),
-        point: meeting.lift(seconds.centre) + meeting.out * (0.5 * gap),
+    let along = face_pair.x * seconds.axis.x + face_pair.y * seconds.axis.y;
+    Some(ThinGap {
+        normal: face_pair.normal(),
+        point: face_pair.lift(seconds.centre) + face_pair.out * (0.5 * gap),
         gap,
-        shape: Facing::Flat {
+        shape: GapShape::Flat {
             // St. Venant's A⁴/(4π² I_p), exact for ellipses, 8 % too much for a square, 9 % too little for a strip.
             torsion: area.powi(4) / (4.0 * PI * PI * (large + least)),
-            axes: [meeting.out.cross(along), along],
+            axes: [face_pair.out.cross(along), along],
             tilts: [tilt(a2, b2), tilt(b2, a2)],
-            flatness: meeting.flatness,
+            flatness: face_pair.flatness,
         },
     })
 }
@@ -282,7 +282,7 @@ mod tests {
     fn two_cubes_face_each_other_where_they_overlap_in_plan() {
         let below = cuboid(DVec3::new(4.0, 2.0, 1.0), DVec3::ZERO, DQuat::IDENTITY);
         let above = cuboid(DVec3::ONE * 2.0, DVec3::new(1.5, 0.0, 1.6), DQuat::IDENTITY);
-        let found = Squeeze::between(&below, &above, 0.2).unwrap();
+        let found = ThinGap::between(&below, &above, 0.2).unwrap();
         // x from 0.5 to 2, y from −1 to 1, z from 0.5 to 0.6.
         assert!((found.normal - DVec3::Z).length() < 1e-12, "{found:?}");
         assert!(
@@ -290,7 +290,7 @@ mod tests {
             "{found:?}"
         );
         assert!((found.gap - 0.1).abs() < 1e-12);
-        let Facing::Flat {
+        let GapShape::Flat {
             torsion,
             axes,
             tilts,
@@ -307,10 +307,10 @@ mod tests {
             axes[0].x.abs() > 1.0 - 1e-12 && tilts[0] > tilts[1],
             "{axes:?} {tilts:?}"
         );
-        let swapped = Squeeze::between(&above, &below, 0.2).unwrap();
+        let swapped = ThinGap::between(&above, &below, 0.2).unwrap();
         assert!((swapped.normal + DVec3::Z).length() < 1e-12);
         assert!((swapped.point - found.point).length() < 1e-12);
-        assert!(Squeeze::between(&below, &above, 0.09).is_none());
+        assert!(ThinGap::between(&below, &above, 0.09).is_none());
     }
 
     #[test]
@@ -325,11 +325,11 @@ mod tests {
                     .max((turn * DVec3::new(-1.0, 1.0, 1.0)).z.abs());
             cuboid(DVec3::ONE, DVec3::Z * (lowest + 0.01), turn)
         };
-        let parallel = Squeeze::between(&floor, &tilted(0.0), 0.05).unwrap();
-        let wedge = Squeeze::between(&floor, &tilted(4.0), 0.05).unwrap();
+        let parallel = ThinGap::between(&floor, &tilted(0.0), 0.05).unwrap();
+        let wedge = ThinGap::between(&floor, &tilted(4.0), 0.05).unwrap();
         let (
-            Facing::Flat { torsion: whole, .. },
-            Facing::Flat {
+            GapShape::Flat { torsion: whole, .. },
+            GapShape::Flat {
                 torsion, flatness, ..
             },
         ) = (parallel.shape, wedge.shape)
@@ -345,7 +345,7 @@ mod tests {
         );
         assert!(torsion < whole && flatness == 1.0);
         assert!((wedge.gap - 0.03).abs() < 1e-3);
-        assert!(Squeeze::between(&floor, &tilted(30.0), 0.05).is_none());
+        assert!(ThinGap::between(&floor, &tilted(30.0), 0.05).is_none());
     }
 
     #[test]
@@ -367,8 +367,8 @@ mod tests {
                 &Pose::rigid(DVec3::Z * z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO),
             )
         };
-        let found = Squeeze::between(&at(0.0), &at(0.25), 0.1).unwrap();
-        let Facing::Flat { torsion, tilts, .. } = found.shape else {
+        let found = ThinGap::between(&at(0.0), &at(0.25), 0.1).unwrap();
+        let GapShape::Flat { torsion, tilts, .. } = found.shape else {
             panic!("{found:?}");
         };
         assert!((torsion / (0.5 * PI) - 1.0).abs() < 0.01, "{torsion}");
@@ -378,14 +378,14 @@ mod tests {
     #[test]
     fn balls_and_faces() {
         let found =
-            Squeeze::between(&ball(1.0, DVec3::ZERO), &ball(3.0, DVec3::X * 4.1), 0.2).unwrap();
+            ThinGap::between(&ball(1.0, DVec3::ZERO), &ball(3.0, DVec3::X * 4.1), 0.2).unwrap();
         assert!((found.gap - 0.1).abs() < 1e-12 && found.normal == DVec3::X);
-        assert_eq!(found.shape, Facing::Round { radius: 0.75 });
+        assert_eq!(found.shape, GapShape::Round { radius: 0.75 });
         let cube = cuboid(DVec3::ONE * 2.0, DVec3::ZERO, DQuat::IDENTITY);
-        let found = Squeeze::between(&ball(1.0, DVec3::Z * 2.1), &cube, 0.2).unwrap();
+        let found = ThinGap::between(&ball(1.0, DVec3::Z * 2.1), &cube, 0.2).unwrap();
         assert!((found.normal + DVec3::Z).length() < 1e-12);
         assert!((found.point - DVec3::Z * 1.05).length() < 1e-12);
-        let beside = DVec3::new(1.0, 0.0, 1.0) + DVec3::new(1.0, 0.0, 1.0).normalize() * 1.05;
-        assert!(Squeeze::between(&ball(1.0, beside), &cube, 0.2).is_none());
+        let diagonal = DVec3::new(1.0, 0.0, 1.0) + DVec3::new(1.0, 0.0, 1.0).normalize() * 1.05;
+        assert!(ThinGap::between(&ball(1.0, diagonal), &cube, 0.2).is_none());
     }
 }

@@ -1,6 +1,6 @@
 //! The longest stable step, from what the blocks look like, from what they touch, and from their elasticity.
 
-use super::{Body, deforming::DeformingBlocks, narrow::Joints, sums::Sum};
+use super::{Body, contact_list::ContactSum, deforming::DeformingBlocks, narrowphase::Joints};
 use crate::{
     geometry::{Form, Polyhedron},
     rock::law::{Joint, Stiffness},
@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 
 /// Share of its surface over which a block is held, before its contacts are known. With all of it the
 /// step would be √2 too long, which the room between the usual and the largest step covers.
-const HELD: f64 = 0.5;
+const HELD_SHARE: f64 = 0.5;
 
 /// ω² of the stiffest block and which it is, from the faces of the shapes.
 pub(super) fn of_shapes(
@@ -30,7 +30,7 @@ pub(super) fn of_shapes(
                     let turned = deforming.of(body).map(|(_, strain)| strain.deformation);
                     let arm = turned.unwrap_or(DMat3::IDENTITY) * (part.offset + centre);
                     let (arm, width) = deforming.lever(body, arm, width);
-                    sum.add(joint, HELD * area, arm, width);
+                    sum.add(joint, HELD_SHARE * area, arm, width);
                 }),
                 // Six balls around it at an overlap of a tenth of the radius, where it would be refused:
                 // sections of π r²/10 each.
@@ -46,8 +46,16 @@ pub(super) fn of_shapes(
 }
 
 /// ω² of the stiffest block and which it is, from the contacts and the present deformations.
-pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]) -> (f64, usize) {
-    stiffest(bodies, deforming, sums.iter().map(|sum| sum.stiffness))
+pub(super) fn of_sums(
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    contact_sums: &[ContactSum],
+) -> (f64, usize) {
+    stiffest(
+        bodies,
+        deforming,
+        contact_sums.iter().map(|sum| sum.stiffness),
+    )
 }
 
 /// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for; the
@@ -55,9 +63,9 @@ pub(super) fn of_sums(bodies: &[Body], deforming: &DeformingBlocks, sums: &[Sum]
 fn stiffest(
     bodies: &[Body],
     deforming: &DeformingBlocks,
-    sums: impl Iterator<Item = Stiffness>,
+    contact_sums: impl Iterator<Item = Stiffness>,
 ) -> (f64, usize) {
-    let free = bodies.iter().zip(sums).enumerate();
+    let free = bodies.iter().zip(contact_sums).enumerate();
     free.filter(|(_, (body, _))| body.is_free())
         .map(|(i, (body, sum))| {
             let Some((one, strain)) = deforming.of(body) else {

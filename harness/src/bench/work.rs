@@ -5,10 +5,12 @@
 //! a kernel has none of both but early exits, as the fluid's plain ones have not. Drivers may do with less, since they
 //! compute what occurs twice once.
 
-use crate::{Error, Result, gpu::link::Linked};
-use naga::{
-    AddressSpace, BinaryOperator, Block, Expression, Handle, MathFunction, Module, ScalarKind,
-    Statement, TypeInner, valid::FunctionInfo,
+use riprap::{
+    gpu::link::Linked,
+    wgpu::naga::{
+        self, AddressSpace, BinaryOperator, Block, Expression, Handle, MathFunction, Module,
+        ScalarKind, Statement, TypeInner, valid::FunctionInfo,
+    },
 };
 
 /// Operations and bytes of an invocation.
@@ -26,21 +28,13 @@ pub struct Work {
 }
 
 impl Work {
-    /// Of `entry` of a linked program.
-    ///
-    /// # Errors
-    /// [`Error::Shader`] if there is no such entry point.
-    pub fn of(linked: &Linked, entry: &str) -> Result<Self> {
+    /// Of `entry` of a linked program; nothing if it has no such entry point.
+    pub fn of(linked: &Linked, entry: &str) -> Self {
         let module = &linked.module;
         let entries = module.entry_points.iter().enumerate();
-        let (index, found) = entries
-            .clone()
-            .find(|(_, found)| found.name == entry)
-            .ok_or_else(|| Error::Shader {
-                file: linked.file.clone(),
-                line: 0,
-                message: format!("no entry point is called {entry}"),
-            })?;
+        let Some((index, found)) = entries.clone().find(|(_, found)| found.name == entry) else {
+            return Self::default();
+        };
         // A function stands after those that it calls.
         let mut called: Vec<Self> = Vec::new();
         for (handle, function) in module.functions.iter() {
@@ -60,7 +54,7 @@ impl Work {
             expressions: &found.function.expressions,
             called: &called,
         };
-        Ok(counter.block(&found.function.body))
+        counter.block(&found.function.body)
     }
 
     /// Bytes read and written.
@@ -229,7 +223,10 @@ impl Counter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::link::Program;
+    use riprap::{
+        gpu::link::Program,
+        lattice::{Collision, Force, Reach, Setup, Storage, bytes_a_cell, collide_stream},
+    };
 
     fn work(body: &str) -> Work {
         let text = format!(
@@ -241,7 +238,7 @@ mod tests {
              let k = at.x;\n{body}\n}}\n"
         );
         let linked = Program::new("it").text("it", text).link().unwrap();
-        Work::of(&linked, "it").unwrap()
+        Work::of(&linked, "it")
     }
 
     fn counted(flops: u64, read: u64, written: u64, loops: u64) -> Work {
@@ -281,11 +278,80 @@ mod tests {
         assert_eq!(found, counted(1, 4, 4, 0));
     }
 
+    /// Storage, cells of an invocation, and whether words are of 64 bits.
+    const LAYOUTS: [(Storage, u32, bool); 6] = [
+        (Storage::F32, 1, false),
+        (Storage::F32, 4, false),
+        (Storage::F32, 4, true),
+        (Storage::F16, 2, false),
+        (Storage::F16, 4, false),
+        (Storage::F16, 4, true),
+    ];
+
+    fn step(setup: &Setup) -> Work {
+        let linked = collide_stream(setup, 1, Reach::All).link().unwrap();
+        Work::of(&linked, "collide_stream")
+    }
+
+    fn setup((storage, lanes, wide): (Storage, u32, bool)) -> Setup {
+        let mut setup = Setup::periodic([8; 3], 0.1);
+        (setup.storage, setup.lanes, setup.wide) = (storage, lanes, wide);
+        setup.max_speed = 0.0;
+        setup
+    }
+
     #[test]
-    fn what_is_not_there_is_refused() {
-        let text = "@compute @workgroup_size(1) fn it() {}";
-        let linked = Program::new("it").text("it", text).link().unwrap();
-        assert!(Work::of(&linked, "other").is_err());
-        assert_eq!(Work::of(&linked, "it").unwrap(), Work::default());
+    fn the_plain_step_moves_its_populations_and_nothing_else() {
+        for layout in LAYOUTS {
+            let setup = setup(layout);
+            let found = step(&setup);
+            let cells = u64::from(setup.lanes);
+            assert_eq!(found.loops, 0, "{layout:?}");
+            assert_eq!(found.read, found.written, "{layout:?}");
+            assert_eq!(found.bytes(), cells * bytes_a_cell(&setup), "{layout:?}");
+        }
+    }
+
+    /// The arithmetic of a cell is the same in every lane.
+    #[test]
+    fn a_cell_takes_as_many_operations_in_any_number_of_lanes() {
+        for collision in [Collision::Bgk, Collision::Hermite, Collision::Suga] {
+            let flops = |lanes| {
+                let mut setup = setup((Storage::F32, lanes, false));
+                setup.collision = collision;
+                step(&setup).flops as f64 / f64::from(lanes)
+            };
+            // What does not depend on the cell is computed once an invocation.
+            let (one, four) = (flops(1), flops(4));
+            assert!(
+                (one - four).abs() < 0.02 * one,
+                "{collision:?}: {one}, {four}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_a_setup_adds_costs_operations_or_bytes() {
+        let plain = setup((Storage::F32, 1, false));
+        let more = |change: fn(&mut Setup)| {
+            let mut setup = plain.clone();
+            change(&mut setup);
+            let [with, without] = [&setup, &plain].map(|setup| step(setup));
+            let flops = with.flops as i64 - without.flops as i64;
+            [flops, with.bytes() as i64 - without.bytes() as i64]
+        };
+        let [flops, bytes] = more(|s| s.force = Force::Constant([1e-6, 0.0, 0.0]));
+        assert!(flops > 0 && bytes == 0, "{flops} {bytes}");
+        let [flops, bytes] = more(|s| s.force = Force::Field(vec![[0.0; 3]; 512]));
+        // As often as the code asks for it.
+        assert!(
+            flops > 0 && bytes >= 12 && bytes % 12 == 0,
+            "{flops} {bytes}"
+        );
+        // Its own velocity out, and those of six neighbours in, of which each is counted.
+        let [flops, bytes] = more(|s| s.wale = Some(0.5));
+        assert!(flops > 20 && bytes >= 24, "{flops} {bytes}");
+        let [flops, bytes] = more(|s| s.collision = Collision::Bgk);
+        assert!(flops < 0 && bytes == 0, "{flops} {bytes}");
     }
 }

@@ -29,7 +29,7 @@ impl State {
     }
 
     /// Falls asleep at the end of a step of `dt` (s), if it has been slow for long enough.
-    pub fn drowse(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
+    pub fn update_sleep(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
         if self.asleep {
             return;
         }

@@ -6,15 +6,9 @@
 //! each, and the exponent p of cost ∝ Nᵖ. 0.04 of it (1:100: 0.06) is no cost of the search: at
 //! the surface of a scene there are fewer pairs, and small scenes have more surface.
 
-#[allow(dead_code)] // Each bench uses its part.
-mod kit;
-#[allow(dead_code)] // The tests use more of it.
-#[path = "../tests/broadphase/scenes.rs"]
-mod scenes;
-
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
-use kit::gpu;
+use kit::{broadphase::scattered, gpu};
 use riprap::{
     Error,
     rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase},
@@ -88,7 +82,7 @@ fn main() -> Result<(), Error> {
 /// Scenes to take in turn: branch predictors learn a short one by heart.
 fn different(count: u32, ratio: f64) -> Vec<Vec<Aabb>> {
     let seeds = 0..(30_000 / count).max(1);
-    let scenes = seeds.map(|seed| scenes::scattered(count, ratio, seed.into()));
+    let scenes = seeds.map(|seed| scattered(count, ratio, seed.into()));
     scenes.collect()
 }
 

@@ -5,7 +5,6 @@ use crate::geometry::{Load, Pose, skew};
 use crate::psm::spin;
 use crate::rock::integrate::Principal;
 use glam::{DMat3, DVec3};
-use serde::{Deserialize, Serialize};
 
 /// Upper bounds of the added mass and the added inertia of a block, as ratios to the mass and the inertia of the fluid
 /// that it displaces.
@@ -72,7 +71,8 @@ pub struct MassProperties {
 /// previous acceleration (Schwarz, Kempe & Fröhlich 2015, J. Comput. Phys. 281:591):
 /// (m + m_v) a = F + m_f dv/dt + m g + m_v a_before. That is stable for m_a < m + 2 m_v, which determines m_v, and
 /// has no effect on a steady acceleration. Contact forces are not part of a; they act on the rock alone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct InteriorInertia {
     /// Velocity and spin at the last exchange, m/s and rad/s; `None` before the first one.
     velocity: Option<[DVec3; 2]>,

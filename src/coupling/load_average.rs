@@ -1,7 +1,6 @@
 //! The average of the loads between two exchanges.
 
 use crate::geometry::Load;
-use serde::{Deserialize, Serialize};
 
 /// Mean of the loads since the last exchange. It conserves momentum: the blocks receive the impulse that the fluid loses
 /// in these steps.
@@ -9,7 +8,8 @@ use serde::{Deserialize, Serialize};
 /// Full cells may reflect their populations in each step, so that loads oscillate with a period of two
 /// steps. The mean of each load and the previous one removes the oscillation (Owen, Leonardi & Feng 2011); over many
 /// steps it is the trapezoidal rule.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoadAverage {
     /// The last loads, with their step.
     pub(super) last: Option<(u64, Vec<Load>)>,

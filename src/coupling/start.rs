@@ -6,7 +6,10 @@ use crate::{
         Blocks,
         broadphase::{AutoBroadphase, Broadphase},
     },
-    scene::{Scene, Search, build::BlockSetup},
+    scene::{
+        Scene, Search,
+        build::{BlockSetup, rock_key},
+    },
 };
 
 /// Sweeps over all pairs in which blocks that overlap are pushed apart; each sweep settles a layer of
@@ -48,7 +51,7 @@ pub(super) async fn begin(
     setup: &BlockSetup,
     broadphase: &mut impl Broadphase,
 ) -> Result<Blocks> {
-    let mut blocks = Blocks::new(setup.setup.clone())?;
+    let mut blocks = Blocks::new(setup.setup.clone()).map_err(|error| error.at_key(rock_key))?;
     if scene.rock.relax {
         blocks.relax(broadphase, SWEEPS).await?;
     }

@@ -2,10 +2,10 @@
 
 use super::{FluidLoad, InteriorInertia, LatticeCoupling, LoadAverage, Rock};
 use crate::{Error, Result, geometry::Pose, rock::Snapshot};
-use serde::{Deserialize, Serialize};
 
 /// The state of the blocks of a scene, without their fluid: everything on which their next steps depend.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct RockState {
     /// The blocks.
     pub snapshot: Snapshot,
@@ -18,7 +18,8 @@ pub struct RockState {
 }
 
 /// The state of the coupling of blocks to a lattice.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct CouplingState {
     load_average: LoadAverage,
     /// Pose of the last tile search of each block in the fluid: the tiles determine the order of summation, and so the
@@ -40,7 +41,7 @@ impl Rock {
     /// Restores a state of the same blocks: the next steps yield the same bits.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it is of other blocks.
+    /// [`Error::Argument`] if it is of other blocks.
     pub fn restore(&mut self, state: &RockState) -> Result<()> {
         let own = [self.interior.len(), self.cell_load.len()];
         if [state.interior.len(), state.cell_load.len()] != own {
@@ -49,11 +50,11 @@ impl Rock {
                 state.cell_load.len(),
                 self.cell_load.len()
             );
-            return Err(Error::scene("restart", message));
+            return Err(Error::argument("restart", message));
         }
         self.blocks
             .restore(&state.snapshot)
-            .map_err(|error| Error::scene("restart", error.to_string()))?;
+            .map_err(|error| Error::argument("restart", error.to_string()))?;
         self.interior.clone_from(&state.interior);
         self.cell_load.clone_from(&state.cell_load);
         self.work_on_fluid = state.work_on_fluid;
@@ -78,7 +79,7 @@ impl LatticeCoupling {
     /// Checks that a state is of as many blocks in the fluid.
     ///
     /// # Errors
-    /// [`Error::Scene`] if not.
+    /// [`Error::Argument`] if not.
     pub fn check(&self, state: &CouplingState) -> Result<()> {
         let known = |loads: usize| loads == 0 || loads == self.in_fluid;
         let last = state.load_average.last.as_ref();
@@ -93,7 +94,7 @@ impl LatticeCoupling {
             state.tiled.len(),
             self.in_fluid
         );
-        Err(Error::scene("restart", message))
+        Err(Error::argument("restart", message))
     }
 
     /// Restores a state of the same blocks, which [`LatticeCoupling::check`] accepts.

@@ -1,21 +1,18 @@
 //! Velocities in cells with solid, from one run to the next.
 
 use super::{Grid, Lattice, Observer, fluid::storage, observe::VELOCITY_OUT};
-use crate::{
-    Error, Result,
-    gpu::{kernel::Kernel, plain_bytes},
-};
-use serde::{Deserialize, Serialize};
+use crate::{Error, Result, gpu::kernel::Kernel};
 use std::sync::Arc;
 
 /// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inside {
     /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
-    #[serde(with = "plain_bytes")]
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub cells: Vec<u32>,
     /// Their velocities, component by component, lattice units.
-    #[serde(with = "plain_bytes")]
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
 }
 
@@ -30,7 +27,7 @@ impl Inside {
         match outside || self.velocity.len() != 3 * self.cells.len() {
             true => {
                 let message = "the saved velocities in cells with solid are of another grid";
-                Err(Error::scene("restart", message))
+                Err(Error::argument("restart", message))
             }
             false => Ok(()),
         }
@@ -96,7 +93,7 @@ impl Observer {
     /// Shows these velocities in their cells until the lattice, which has just been given the populations of their step, goes on.
     ///
     /// # Errors
-    /// [`Error::Scene`] if they are of another grid.
+    /// [`Error::Argument`] if they are of another grid.
     pub fn keep_inside(
         &mut self,
         device: &wgpu::Device,

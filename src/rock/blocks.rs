@@ -101,7 +101,7 @@ impl Blocks {
     /// Blocks at t = 0.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming a block without mass, a pose that is not finite, a material that does not
+    /// [`Error::Argument`] naming a block without mass, a pose that is not finite, a material that does not
     /// exist or cannot be.
     pub fn new(setup: Setup) -> Result<Self> {
         Self::with_options(setup, Options::default())
@@ -317,16 +317,16 @@ impl Blocks {
     /// External loads of all blocks, which act until they are set anew.
     ///
     /// # Errors
-    /// [`Error::Scene`] if there is not one for each block, or one is not finite.
+    /// [`Error::Argument`] if there is not one for each block, or one is not finite.
     pub fn load(&mut self, loads: &[Load]) -> Result<()> {
         if loads.len() != self.len() {
             let message = format!("{} loads for {} blocks", loads.len(), self.len());
-            return Err(Error::scene("loads", message));
+            return Err(Error::argument("loads", message));
         }
         let finite = |load: &Load| load.force.is_finite() && load.moment.is_finite();
         if let Some(i) = loads.iter().position(|load| !finite(load)) {
             let message = format!("the load {:?} is not finite", loads[i].force);
-            return Err(Error::scene(self.label(i), message));
+            return Err(Error::argument(self.label(i), message));
         }
         for (state, load) in self.states.iter_mut().zip(loads) {
             state.load = load.force;
@@ -350,7 +350,7 @@ impl Blocks {
     /// `broadphase` when they are wanted.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and of the finder, and [`Error::Scene`] if that time is not finite.
+    /// Those of [`Blocks::step`], and of the broadphase, and [`Error::Argument`] if that time is not finite.
     pub async fn advance(&mut self, broadphase: &mut impl Broadphase, until: f64) -> Result<()> {
         is_time(until)?;
         while self.time < until {
@@ -366,7 +366,7 @@ impl Blocks {
     /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
     ///
     /// # Errors
-    /// [`Error::Scene`] if that time is not finite.
+    /// [`Error::Argument`] if that time is not finite.
     pub fn wait(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         self.time = self.time.max(until);

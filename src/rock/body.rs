@@ -13,7 +13,6 @@ use crate::{
     rock::integrate::{self, Principal},
 };
 use glam::{DMat3, DQuat, DVec3};
-use serde::{Deserialize, Serialize};
 use std::{ops::Range, sync::Arc};
 
 /// Constants of a block.
@@ -122,7 +121,8 @@ impl Body {
 }
 
 /// State of a block between two steps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct State {
     /// m.
     pub centre: DVec3,

@@ -16,10 +16,10 @@ use crate::{
 };
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// A candidate pair.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct CandidatePair {
     /// First and second part, in ascending order.
     pub parts: [u32; 2],
@@ -50,7 +50,8 @@ impl CandidatePair {
 }
 
 /// Pose of a block when the list was made, and how far it may move from there.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SkinReference {
     pub centre: DVec3,
     pub rotation: DQuat,
@@ -160,14 +161,14 @@ pub(super) fn checked(
     let aabbs = images.map_or(block.len(), <[Image]>::len);
     let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < aabbs;
     if let Some(pair) = pairs.iter().find(|pair| !known(pair)) {
-        return Err(Error::scene(
+        return Err(Error::argument(
             "pairs",
             format!("{pair:?} must be two of the {aabbs} boxes in ascending order"),
         ));
     }
     if !pairs.is_sorted_by(|a, b| a < b) {
         let message = "the broadphase must return the pairs sorted, each once";
-        return Err(Error::scene("pairs", message));
+        return Err(Error::argument("pairs", message));
     }
     let matters = |pair: &PartPair| {
         let [a, b] = pair.parts.map(|part| block[part as usize]);
@@ -299,7 +300,7 @@ impl Blocks {
     /// The pairs of [`Blocks::aabbs`] that may touch. Caches and contacts of the pairs stay.
     ///
     /// # Errors
-    /// [`Error::Scene`] if they are not sorted pairs of boxes.
+    /// [`Error::Argument`] if they are not sorted pairs of boxes.
     pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
         let block = &self.parts.block;
         let images = self

@@ -9,7 +9,6 @@ use crate::rock::{
     law::{Force, Stiffness},
 };
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 /// No contact.
 pub(super) const NO_CONTACT: u32 = u32::MAX;
@@ -19,7 +18,8 @@ pub(super) const NO_CONTACT: u32 = u32::MAX;
 pub(super) const DISTANCES_PER_LIMIT: f64 = 10.0;
 
 /// A contact, vectors along the world's axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Contact {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],

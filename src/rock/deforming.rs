@@ -14,7 +14,6 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// In place of a number of a deforming block: it is rigid.
 pub(super) const RIGID: u32 = u32::MAX;
@@ -31,7 +30,8 @@ pub(super) struct Deforming {
 }
 
 /// What changes of one, between two steps.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Strain {
     /// F.
     pub deformation: DMat3,

@@ -9,7 +9,6 @@ use super::{
 use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// Energies since the start, J.
 ///
@@ -63,7 +62,8 @@ impl EnergyLedger {
 const CHUNKS_PER_TASK: usize = 8;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct WorkSums {
     pub friction: f64,
     pub lost: f64,

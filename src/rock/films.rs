@@ -13,7 +13,6 @@ use super::{
 };
 use crate::rock::{contact::ThinGap, integrate, law};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 /// Residual, as a share of the first one, at which the impulses are known: far below the velocity to which a film
 /// of a thousandth of the step's own time slows a pair.
@@ -25,7 +24,8 @@ const ITERATIONS_PER_FILM: usize = 3;
 const NO_BODY: u32 = u32::MAX;
 
 /// One mode, closing or tilt, in which one gap resists.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Film {
     pub blocks: [u32; 2],
     /// Along which the second block moves away from the first; zero for a tilt.

@@ -180,7 +180,7 @@ impl Narrowphase<'_> {
             .resolve(first, second, &mut pair.cache)
             .map_err(|error| {
                 let [a, b] = blocks.map(|block| self.name(block));
-                Error::scene(format!("{a} and {b}"), error.to_string())
+                Error::argument(format!("{a} and {b}"), error.to_string())
             })?;
         if let (Some(film), Verdict::Apart | Verdict::Undecided) = (self.film, verdict)
             && blocks

@@ -78,7 +78,7 @@ impl Period {
     }
 
     /// # Errors
-    /// [`Error::Scene`] if an edge is not positive.
+    /// [`Error::Argument`] if an edge is not positive.
     pub(super) fn check(&self) -> Result<()> {
         if self.origin.is_finite() && self.size.min_element() > 0.0 {
             return Ok(());
@@ -87,13 +87,13 @@ impl Period {
             "a period of {} m from {} m: edges must be greater than 0, infinite where nothing repeats",
             self.size, self.origin
         );
-        Err(Error::scene("period", message))
+        Err(Error::argument("period", message))
     }
 
     /// Along which axes a body at the start fills more than the period. What is fixed then is the same in all of them.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it can move: it would overlap its own image.
+    /// [`Error::Argument`] if it can move: it would overlap its own image.
     pub(super) fn filled(
         &self,
         body: &Body,
@@ -109,7 +109,7 @@ impl Period {
                  it at most that long, or the domain longer, or fix it",
                 extent[axis]
             );
-            return Err(Error::scene(label, message));
+            return Err(Error::argument(label, message));
         }
         Ok(filled)
     }

@@ -10,12 +10,12 @@ use super::{
     films::Film,
 };
 use crate::{Error, Result};
-use serde::{Deserialize, Serialize};
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
     time: f64,
     steps: u64,
@@ -80,7 +80,7 @@ impl Blocks {
     /// from there.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the state is not one of these blocks.
+    /// [`Error::Argument`] if the state is not one of these blocks.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
@@ -117,7 +117,7 @@ impl Blocks {
                 self.len(),
                 self.deforming.strains.len()
             );
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         }
         self.time = snapshot.time;
         self.steps = snapshot.steps;

@@ -20,7 +20,7 @@ pub(super) fn is_time(until: f64) -> Result<()> {
         return Ok(());
     }
     let message = format!("{until} s is no time to go to; give a finite one");
-    Err(Error::scene("until", message))
+    Err(Error::argument("until", message))
 }
 
 /// Length and end of one sub-step.
@@ -38,7 +38,7 @@ impl Blocks {
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
     /// the contacts, [`Error::DeepOverlap`] if two blocks are pressed into each other,
-    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Narrowphase`] if pairs are wanted first, or if a block moves by more
+    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Argument`] if pairs are wanted first, or if a block moves by more
     /// than half its width, so that it could pass through others unseen. After an error everything is as it was before
     /// the step.
     pub fn step(&mut self) -> Result<()> {
@@ -51,12 +51,12 @@ impl Blocks {
     /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and [`Error::Narrowphase`] if that time is past.
+    /// Those of [`Blocks::step`], and [`Error::Argument`] if that time is past.
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         if until < self.time {
             let message = format!("{until} s is past: the time is {} s", self.time);
-            return Err(Error::scene("until", message));
+            return Err(Error::argument("until", message));
         }
         self.step_by(self.substep_to(until))
     }
@@ -81,7 +81,7 @@ impl Blocks {
         if self.wants_pairs() {
             let message =
                 "a step wants pairs first: find those of aabbs() and give them to set_pairs";
-            return Err(Error::scene("pairs", message));
+            return Err(Error::argument("pairs", message));
         }
         self.step_known(substep)
     }
@@ -90,7 +90,7 @@ impl Blocks {
     pub(super) fn step_known(&mut self, Substep { dt, end }: Substep) -> Result<()> {
         if !dt.is_finite() {
             let message = "nothing limits the step, since no block is free; give time_step";
-            return Err(Error::scene("time_step", message));
+            return Err(Error::argument("time_step", message));
         }
         if !self.started {
             self.start()?;

@@ -43,7 +43,7 @@ impl Blocks {
             travel / dt,
             dt * LARGEST_TRAVEL * width / travel
         );
-        Err(Error::scene(self.label(block), message))
+        Err(Error::argument(self.label(block), message))
     }
 }
 

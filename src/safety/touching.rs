@@ -2,9 +2,9 @@
 
 use super::patch::patch;
 use crate::{
-    geometry::{Form, Part, Pose, Shape},
+    geometry::{Form, Part, Placed, Pose, Shape},
     psm::{area_of, corners},
-    rock::{Blocks, ContactPoint, Motion, Setup, contact::Placed},
+    rock::{Blocks, ContactPoint, Motion, Setup},
 };
 use glam::DVec3;
 

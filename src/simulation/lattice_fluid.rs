@@ -12,7 +12,7 @@ use crate::{
     lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
     scene::{
         Advice, Boundary, Face, SUGA_EXCESS, Scene,
-        build::{block_setup, face_velocity},
+        build::{block_setup, face_velocity, lattice_key},
     },
     units::Units,
 };
@@ -52,7 +52,8 @@ impl LatticeFluid {
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = async {
-            let mut lattice = Lattice::new(device, setup)?;
+            let mut lattice =
+                Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
             let observer = Observer::new(device, &lattice)?;
             let mut advice = Advice::new();
             let mut blocks = None;
@@ -66,7 +67,9 @@ impl LatticeFluid {
                 coupled.set_interior_velocity(&scene.domain, &mut start);
                 blocks = Some((rock, coupling));
             }
-            lattice.start(device, queue, &start, true)?;
+            lattice
+                .start(device, queue, &start, true)
+                .map_err(|error| error.at_key(lattice_key))?;
             Ok((lattice, observer, blocks, advice))
         };
         let made = made.await;
@@ -264,7 +267,8 @@ impl LatticeFluid {
         for (face, velocity) in self.changed_faces()? {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
             self.lattice
-                .set_face_velocity(&self.queue, axis, side, velocity)?;
+                .set_face_velocity(&self.queue, axis, side, velocity)
+                .map_err(|error| error.at_key(lattice_key))?;
         }
         Ok(())
     }

@@ -8,9 +8,9 @@ mod face_surface;
 mod fields;
 mod lattice_fluid;
 mod needs;
+mod point_cloud;
 pub mod probe;
 mod rock_step;
-mod scene_step;
 mod sensors;
 mod sph_fluid;
 mod wall_units;
@@ -21,7 +21,7 @@ pub use checkpoint::Kind;
 pub use face_surface::face_surface;
 pub use fields::Totals;
 pub use needs::{LatticeNeeds, Needs};
-pub(crate) use scene_step::scene_step;
+pub use point_cloud::point_cloud;
 pub use sensors::Reading;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
@@ -132,7 +132,7 @@ impl Simulation {
     ) -> Result<Self> {
         if Kind::of(scene) != Kind::Rock {
             let message = "the scene has a fluid, which needs a device; use Simulation::new";
-            return Err(Error::scene("fluid", message));
+            return Err(Error::argument("fluid", message));
         }
         let rock = Rock::new(device, scene, setup, None).await?;
         let time_step = rock_step(scene, rock.blocks())?;
@@ -413,11 +413,11 @@ impl Simulation {
 
 fn no_lattice() -> Error {
     let message = "the scene has no fluid on a lattice, whose cells alone have these fields; give it fluid.viscosity";
-    Error::scene("fluid", message)
+    Error::argument("fluid", message)
 }
 
 fn no_water() -> Error {
-    Error::scene(
+    Error::argument(
         "particles",
         "the scene has no free water; add [particles] and [[water]]",
     )

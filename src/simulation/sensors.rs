@@ -5,10 +5,10 @@ use crate::{
     sph::{Setup, Side},
 };
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 /// Measurement of a sensor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reading {
     /// Mean pressure on its patch over the last time step, Pa.
     pub pressure: f64,

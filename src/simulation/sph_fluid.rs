@@ -4,22 +4,22 @@ use super::{
     Reading, WaterLedger,
     checkpoint::{WaterState, other_scene},
     rock_step::check_substep_count,
-    scene_step::scene_step,
     sensors::Sensors,
 };
 use crate::{
     Error, Result,
     coupling::{
         CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange,
+        particle_advice,
     },
     error::told,
     geometry::{Load, Pose},
     rock::Motion,
     scene::{
         Advice, Scene,
-        build::{block_setup, particle_setup},
+        build::{block_setup, particle_key, particle_setup, scene_step},
     },
-    sph::{self, NeighbourSearch, SphSolver, Totals, Water},
+    sph::{NeighbourSearch, SphSolver, Totals, Water},
 };
 use glam::{DMat3, DVec3};
 
@@ -130,7 +130,7 @@ impl SphFluid {
         // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
         let [validity, memory] = [validity.pop(), memory.pop()];
         let refused = (validity.await, memory.await);
-        let particles = particles?;
+        let particles = particles.map_err(|error| error.at_key(particle_key))?;
         if let Some(error) = refused.1.or(refused.0) {
             return Err(Error::Device(format!(
                 "it does not hold {} particles ({}); use a larger spacing",
@@ -209,7 +209,7 @@ impl SphFluid {
     pub async fn advise(&mut self, scene: &Scene, rock: &Rock) -> Result<Advice> {
         let water = self.water().await?;
         let setup = self.particles.setup();
-        sph::advise(scene, rock.setup(), rock.blocks(), setup, &water.positions).await
+        particle_advice(scene, rock.setup(), rock.blocks(), setup, &water.positions).await
     }
 
     /// Energy ledger of `water`, the present state; `blocks` is the work of the blocks on it, J.
@@ -264,7 +264,7 @@ impl SphFluid {
         }
         let (its, own) = (state.sensors.len(), self.sensors.readings.len());
         if its != own {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has {its} pressure sensors and the scene {own}; restart with the scene that wrote it"

@@ -1,9 +1,9 @@
 //! A lattice with blocks beside its twin.
 
-use crate::{
-    rig::Rig,
+use kit::{
+    Rig,
+    twin::of_setup::{noise, poison, random_populations, twin_of},
     twin::{Solid, Twin, lattice::Q, lattice::W, tightness},
-    twin_of::{noise, poison, random_populations, twin_of},
 };
 use riprap::{
     gpu::readback::Readback,

@@ -1,6 +1,6 @@
 //! Space that repeats: blocks meet the images of others.
 
-use crate::rig::{blocks, cuboid, joint, setup};
+use crate::fixture::{blocks, cuboid, joint, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::Shape,

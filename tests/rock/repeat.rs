@@ -1,6 +1,6 @@
 //! The same bits, whatever the threads and wherever a run was cut; and nothing done for nothing.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::{Form, Part, Polyhedron, Shape},

@@ -92,7 +92,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let folder = folder(args);
     if args.steps == Some(0) {
         let message = "a run has at least one; `riprap check` looks at a scene without running it";
-        return Err(Error::scene("--steps 0", message).into());
+        return Err(Error::argument("--steps 0", message).into());
     }
     let last = args
         .steps
@@ -102,7 +102,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         run.restore(path)?;
         let done = run.step();
         if done >= last {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint is of step {done} and the run ends at step {last}; give \

@@ -98,7 +98,7 @@ pub fn settle(mut run: SceneRun, time: f64, path: &Path) -> Result<()> {
             "{time} s is no time to settle in; give at least a time step, {:e} s",
             run.time_step()
         );
-        return Err(Error::scene("--settle", message).into());
+        return Err(Error::argument("--settle", message).into());
     }
     let mut batch = Batch::new();
     while run.step() < steps as u64 {
@@ -121,8 +121,8 @@ pub fn run(mut run: SceneRun, asked: &Asked<'_>) -> Result<Option<Trial>> {
     let begun = Instant::now();
     if let Some(path) = &asked.settled {
         run.restore(path).map_err(|error| match error {
-            Error::Scene { place, message } => Error::Scene {
-                place,
+            Error::Argument { what, message } => Error::Argument {
+                what,
                 message: format!(
                     "{message}; or give numerics.time_step (with blocks alone rock.time_step), so that it \
                      does not depend on the value"
@@ -189,7 +189,7 @@ impl Watched {
             let names = blocks.iter().filter(|(_, block)| free(block));
             let names: Vec<_> = names.take(20).map(|(_, block)| &*block.name).collect();
             let message = format!("no free block is called so; there are {}", names.join(", "));
-            return Err(Error::scene("--block", message));
+            return Err(Error::argument("--block", message));
         }
         Ok(Self {
             blocks: watched,

@@ -34,7 +34,7 @@ impl Boxes {
     /// Makes the boxes of `aabbs`.
     ///
     /// # Errors
-    /// [`Error::Scene`] that names the item if a corner is not finite or farther than
+    /// [`Error::Argument`] that names the item if a corner is not finite or farther than
     /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
     /// 2²⁴ items.
     pub fn new(aabbs: &[Aabb]) -> Result<Self> {
@@ -118,7 +118,7 @@ fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
          time step"
     };
     let message = format!("its box reaches from {min} to {max} m along {axis}: {reason}");
-    Error::scene(format!("items[{number}]"), message)
+    Error::argument(format!("items[{number}]"), message)
 }
 
 /// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.

@@ -2,7 +2,6 @@
 
 use super::{Placed, thin_gap::face_pair};
 use glam::{DMat3, DVec2, DVec3};
-use serde::{Deserialize, Serialize};
 
 /// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
 const TOUCHING_GAP: f64 = 1e-9;
@@ -12,7 +11,8 @@ const SMALLEST_PATCH: f64 = 1e-6;
 
 /// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
 /// the axes of its block's frame, before it deforms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bond {
     /// m².
     pub area: f64,

@@ -118,5 +118,5 @@ fn solver(count: usize) -> Result<DefaultSolver<f64>, clarabel::solver::SolverEr
 }
 
 fn refused(error: impl std::fmt::Display) -> Error {
-    Error::scene("contact", format!("the linear program is refused: {error}"))
+    Error::argument("contact", format!("the linear program is refused: {error}"))
 }

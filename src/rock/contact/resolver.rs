@@ -172,7 +172,7 @@ fn check(block: &Placed, square: f64) -> Result<()> {
     if square.is_finite() && sizes.is_finite() && sizes > 0.0 {
         return Ok(());
     }
-    Err(Error::scene(
+    Err(Error::argument(
         "contact",
         format!(
             "a block of radius {} m at {} m is not finite; shorten the time step, or look for the force that threw it",

@@ -9,7 +9,10 @@
 //! momentum Ḟ S Fᵀ − F S Ḟᵀ up to rounding.
 
 use super::Principal;
-use crate::rock::law::{Elastic, inner, trace};
+use crate::{
+    geometry::{axial, inner},
+    rock::law::{Elastic, trace},
+};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Mass, elasticity and shape of an affine body: what stays of it.
@@ -156,15 +159,6 @@ fn stiffest(elastic: &Elastic, s: DVec3) -> f64 {
     let shears = DVec3::new(shear(0, 1), shear(1, 2), shear(2, 0));
     let modes = Principal::of(axial).moments;
     modes.max(shears).max_element()
-}
-
-/// Σ r × f of the moment Σ f ⊗ r.
-pub(crate) fn axial(m: DMat3) -> DVec3 {
-    DVec3::new(
-        m.y_axis.z - m.z_axis.y,
-        m.z_axis.x - m.x_axis.z,
-        m.x_axis.y - m.y_axis.x,
-    )
 }
 
 /// Most passes of [`polar`]: each doubles the digits, from a few passes on.

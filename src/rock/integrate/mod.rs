@@ -6,7 +6,7 @@ mod point_constraints;
 mod principal;
 mod rotation;
 
-pub(crate) use affine::axial;
+pub(crate) use crate::geometry::axial;
 pub use affine::{Affine, Wrench, polar};
 pub use damped::{first_kick, second_kick};
 pub use point_constraints::PointConstraints;

@@ -27,7 +27,7 @@ impl Film {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the number and its range.
+    /// [`Error::Argument`] naming the number and its range.
     pub fn check(&self) -> Result<()> {
         for (name, value, unit) in [
             ("viscosity", self.viscosity, "Pa s"),
@@ -37,7 +37,7 @@ impl Film {
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 let message = format!("{value} must be greater than 0 {unit}");
-                return Err(Error::scene(format!("film.{name}"), message));
+                return Err(Error::argument(format!("film.{name}"), message));
             }
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Contacts of a pile: with the caches of the step before, and every pair for the first time.
 
 use super::core::{Core, Cost};
-use crate::kit::pile::Pile;
+use kit::pile::Pile;
 use riprap::{
     Result,
     rock::{

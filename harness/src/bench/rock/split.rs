@@ -4,8 +4,8 @@ use super::{
     contact::Film,
     core::{Core, Cost},
 };
-use crate::kit::pile::Pile;
 use glam::{DQuat, DVec3};
+use kit::pile::Pile;
 use riprap::{
     Result,
     rock::{

@@ -7,7 +7,8 @@ use super::{
     row::{Basis, Done, Row, push},
     split::Split,
 };
-use crate::{bench::report::Machine, kit::pile::Pile};
+use crate::bench::report::Machine;
+use kit::pile::Pile;
 use riprap::Result;
 
 /// Contacts warm and cold and the step, for each number of blocks.

@@ -8,7 +8,7 @@ use super::super::{
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vtp},
-    sph::point_cloud,
+    simulation::point_cloud,
 };
 use std::path::{Path, PathBuf};
 

@@ -7,7 +7,7 @@ use riprap::{
     simulation::{FreeSurface, Simulation},
     wgpu,
 };
-use std::{path::Path, time::Duration};
+use std::time::Duration;
 
 /// 16 × 16 × 16 cells, with a block if `blocks` is one.
 fn flow(blocks: &str) -> Scene {
@@ -45,7 +45,7 @@ fn water() -> Scene {
 }
 
 fn scene(text: &str) -> Scene {
-    Scene::from_toml(text, Path::new(""), "scene.toml").unwrap()
+    kit::scene::read(text).unwrap()
 }
 
 /// A device whose buffers and bindings hold so many bytes.

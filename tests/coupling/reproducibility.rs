@@ -1,6 +1,6 @@
 //! The same bits twice, and from wherever a run was cut.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use riprap::{scene::Field, simulation::checkpoint::Checkpoint};
 
 /// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.

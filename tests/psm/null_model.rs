@@ -1,6 +1,6 @@
 //! What must change no bit.
 
-use crate::subject::Subject;
+use crate::fixture::Subject;
 use kit::{
     twin::lattice::W,
     twin::of_setup::{limit, noise, walled},

@@ -6,6 +6,7 @@ pub mod check;
 pub mod fingerprint;
 #[path = "../../benches/kit/mod.rs"]
 mod kit;
+pub mod migrate;
 pub mod picture;
 pub mod print;
 pub mod render;

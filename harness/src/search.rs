@@ -39,7 +39,7 @@ impl Finder {
     /// best one.
     fn new(scene: &Scene, parts: usize, adapter: Option<&str>) -> Result<Self> {
         let many = parts >= AutoBroadphase::GPU_CROSSOVER;
-        let adapter = match scene.rock.search {
+        let adapter = match scene.rock.broadphase {
             Search::Device => gpu::pick(adapter)?,
             Search::Auto if many => match gpu::pick(adapter) {
                 Ok(found) if !gpu::is_software(&found.get_info()) => found,

@@ -79,7 +79,7 @@ impl Rock {
             // Without free blocks no contact limits the step.
             setup.setup.time_step = Some(params.time_step);
         }
-        let mut finder = simulation::finder(device, queue, scene.rock.search);
+        let mut finder = simulation::finder(device, queue, scene.rock.broadphase);
         let blocks = simulation::begin(scene, &setup, &mut finder).await?;
         Ok(Self {
             interval: scene.coupling.interval.into(),

@@ -1,0 +1,170 @@
+//! Keys of scenes that have a new name: the table of them, and the rewriting of a scene that has old ones.
+
+use super::parse::position;
+use crate::{Error, Result};
+use std::{fmt, ops::Range};
+use toml::de::{DeTable, DeValue};
+
+/// A key that has a new name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenamedKey {
+    /// Tables around it from the outermost one, joined by dots; one name stands for all tables of an array. Empty for a
+    /// key of the scene itself.
+    pub table: &'static str,
+    /// The name that it had.
+    pub old: &'static str,
+    /// The name that it has.
+    pub new: &'static str,
+}
+
+/// All keys of scenes that have a new name.
+pub const RENAMED_KEYS: &[RenamedKey] = &[RenamedKey {
+    table: "rock",
+    old: "search",
+    new: "broadphase",
+}];
+
+/// An old key in the text of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Renaming {
+    /// The key.
+    pub key: RenamedKey,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// Bytes of the key in the text.
+    span: Range<usize>,
+}
+
+impl fmt::Display for Renaming {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RenamedKey { table, old, new } = self.key;
+        let dot = if table.is_empty() { "" } else { "." };
+        write!(f, "the key `{table}{dot}{old}` is now `{table}{dot}{new}`")
+    }
+}
+
+/// The old keys in the text of a scene, in its order.
+///
+/// # Errors
+/// [`Error::Scene`] if the text is not TOML, or if a table has both an old key and the new one.
+pub fn renamed_keys(text: &str) -> Result<Vec<Renaming>> {
+    let document = DeTable::parse(text).map_err(|error| {
+        let (line, column) = position(text, error.span().map_or(0, |span| span.start));
+        Error::scene(format!("{line}:{column}"), error.message().to_owned())
+    })?;
+    let mut found = Vec::new();
+    for key in RENAMED_KEYS {
+        let path: Vec<&str> = key
+            .table
+            .split('.')
+            .filter(|step| !step.is_empty())
+            .collect();
+        collect(text, document.get_ref(), &path, key, &mut found)?;
+    }
+    found.sort_by_key(|renaming| renaming.span.start);
+    Ok(found)
+}
+
+/// The text of a scene with the new names of its old keys, and the old keys. All else stays as it is, comments included.
+///
+/// ```
+/// let (text, renamed) = riprap::scene::migrate("[rock]\nsearch = \"host\"  # few blocks\n")?;
+/// assert_eq!(text, "[rock]\nbroadphase = \"host\"  # few blocks\n");
+/// assert_eq!((renamed.len(), renamed[0].line), (1, 2));
+/// # Ok::<(), riprap::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`renamed_keys`].
+pub fn migrate(text: &str) -> Result<(String, Vec<Renaming>)> {
+    let found = renamed_keys(text)?;
+    let mut migrated = text.to_owned();
+    for renaming in found.iter().rev() {
+        migrated.replace_range(renaming.span.clone(), renaming.key.new);
+    }
+    Ok((migrated, found))
+}
+
+/// Adds the places of `key` in the tables at `path` below `table`.
+fn collect(
+    text: &str,
+    table: &DeTable<'_>,
+    path: &[&str],
+    key: &RenamedKey,
+    found: &mut Vec<Renaming>,
+) -> Result<()> {
+    if let Some((first, rest)) = path.split_first() {
+        return match table.get(*first).map(|value| value.get_ref()) {
+            Some(DeValue::Table(inner)) => collect(text, inner, rest, key, found),
+            Some(DeValue::Array(all)) => all
+                .iter()
+                .filter_map(|value| value.get_ref().as_table())
+                .try_for_each(|inner| collect(text, inner, rest, key, found)),
+            _ => Ok(()),
+        };
+    }
+    let Some((name, _)) = table.get_key_value(key.old) else {
+        return Ok(());
+    };
+    let span = name.span();
+    let (line, column) = position(text, span.start);
+    if table.contains_key(key.new) {
+        let message = format!("its table has `{}` too; remove one of the two", key.new);
+        return Err(Error::scene(
+            format!("{line}:{column}: {}", key.old),
+            message,
+        ));
+    }
+    found.push(Renaming {
+        key: *key,
+        line,
+        column,
+        span,
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOTH_FORMS: [&str; 3] = [
+        "[rock]\n# where\nsearch = \"host\" # here\nskin = 0.1\n",
+        "rock = { skin = 0.1, search = \"host\" }\n",
+        "rock.search = \"host\"\n[run]\nsteps = 1\n",
+    ];
+
+    #[test]
+    fn only_the_key_changes() {
+        for text in BOTH_FORMS {
+            let (migrated, found) = migrate(text).unwrap();
+            assert_eq!(migrated, text.replace("search", "broadphase"));
+            assert_eq!(found.len(), 1);
+            assert!(renamed_keys(&migrated).unwrap().is_empty());
+        }
+    }
+
+    #[test]
+    fn the_same_name_elsewhere_stays() {
+        let text = "[output]\nsearch = 1\n[[blocks]]\nname = \"search\"\n";
+        assert_eq!(migrate(text).unwrap(), (text.to_owned(), Vec::new()));
+    }
+
+    #[test]
+    fn both_names_are_refused() {
+        let text = "[rock]\nsearch = \"host\"\nbroadphase = \"auto\"\n";
+        let message = migrate(text).unwrap_err().to_string();
+        assert!(message.contains("2:1: search"), "{message}");
+    }
+
+    /// An old name is no name of a key any more, and the new one is.
+    #[test]
+    fn the_table_fits_the_format() {
+        let schema = serde_json::to_string(&crate::scene::Scene::schema()).unwrap();
+        for key in RENAMED_KEYS {
+            assert!(schema.contains(&format!("\"{}\":", key.new)), "{key:?}");
+        }
+    }
+}

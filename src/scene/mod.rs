@@ -22,6 +22,7 @@ mod output;
 mod parse;
 mod particles;
 mod probes;
+mod renamed;
 mod rock;
 mod rock_masses;
 mod run;
@@ -53,6 +54,7 @@ pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperato
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use particles::{EquationOfState, Particles, Scheme};
 pub use probes::{Probe, ProbePlace};
+pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};
 pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::Run;

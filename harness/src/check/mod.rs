@@ -4,6 +4,7 @@ mod accuracy;
 mod blocks;
 mod coupling;
 mod dry;
+mod lines;
 mod report;
 mod text;
 mod trial;

@@ -42,7 +42,8 @@ fn initialise(
         h[12u] += factor * (g.y.z + g.z.y);
         from_moments(&h);
     }
+    let at = neighbourhood(cell);
     for (var q = 0u; q < 27u; q++) { // unroll
-        write_incoming(cell, q, h[T[q]]);
+        write_incoming(at, q, h[T[q]]);
     }
 }

@@ -21,9 +21,10 @@ fn macroscopic(
     var excess = 0.0;
     var u = vec3(0.0);
     if ((flags_of(cell) & 128u) == 0u) {
-        excess = read_incoming(cell, 0u);
+        let at = neighbourhood(cell);
+        excess = read_incoming(at, 0u);
         for (var q = 1u; q < 27u; q++) { // unroll
-            let f = read_incoming(cell, q);
+            let f = read_incoming(at, q);
             excess += f;
             u += f * vec3<f32>(C[q]);
         }

@@ -13,11 +13,11 @@ struct Inside {
     outward_speed: f32,
 }
 
-fn inside(cell: vec3<u32>) -> Inside {
-    var excess = read_incoming(cell, 0u);
+fn inside(at: Neighbourhood) -> Inside {
+    var excess = read_incoming(at, 0u);
     var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
-        let f = read_incoming(cell, q);
+        let f = read_incoming(at, q);
         excess += f;
         flux += f * dot(vec3<f32>(C[q]), open_face.normal);
     }
@@ -26,8 +26,8 @@ fn inside(cell: vec3<u32>) -> Inside {
 
 fn remember_cell(n: u32, inner_state: Inside) {
     let here = face_cells[n];
-    let cell = padded_cell(here.cell);
-    let inner = padded_cell(here.inner);
+    let cell = neighbourhood(padded_cell(here.cell));
+    let inner = neighbourhood(padded_cell(here.inner));
     let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
@@ -48,7 +48,7 @@ fn remember(
 ) {
     let n = cell_pass.first + invocation(group, groups, local);
     if (n < cell_pass.end) {
-        remember_cell(n, inside(padded_cell(face_cells[n].inner)));
+        remember_cell(n, inside(neighbourhood(padded_cell(face_cells[n].inner))));
     }
 }
 
@@ -63,8 +63,8 @@ fn flow_out(
         return;
     }
     let here = face_cells[n];
-    let cell = padded_cell(here.cell);
-    let difference = open_face.density - 1.0 - inside(padded_cell(here.inner)).excess;
+    let cell = neighbourhood(padded_cell(here.cell));
+    let difference = open_face.density - 1.0 - inside(neighbourhood(padded_cell(here.inner))).excess;
     let anchor = open_face.hold * difference + carried[27u * n];
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {

@@ -2,7 +2,7 @@
 // in each cell of the listed tiles that it can reach. A workgroup is a tile; its invocations share the cells. Cells at
 // edges, and on spheres, are few and dear: they are put on a list for voxelise_edges, in any order, since neighbours in a
 // workgroup would wait for them.
-// needs tables, brick, ball_quick, hull_quick
+// needs tables, brick, $ball_quick, $hull_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;

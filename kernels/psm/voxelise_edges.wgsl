@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction of one part in each cell that voxelise has left over.
-// needs workgroup, tables, brick, ball_share, hull_share
+// needs workgroup, tables, brick, $ball_share, $hull_share
 
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;

@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and the memory that they share.
 
-use super::{Plan, Tile, WHOLE, WRENCH, Walk, program};
+use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     gpu::{
@@ -117,8 +117,8 @@ pub(super) struct Kernels {
 }
 
 impl Kernels {
-    /// For parts of at most `faces` faces.
-    pub fn new(device: &wgpu::Device, lattice: &Lattice, faces: u32) -> Result<Self> {
+    /// For parts of these forms, of at most `faces` faces.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, forms: Forms, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
         // Barriers are slow where a CPU walks through the invocations of a workgroup.
         let walk = match device.adapter_info().device_type {
@@ -126,8 +126,8 @@ impl Kernels {
             _ => Walk::Parallel,
         };
         let programs = [
-            program::voxelise(grid, walk),
-            program::voxelise_edges(grid),
+            program::voxelise(grid, walk, forms),
+            program::voxelise_edges(grid, forms),
             program::saturate_cells(grid, walk),
             program::reduce_tiles(grid, walk),
             program::reduce_blocks(),

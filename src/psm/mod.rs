@@ -30,8 +30,8 @@ pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 pub use program::{
-    MOST_BINDINGS, MOST_FACES, WHOLE, Walk, constants, reduce_blocks, reduce_faces, reduce_tiles,
-    saturate_cells, sum_faces, voxelise, voxelise_edges,
+    Forms, MOST_BINDINGS, MOST_FACES, WHOLE, Walk, constants, reduce_blocks, reduce_faces,
+    reduce_tiles, saturate_cells, sum_faces, voxelise, voxelise_edges,
 };
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 pub use tables::{

@@ -23,6 +23,35 @@ pub enum Walk {
     Parallel,
 }
 
+/// Which forms the parts of blocks have: kernels have no code for the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Forms {
+    /// Spheres.
+    pub spheres: bool,
+    /// Convex polyhedra.
+    pub polyhedra: bool,
+}
+
+impl Forms {
+    /// Both.
+    pub const ALL: Self = Self {
+        spheres: true,
+        polyhedra: true,
+    };
+
+    /// The file of a slot for spheres, and that of one for polyhedra.
+    fn files(self, sphere: &'static str, polyhedron: &'static str) -> [&'static str; 2] {
+        [
+            if self.spheres { sphere } else { "ball_none" },
+            if self.polyhedra {
+                polyhedron
+            } else {
+                "hull_none"
+            },
+        ]
+    }
+}
+
 /// Invocations that a CPU adapter goes through as one vector.
 const VECTOR: u32 = 8;
 
@@ -38,14 +67,20 @@ impl Walk {
 
 /// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
 /// which the first word must be 0 before, and which has room for a word more than `shares`.
-pub fn voxelise(grid: &Grid, walk: Walk) -> Program {
+pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms) -> Program {
+    let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
+        .slot("ball_quick", ball)
+        .slot("hull_quick", hull)
 }
 
 /// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
 /// `parts`, `faces`, `shares`, `edges`.
-pub fn voxelise_edges(grid: &Grid) -> Program {
+pub fn voxelise_edges(grid: &Grid, forms: Forms) -> Program {
+    let [ball, hull] = forms.files("ball_share", "hull_share");
     base("voxelise_edges", grid)
+        .slot("ball_share", ball)
+        .slot("hull_share", hull)
 }
 
 /// `saturate_cells`: a workgroup a lane of a saturated brick, slot · lanes + lane, of `work`. Binds `work`, `tiles`,

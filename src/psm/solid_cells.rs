@@ -1,7 +1,7 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Frame, MOST_FACES, Motion, Part, Plan,
+    Forms, Frame, MOST_FACES, Motion, Part, Plan,
     face_sums::FaceSums,
     frame::FARTHEST,
     kernels::Kernels,
@@ -88,9 +88,12 @@ impl SolidCells {
         let blocks: Vec<_> = order.iter().map(|&block| blocks[block].clone()).collect();
         let (mut first_part, mut first_face) = (vec![0], vec![0]);
         let (mut faces, mut most) = (0, 0);
+        let mut forms = Forms::default();
         for block in &blocks {
             for part in block.shape.parts() {
+                forms.spheres |= matches!(part.form, Form::Sphere { .. });
                 if let Form::Convex(shape) = &part.form {
+                    forms.polyhedra = true;
                     let count = shape.faces().len() as u32;
                     if count > MOST_FACES {
                         return Err(Error::Limit {
@@ -118,7 +121,7 @@ impl SolidCells {
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
-            kernels: Kernels::new(device, lattice, most)?,
+            kernels: Kernels::new(device, lattice, forms, most)?,
             frame,
             number,
             first_part,

@@ -6,8 +6,8 @@ use riprap::{
     gpu::link::{Program, SOURCES},
     lattice::{Grid, Setup as Fluid, single_cells},
     psm::{
-        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
-        voxelise_edges,
+        Forms, Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces,
+        voxelise, voxelise_edges,
     },
     sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
 };
@@ -34,11 +34,24 @@ const MEASURE: [&str; 4] = [
     "multiply_add",
 ];
 
+const SPHERES: Forms = Forms {
+    spheres: true,
+    polyhedra: false,
+};
+const POLYHEDRA: Forms = Forms {
+    spheres: false,
+    polyhedra: true,
+};
+
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid, Walk::Serial)),
-        ("voxelise", voxelise(grid, Walk::Parallel)),
-        ("voxelise_edges", voxelise_edges(grid)),
+        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Parallel, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Serial, SPHERES)),
+        ("voxelise", voxelise(grid, Walk::Serial, POLYHEDRA)),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
+        ("voxelise_edges", voxelise_edges(grid, SPHERES)),
+        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
         ("saturate_cells", saturate_cells(grid, Walk::Serial)),
         ("saturate_cells", saturate_cells(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),

@@ -4,8 +4,8 @@ use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::Grid,
     psm::{
-        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
-        voxelise_edges,
+        Forms, Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces,
+        voxelise, voxelise_edges,
     },
 };
 
@@ -25,11 +25,11 @@ fn bindings_by_name() {
         brick: [4; 3],
     };
     assert_eq!(
-        names(&voxelise(&grid, Walk::Serial), "voxelise"),
+        names(&voxelise(&grid, Walk::Serial, Forms::ALL), "voxelise"),
         ["work", "tiles", "parts", "shares", "edges", "faces"]
     );
     assert_eq!(
-        names(&voxelise_edges(&grid), "voxelise_edges"),
+        names(&voxelise_edges(&grid, Forms::ALL), "voxelise_edges"),
         ["tiles", "parts", "shares", "edges", "faces"]
     );
     assert_eq!(

@@ -9,7 +9,7 @@ use crate::{
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::HalfSpace,
-    psm::{DEEP, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
+    psm::{DEEP, Forms, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
 };
 
 /// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
@@ -36,9 +36,9 @@ fn walked(bench: &Workbench, tiling: &Tiling, work: &[u32], walk: Walk) -> Vec<f
         ("edges", &edges),
     ];
     let numbers = constants(&tiling.grid);
-    let program = voxelise(&tiling.grid, walk);
+    let program = voxelise(&tiling.grid, walk, Forms::ALL);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * work.len());
-    let program = voxelise_edges(&tiling.grid);
+    let program = voxelise_edges(&tiling.grid, Forms::ALL);
     // Fewer invocations than there are cells at edges: each does several.
     bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
     bench.read(&shares)

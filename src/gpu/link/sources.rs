@@ -28,7 +28,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
     "broadphase":
         "boxes", "found_count", "found_write", "pairs";
     "psm":
-        "angle", "axes", "ball_power", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
+        "angle", "axes", "ball_none", "ball_power", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_none", "hull_quick",
         "hull_share", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tight", "tightness", "tile_sum_parallel",
         "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";

@@ -32,7 +32,7 @@ fn a_periodic_scene_runs_one_kernel() {
     let absent = [
         ("eddy", "eddy_none"),
         ("force", "force_none"),
-        ("cells", "cells_plain"),
+        ("cell_flags", "cell_flags_none"),
     ];
     for (slot, file) in absent {
         assert_eq!(slots[slot], file);

@@ -1,5 +1,5 @@
 // Guo, Zheng & Shi 2002: density and velocity of each domain cell, rho = 1 + sum f, rho u = sum c f + F/2.
-// needs scalar_grid, incoming, $cell_force, $beside
+// needs scalar_grid, incoming, $cell_force, $neighbour_flags
 
 // Density minus one.
 @group(0) @binding(50) var<storage, read_write> density_out: array<f32>;

@@ -1,7 +1,7 @@
 // Orlanski 1976, J. Comput. Phys. 21:251, on populations: those that enter through the face follow
 // df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. Towards the
-// given density they get the share hold of the difference and, so that none is left in the mean, the
-// share integral of its sum over time.
+// given density they get hold times the difference and, so that none is left in the mean,
+// integral times its sum over time.
 // needs scalar_grid, incoming, weights, face_cells
 
 // For each face cell its populations as the face will want them in the next step; in place of the

@@ -65,8 +65,8 @@ impl Walk {
     }
 }
 
-/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
-/// which the first word must be 0 before, and which has room for a word more than `shares`.
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, of
+/// which the first word must be 0 before, and which has room for a word more than `solid_fractions`.
 pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms) -> Program {
     let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
@@ -75,21 +75,21 @@ pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms) -> Program {
 }
 
 /// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
-/// `parts`, `faces`, `shares`, `edges`.
+/// `parts`, `faces`, `solid_fractions`, `edges`.
 pub fn voxelise_edges(grid: &Grid, forms: Forms) -> Program {
-    let [ball, hull] = forms.files("ball_share", "hull_share");
+    let [ball, hull] = forms.files("ball_fraction", "hull_fraction");
     base("voxelise_edges", grid)
-        .slot("ball_share", ball)
-        .slot("hull_share", hull)
+        .slot("ball_fraction", ball)
+        .slot("hull_fraction", hull)
 }
 
-/// `saturate_cells`: a workgroup a lane of a saturated brick, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
-/// `motions`, `lane_first`, `lane_tiles`, `shares`, `saturation`.
-pub fn saturate_cells(grid: &Grid, walk: Walk) -> Program {
-    walked("saturate_cells", grid, walk)
+/// `combine_parts`: a workgroup a lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
+/// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes`.
+pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
+    walked("combine_parts", grid, walk)
 }
 
-/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes`,
 /// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
 pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
@@ -104,10 +104,10 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells beside it, from where cells no longer
+/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells along it, from where cells no longer
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
 /// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
-/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `shares`, `saturation`, and
+/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid) -> Program {

@@ -21,9 +21,9 @@ use std::sync::Arc;
 pub struct SolidBlock {
     /// Its shape, m.
     pub shape: Arc<Shape>,
-    /// Whether somebody wants to know what the fluid does to it.
+    /// Whether the load of the fluid on it is needed.
     pub loaded: bool,
-    /// Whether somebody wants to know what it does to each of its faces.
+    /// Whether the loads on its faces are needed.
     pub faces: bool,
 }
 
@@ -32,7 +32,7 @@ pub struct SolidBlock {
 pub struct CellWork {
     /// Tiles whose solid fractions were.
     pub tiles: u64,
-    /// Lanes of bricks whose saturation was.
+    /// Lanes of bricks that were combined.
     pub lanes: u64,
     /// Times that the tiles of blocks were looked for.
     pub searches: u64,
@@ -41,7 +41,7 @@ pub struct CellWork {
 /// Blocks in a fluid, as partially saturated cells.
 ///
 /// A step is [`SolidCells::place`] with the poses of the blocks, [`SolidCells::record_cells`],
-/// [`Lattice::record_saturated`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
+/// [`Lattice::record_psm`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
 /// [`SolidCells::wrenches`] holds what [`SolidCells::loads`] makes loads of, and with [`SolidCells::record_faces`] beside
 /// the loads [`SolidCells::face_sums`] what [`SolidCells::face_loads`] does. Poses, motions and loads are SI.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ pub struct SolidCells {
     outlines: Vec<Vec<Outline>>,
     plan: Plan,
     pub(super) kernels: Kernels,
-    /// None where nobody asks for faces.
+    /// `None` unless a block requests faces.
     pub(super) face_sums: Option<FaceSums>,
     work: CellWork,
 }
@@ -263,7 +263,7 @@ impl SolidCells {
         lattice: &mut Lattice,
     ) -> Result<()> {
         self.plan.assemble(lattice.geometry(), lattice.grid());
-        lattice.set_saturated(device, queue, &self.plan.bricks)?;
+        lattice.set_psm_bricks(device, queue, &self.plan.bricks)?;
         let counts = [
             self.first_face.len() - 1,
             self.faces,

@@ -51,7 +51,7 @@ impl Fluid for Flow<'_> {
                 return self.exchange(encoder).await;
             }
             self.lattice
-                .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+                .record_psm(&mut encoder.begin_compute_pass(&Default::default()));
             if let Some(coupling) = self
                 .coupling
                 .as_mut()
@@ -94,7 +94,7 @@ impl Flow<'_> {
     ) -> Result<Option<Vec<FluidLoad>>> {
         let (device, queue, step) = (self.device, self.queue, self.lattice.step() + 1);
         self.lattice
-            .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+            .record_psm(&mut encoder.begin_compute_pass(&Default::default()));
         if let Some(coupling) = &mut self.coupling {
             coupling.record_loads(device, &mut encoder, step);
             coupling.record_faces(device, &mut encoder, step);

@@ -3,11 +3,11 @@
 use crate::specialise::LAYOUTS;
 use riprap::{
     gpu::work::Work,
-    lattice::{Collision, Force, Reach, Setup, Storage, bytes_a_cell, collide_stream},
+    lattice::{BrickKind, Collision, Force, Setup, Storage, bytes_a_cell, collide_stream},
 };
 
-fn work(setup: &Setup, reach: Reach) -> Work {
-    let linked = collide_stream(setup, 1, reach).link().unwrap();
+fn work(setup: &Setup, kind: BrickKind) -> Work {
+    let linked = collide_stream(setup, 1, kind).link().unwrap();
     Work::of(&linked, "collide_stream").unwrap()
 }
 
@@ -22,7 +22,7 @@ fn setup((storage, lanes, wide): (Storage, u32, bool)) -> Setup {
 fn the_plain_step_moves_its_populations_and_nothing_else() {
     for layout in LAYOUTS {
         let setup = setup(layout);
-        let found = work(&setup, Reach::All);
+        let found = work(&setup, BrickKind::All);
         let cells = u64::from(setup.lanes);
         assert_eq!(found.loops, 0, "{layout:?}");
         assert_eq!(found.read, found.written, "{layout:?}");
@@ -37,7 +37,7 @@ fn a_cell_takes_as_many_operations_in_any_number_of_lanes() {
         let flops = |lanes| {
             let mut setup = setup((Storage::F32, lanes, false));
             setup.collision = collision;
-            work(&setup, Reach::All).flops as f64 / f64::from(lanes)
+            work(&setup, BrickKind::All).flops as f64 / f64::from(lanes)
         };
         // What does not depend on the cell is computed once an invocation.
         let (one, four) = (flops(1), flops(4));
@@ -54,7 +54,7 @@ fn what_a_setup_adds_costs_operations_or_bytes() {
     let more = |change: fn(&mut Setup)| {
         let mut setup = plain.clone();
         change(&mut setup);
-        let [with, without] = [&setup, &plain].map(|setup| work(setup, Reach::All));
+        let [with, without] = [&setup, &plain].map(|setup| work(setup, BrickKind::All));
         let flops = with.flops as i64 - without.flops as i64;
         [flops, with.bytes() as i64 - without.bytes() as i64]
     };

@@ -6,8 +6,8 @@ use riprap::{
     gpu::link::{Program, SOURCES},
     lattice::{Grid, Setup as Fluid, single_cells},
     psm::{
-        Forms, Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces,
-        voxelise, voxelise_edges,
+        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
+        voxelise_edges,
     },
     sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
 };
@@ -52,8 +52,8 @@ fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
         ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
         ("voxelise_edges", voxelise_edges(grid, SPHERES)),
         ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
-        ("saturate_cells", saturate_cells(grid, Walk::Serial)),
-        ("saturate_cells", saturate_cells(grid, Walk::Parallel)),
+        ("combine_parts", combine_parts(grid, Walk::Serial)),
+        ("combine_parts", combine_parts(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
         ("reduce_faces", reduce_faces(grid)),

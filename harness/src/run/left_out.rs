@@ -12,7 +12,7 @@ const BINDINGS: [&str; 7] = [
     "flags",
     "force_field",
     "guard_state",
-    "saturation_planes",
+    "psm_planes",
     "velocity_after",
     "velocity_before",
 ];

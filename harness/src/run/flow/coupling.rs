@@ -91,7 +91,7 @@ fn brick_share(lattice: &Lattice) -> f64 {
         let found = kernels.find(|kernel| {
             let mut bindings = kernel.bindings().iter();
             kernel.entry() == "collide_stream"
-                && bindings.any(|binding| binding.name == "saturation_planes") == saturated
+                && bindings.any(|binding| binding.name == "psm_planes") == saturated
         })?;
         Some((found.work().bytes() * u64::from(found.invocations())) as f64)
     };

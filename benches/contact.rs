@@ -3,18 +3,10 @@
 //! An iteration is a step: every candidate pair once. Times are the thread's CPU time, so that other
 //! programs do not enter. At the end: what decided the pairs, and rates of pairs and contacts.
 
-#[allow(dead_code)] // The tests use more of these two.
-#[path = "../tests/contact/pairs.rs"]
-mod pairs;
-#[allow(dead_code)]
-#[path = "../tests/contact/rig.rs"]
-mod rig;
-
 use cpu_time::ThreadTime;
 use criterion::{Criterion, Throughput};
 use glam::{DQuat, DVec3};
-use pairs::Couple;
-use rig::{Random, Solid};
+use kit::contact::{Couple, Random, Solid};
 use riprap::{
     Result,
     rock::contact::{Cache, Counts, Normal, Options, Placed, Resolver, Verdict},

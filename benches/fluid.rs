@@ -4,19 +4,17 @@
 //! on software adapters, wall time where a GPU has no timestamps. At the end a table compares the
 //! adapters.
 
-#[allow(dead_code)] // Each bench uses its part.
-mod kit;
-
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{
     clock::Clock,
     copy::{Copy, METHODS},
     flow, gpu,
+    stream_only::StreamOnly,
     subject::Subject,
 };
 use riprap::{
     Error,
-    lattice::{Collision, Force, Lattice, Setup, Storage, StreamOnly},
+    lattice::{Collision, Force, Lattice, Setup, Storage},
     wgpu,
 };
 use std::{collections::BTreeMap, time::Duration};

@@ -4,9 +4,6 @@
 //! Times are CPU time over the cores on software adapters, wall time on others. Pairs are those within the support,
 //! each counted once for each of its two ends, as the kernels meet them.
 
-#[allow(dead_code)] // Each bench uses its part.
-mod kit;
-
 use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{gpu, tank::Tank};

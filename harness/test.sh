@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs every test: units, kernels, flows, files, the documentation's examples, and those that
-# embed the library. Arguments go to the test runner.
+# Runs every test: units, kernels, flows, files, the documentation's examples, and those that embed the library;
+# on Linux those of kernels, limits and faults on all software adapters, too. Arguments go to the test runner, for
+# the first adapter alone.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -19,3 +20,4 @@ cargo test --quiet --workspace --doc
 for example in embed own_kernel dry_blocks own_broadphase own_bodies own_water; do
     "${CARGO_TARGET_DIR:-target}/debug/examples/$example"
 done
+if [ $# -eq 0 ] && [ "$(uname -s)" = Linux ]; then harness/test_adapters.sh; fi

@@ -4,10 +4,9 @@ pub mod adapters;
 pub mod bench;
 pub mod check;
 pub mod fingerprint;
-#[path = "../../benches/kit/mod.rs"]
-mod kit;
 pub mod picture;
 pub mod print;
+pub mod records;
 pub mod render;
 pub mod report;
 pub mod run;

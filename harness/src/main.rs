@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check, fingerprint, report,
+    adapters, bench, check, fingerprint, records, report,
     run::{self, Unfinished},
     schema, stress, threshold, validate,
 };
@@ -30,6 +30,7 @@ enum Command {
     Stress(stress::Args),
     Bench(bench::Args),
     Fingerprint(fingerprint::Args),
+    Records(records::Args),
     Report(report::Args),
 }
 
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
         Command::Stress(args) => stress::run(&args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
         Command::Fingerprint(args) => fingerprinted(&args),
+        Command::Records(args) => recorded(&args),
         Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
@@ -99,6 +101,11 @@ fn bisected(args: &threshold::Args) -> anyhow::Result<ExitCode> {
 fn fingerprinted(args: &fingerprint::Args) -> anyhow::Result<ExitCode> {
     listen()?;
     fingerprint::run(args, &STOP).map(passed)
+}
+
+fn recorded(args: &records::Args) -> anyhow::Result<ExitCode> {
+    listen()?;
+    records::run(args, &STOP).map(passed)
 }
 
 fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {

@@ -3,7 +3,7 @@
 use crate::gpu;
 use riprap::{
     Error, Result,
-    rock::broadphase::{AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Aabb, AutoBroadphase, Broadphase, DeviceBroadphase, HostBroadphase},
     scene::{
         Scene, Search,
         build::{LeftOut, block_setup},
@@ -74,7 +74,7 @@ impl Finder {
 }
 
 impl Broadphase for Finder {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
+    async fn pairs(&mut self, items: &[Aabb]) -> Result<Vec<[u32; 2]>> {
         match self {
             Self::Host(finder) => finder.pairs(items).await,
             Self::Device { finder, device, .. } => {

@@ -49,7 +49,7 @@ impl Ambient {
     pub fn body_force(&self, place: DVec3) -> DVec3 {
         let place = self
             .period
-            .map_or(place, |period| period.within(place))
+            .map_or(place, |period| period.wrapped(place))
             .to_array();
         let b = [0, 1, 2].map(|k| self.acceleration[k].eval_at(place, 0.0));
         self.density * DVec3::from_array(b)

@@ -89,7 +89,7 @@ pub(super) fn neighbour_parts<'a>(
         let limit = reach + shape(other).radius();
         let apart = pose.centre - centre;
         let offsets = match period {
-            Some(period) => period.ways(apart, limit),
+            Some(period) => period.image_shifts(apart, limit),
             None => vec![DVec3::ZERO],
         };
         for offset in offsets {

@@ -1,14 +1,15 @@
 //! The blocks of a scene, coupled to any fluid.
 
 use super::{
-    AddedMass, ExchangeInterval, FluidLoad, InteriorInertia, MassProperties, fluid_load::add_loads,
+    AddedMass, ExchangeInterval, FluidLoad, InteriorInertia, MassProperties,
+    fluid_load::add_loads,
+    start::{begin, finder},
 };
 use crate::{
     Result,
     geometry::{Load, Pose, Shape, skew},
     rock::{Block, Blocks, Motion, Snapshot, broadphase::AutoBroadphase},
     scene::{Scene, build::BlockSetup},
-    simulation,
 };
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -79,8 +80,8 @@ impl Rock {
             // Without free blocks no contact limits the step.
             setup.setup.time_step = Some(params.time_step);
         }
-        let mut finder = simulation::finder(device, queue, scene.rock.search);
-        let blocks = simulation::begin(scene, &setup, &mut finder).await?;
+        let mut finder = finder(device, queue, scene.rock.search);
+        let blocks = begin(scene, &setup, &mut finder).await?;
         Ok(Self {
             interval: scene.coupling.interval.into(),
             hold: params.hold,
@@ -277,7 +278,7 @@ impl Rock {
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         self.blocks
             .restore(snapshot)
-            .map_err(|error| crate::Error::scene("restart", error.to_string()))
+            .map_err(|error| crate::Error::argument("restart", error.to_string()))
     }
 }
 

@@ -61,7 +61,7 @@ impl CoupledState {
     /// [`Error::Scene`] if the bytes are invalid or truncated.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let cut = || {
-            Error::scene(
+            Error::argument(
                 "blocks",
                 "the state of the blocks is truncated; use a complete checkpoint",
             )
@@ -176,7 +176,7 @@ impl Coupled {
                 state.blocks.len(),
                 rock.blocks.len()
             );
-            return Err(Error::scene("restart", message));
+            return Err(Error::argument("restart", message));
         }
         rock.restore(&state.snapshot)?;
         coupling.load_readback.discard();

@@ -8,4 +8,3 @@ pub mod layout;
 pub mod link;
 pub mod readback;
 pub mod timer;
-pub mod work;

@@ -80,7 +80,7 @@ impl Lattice {
     /// If it is of another grid, or lacks what the eddy viscosity or the faces need.
     pub fn check_populations(&self, state: &Populations) -> Result<()> {
         let cells = self.grid.cell_count();
-        let wrong = |message: String| Err(Error::scene("restart", message));
+        let wrong = |message: String| Err(Error::argument("restart", message));
         if state.cells != self.grid.cells || state.values.len() != 27 * cells {
             return wrong(format!(
                 "the saved grid has {:?} cells, this scene {:?}",

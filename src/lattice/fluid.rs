@@ -108,7 +108,7 @@ impl Lattice {
     /// state is given.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
+    /// [`Error::Argument`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
     /// hold it.
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
         setup.check()?;
@@ -211,7 +211,7 @@ impl Lattice {
     ) -> Result<()> {
         if self.setup.solid_operator.is_none() {
             let message = "the setup has no solid operator, so that no block may be in the fluid";
-            return Err(Error::scene("numerics.solid_operator", message));
+            return Err(Error::argument("solid_operator", message));
         }
         let Self {
             streams,
@@ -222,13 +222,13 @@ impl Lattice {
         } = self;
         if let Some(bad) = bricks.iter().find(|&&brick| !geometry.runs(brick)) {
             let message = format!("brick {bad} has no fluid cell, or does not exist");
-            return Err(Error::scene("bricks", message));
+            return Err(Error::argument("bricks", message));
         }
         // Two workgroups would share a brick and write over each other.
         let mut seen = HashSet::with_capacity(bricks.len());
         if let Some(bad) = bricks.iter().find(|&&brick| !seen.insert(brick)) {
             let message = format!("brick {bad} is listed twice; list each brick once");
-            return Err(Error::scene("bricks", message));
+            return Err(Error::argument("bricks", message));
         }
         streams.set(device, queue, (setup, geometry, buffers), bricks)
     }
@@ -276,7 +276,7 @@ impl Lattice {
         let Some(face) = faces.and_then(|faces| faces.get_mut(side)) else {
             let message =
                 format!("there is no side {side} of axis {axis}; axes are 0 to 2, sides 0 and 1");
-            return Err(Error::scene("boundaries", message));
+            return Err(Error::argument("faces", message));
         };
         match face {
             Face::Velocity(old) if old.len() == velocity.len() => {
@@ -285,7 +285,7 @@ impl Lattice {
             }
             _ => {
                 let message = format!("this face takes no list of {} velocities", velocity.len());
-                return Err(Error::scene(face_name(axis, side), message));
+                return Err(Error::argument(face_name(axis, side), message));
             }
         }
         if let Some(buffer) = &self.buffers.wall_velocity {
@@ -413,11 +413,8 @@ pub fn in_plane(axis: usize) -> (usize, usize) {
     }
 }
 
-/// The name of a face in scenes, by its axis, 0 to 2, and side, 0 or 1.
+/// The name of a face in errors, by its axis, 0 to 2, and side, 0 or 1.
 pub fn face_name(axis: usize, side: usize) -> String {
     let axis = ["x", "y", "z"].get(axis).unwrap_or(&"?");
-    format!(
-        "boundaries.{axis}_{}",
-        if side == 0 { "min" } else { "max" }
-    )
+    format!("faces.{axis}_{}", if side == 0 { "min" } else { "max" })
 }

@@ -24,7 +24,7 @@ impl Inside {
         match outside || self.velocity.len() != 3 * self.cells.len() {
             true => {
                 let message = "the saved velocities in cells with solid are of another grid";
-                Err(Error::scene("restart", message))
+                Err(Error::argument("restart", message))
             }
             false => Ok(()),
         }
@@ -90,7 +90,7 @@ impl Observer {
     /// Shows these velocities in their cells until the lattice, which has just been given the populations of their step, goes on.
     ///
     /// # Errors
-    /// [`Error::Scene`] if they are of another grid.
+    /// [`Error::Argument`] if they are of another grid.
     pub fn keep_inside(
         &mut self,
         device: &wgpu::Device,

@@ -17,7 +17,6 @@ mod program;
 mod setup;
 mod stages;
 mod start;
-mod stream_only;
 mod streams;
 mod traffic;
 
@@ -29,9 +28,8 @@ pub use grid::Grid;
 pub use inside::Inside;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
-pub use program::{BrickKind, collide_stream, constants, single_cells, stream_only};
+pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
 pub use stages::Stages;
 pub use start::State;
-pub use stream_only::StreamOnly;
 pub use traffic::{bytes_a_cell, bytes_a_step};

@@ -30,12 +30,12 @@ impl Derived {
         match self {
             Self::EddyViscosity if lattice.setup.wale.is_none() => {
                 let message = "this lattice is laminar and has no eddy viscosity; set `wale`, or do not ask for it";
-                Err(Error::scene("derived", message))
+                Err(Error::argument("derived", message))
             }
             Self::Vorticity(axis) if axis > 2 => {
                 let message =
                     format!("there is no component {axis} of the vorticity; give 0, 1 or 2");
-                Err(Error::scene("derived", message))
+                Err(Error::argument("derived", message))
             }
             _ => Ok(()),
         }
@@ -209,7 +209,7 @@ impl Observer {
             return Ok(());
         }
         let message = "it was made for another lattice; make one for each";
-        Err(Error::scene("observer", message))
+        Err(Error::argument("observer", message))
     }
 
     /// Density minus one on the domain cells, f32, x fastest.

@@ -125,11 +125,6 @@ pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
         .slot("cell_force", force)
 }
 
-/// Streaming without collision, in the layout of a setup.
-pub fn stream_only(setup: &Setup, bindings: u32) -> Program {
-    base("stream_only", setup, bindings).slot("bricks", "bricks_all")
-}
-
 /// The file of an equilibrium.
 pub fn equilibrium(kind: Equilibrium) -> &'static str {
     match kind {

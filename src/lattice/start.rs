@@ -37,21 +37,16 @@ impl Lattice {
         non_equilibrium: bool,
     ) -> Result<()> {
         let cells = self.grid.cell_count();
-        let names = [
-            "initial.pressure",
-            "initial.velocity.x",
-            "initial.velocity.y",
-            "initial.velocity.z",
-        ];
+        let names = ["excess", "velocity.x", "velocity.y", "velocity.z"];
         let fields = std::iter::once(&state.excess).chain(&state.velocity);
         for (name, field) in names.into_iter().zip(fields) {
             if field.len() != cells {
                 let message = format!("{} values for {cells} cells", field.len());
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
             if let Some(at) = field.iter().position(|v| !v.is_finite()) {
                 let message = format!("the value of cell {at} is not a finite number");
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
         }
         self.step = 0;

@@ -1,10 +1,7 @@
 //! The load of a fluid on one plane face of a block.
 
 use super::{FACE_LOAD, Frame};
-use crate::{
-    geometry::{Form, Part, Polyhedron, Pose, outer},
-    rock::contact::clip,
-};
+use crate::geometry::{Form, Part, Polyhedron, Pose, clip, outer};
 use glam::{DMat3, DVec3};
 
 /// A plane face of a block where it is.

@@ -121,6 +121,11 @@ impl FaceSums {
         Ok(())
     }
 
+    /// The kernels in the order in which they run.
+    pub fn kernels(&self) -> [&Kernel; 2] {
+        [&self.reduce, &self.sum]
+    }
+
     /// Along which axes a block that requests them had images when its tiles were laid down.
     pub fn imaged(&self, block: usize) -> [bool; 3] {
         self.imaged.get(&block).copied().unwrap_or_default()

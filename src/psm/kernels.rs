@@ -200,7 +200,7 @@ impl Kernels {
     fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
         let Some(planes) = lattice.psm_planes() else {
             let message = "the lattice has no solid operator, so that no block may be in it";
-            return Err(Error::scene("numerics.solid_operator", message));
+            return Err(Error::argument("solid_operator", message));
         };
         let named: Vec<_> = NAMES
             .iter()

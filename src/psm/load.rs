@@ -6,8 +6,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    geometry::{Form, Load},
-    rock::contact::Placed,
+    geometry::{Form, Load, Placed},
 };
 use glam::DVec3;
 
@@ -41,7 +40,7 @@ impl SolidCells {
     pub fn loads(&self, wrenches: &[f32]) -> Result<Vec<Load>> {
         if wrenches.len() < self.wrench_count() {
             let message = format!("{} numbers, not {}", wrenches.len(), self.wrench_count());
-            return Err(Error::scene("wrenches", message));
+            return Err(Error::argument("wrenches", message));
         }
         let load = |&place: &usize| match wrenches.get(WRENCH * place..WRENCH * (place + 1)) {
             Some(wrench) if place < self.loaded => self.frame.load(wrench),
@@ -82,7 +81,7 @@ impl SolidCells {
         };
         if sums.len() < faces.count() || self.poses.is_empty() {
             let message = format!("{} numbers, not {}", sums.len(), faces.count());
-            return Err(Error::scene("face_sums", message));
+            return Err(Error::argument("face_sums", message));
         }
         let mut sums = sums.chunks_exact(FACE_LOAD);
         for &block in &faces.requested {

@@ -71,7 +71,7 @@ impl SolidCells {
     /// [`SolidCells::place`].
     ///
     /// # Errors
-    /// [`Error::Scene`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
+    /// [`Error::Argument`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
@@ -149,7 +149,7 @@ impl SolidCells {
     ) -> Result<()> {
         if poses.len() != self.blocks.len() {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
-            return Err(Error::scene("poses", message));
+            return Err(Error::argument("poses", message));
         }
         let nowhere = |pose: &Pose| !pose.is_finite();
         if let Some(bad) = poses.iter().position(nowhere) {
@@ -169,7 +169,7 @@ impl SolidCells {
                  end the run before, or close the boundary through which it went",
                 poses[bad].centre
             );
-            return Err(Error::scene(format!("block {bad}"), message));
+            return Err(Error::argument(format!("block {bad}"), message));
         }
         let poses = self.ordered(poses);
         let start = self.poses.is_empty();
@@ -365,6 +365,11 @@ impl SolidCells {
     /// The kernels in the order in which they run, each with the workgroups of the coming step.
     pub fn kernels(&self) -> impl Iterator<Item = (&Kernel, u32)> {
         self.kernels.all()
+    }
+
+    /// The kernels of loads on single faces; none unless a block requests these.
+    pub fn face_kernels(&self) -> impl Iterator<Item = &Kernel> {
+        self.face_sums.iter().flat_map(FaceSums::kernels)
     }
 
     /// Bytes on the device.

@@ -11,7 +11,7 @@ pub(super) trait Plain: Sized {
 
 fn take<const N: usize>(bytes: &mut &[u8]) -> Result<[u8; N]> {
     let Some((head, tail)) = bytes.split_first_chunk::<N>() else {
-        return Err(Error::scene(
+        return Err(Error::argument(
             "snapshot",
             "it is cut short; use an older one",
         ));
@@ -49,7 +49,7 @@ impl<T: Plain, const N: usize> Plain for [T; N] {
     }
     fn read(bytes: &mut &[u8]) -> Result<Self> {
         let values: Vec<T> = (0..N).map(|_| T::read(bytes)).collect::<Result<_>>()?;
-        let cut = || Error::scene("snapshot", "it is cut short; use an older one");
+        let cut = || Error::argument("snapshot", "it is cut short; use an older one");
         values.try_into().map_err(|_| cut())
     }
 }

@@ -3,18 +3,17 @@
 use super::{
     Blocks,
     body::State,
-    books::Books,
     bytes::{Plain, fields},
+    candidate_pairs::{CandidatePair, SkinReference},
+    contact_list::{Contact, ContactList},
     deforming::Strain,
+    energy::WorkSums,
     films::Film,
-    pairs::Mark,
-    touch::{Pair, Touch},
-    touches::Touches,
 };
 use crate::{
     Error, Result,
     rock::{
-        contact::{Cache, Seam},
+        contact::{Bond, Cache},
         law::{Force, History},
     },
 };
@@ -32,11 +31,11 @@ pub struct Snapshot {
     time_step: f64,
     started: bool,
     states: Vec<State>,
-    marks: Vec<Mark>,
-    pairs: Vec<Pair>,
-    touches: Vec<Touch>,
+    skin_references: Vec<SkinReference>,
+    pairs: Vec<CandidatePair>,
+    contacts: Vec<Contact>,
     films: Vec<Film>,
-    books: Books,
+    work_sums: WorkSums,
     /// Of blocks that deform.
     strains: Vec<Strain>,
 }
@@ -57,18 +56,18 @@ impl Snapshot {
     /// From what [`Snapshot::to_bytes`] gave.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the bytes are no snapshot, or are cut short.
+    /// [`Error::Argument`] if the bytes are no snapshot, or are cut short.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
             let message = "this is no snapshot of this version of riprap";
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         };
         let snapshot = Self::read(&mut rest)?;
         if rest.is_empty() {
             Ok(snapshot)
         } else {
             let message = format!("{} bytes too many", rest.len());
-            Err(Error::scene("snapshot", message))
+            Err(Error::argument("snapshot", message))
         }
     }
 }
@@ -88,13 +87,13 @@ impl Blocks {
         snapshot.time_step = self.time_step;
         snapshot.started = self.started;
         snapshot.states.clone_from(&self.states);
-        snapshot.marks.clone_from(&self.marks);
+        snapshot.skin_references.clone_from(&self.skin_references);
         snapshot.pairs.clone_from(&self.pairs);
-        self.touches
-            .list(&mut snapshot.pairs, &mut snapshot.touches);
+        self.contacts
+            .list(&mut snapshot.pairs, &mut snapshot.contacts);
         snapshot.films.clear();
-        snapshot.films.extend(self.touches.films());
-        snapshot.books = self.books;
+        snapshot.films.extend(self.contacts.films());
+        snapshot.work_sums = self.work_sums;
         snapshot.strains.clone_from(&self.deforming.strains);
     }
 
@@ -102,29 +101,31 @@ impl Blocks {
     /// from there.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the state is not one of these blocks.
+    /// [`Error::Argument`] if the state is not one of these blocks.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
-        let way = |turns| self.period().map(|period| period.way(turns));
-        let known = |pair: &Pair| {
+        let image_shift = |offset| self.period().map(|period| period.shift(offset));
+        let known = |pair: &CandidatePair| {
             pair.parts.iter().all(|&part| part < parts)
-                && (pair.turns == [0; 3] || way(pair.turns).is_some_and(|way| way.is_finite()))
-                && (pair.touch == super::touch::NONE
-                    || (pair.touch as usize) < snapshot.touches.len())
+                && (pair.offset == [0; 3]
+                    || image_shift(pair.offset).is_some_and(|image_shift| image_shift.is_finite()))
+                && (pair.contact == super::contact_list::NO_CONTACT
+                    || (pair.contact as usize) < snapshot.contacts.len())
         };
-        let own = |touch: &Touch| {
-            touch
+        let own = |contact: &Contact| {
+            contact
                 .parts
                 .iter()
-                .zip(touch.blocks)
+                .zip(contact.blocks)
                 .all(|(&part, block)| self.parts.block.get(part as usize) == Some(&block))
         };
         let fits = snapshot.states.len() == self.len()
             && snapshot.strains.len() == self.deforming.strains.len()
-            && (snapshot.marks.is_empty() || snapshot.marks.len() == self.len())
+            && (snapshot.skin_references.is_empty()
+                || snapshot.skin_references.len() == self.len())
             && snapshot.pairs.iter().all(known)
-            && snapshot.touches.iter().all(own)
+            && snapshot.contacts.iter().all(own)
             && snapshot
                 .films
                 .iter()
@@ -137,17 +138,17 @@ impl Blocks {
                 self.len(),
                 self.deforming.strains.len()
             );
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         }
         self.time = snapshot.time;
         self.steps = snapshot.steps;
         self.time_step = snapshot.time_step;
         self.started = snapshot.started;
         self.states.clone_from(&snapshot.states);
-        self.marks.clone_from(&snapshot.marks);
+        self.skin_references.clone_from(&snapshot.skin_references);
         self.pairs.clone_from(&snapshot.pairs);
-        self.touches = Touches::from_list(&snapshot.touches, &snapshot.films);
-        self.books = snapshot.books;
+        self.contacts = ContactList::from_list(&snapshot.contacts, &snapshot.films);
+        self.work_sums = snapshot.work_sums;
         self.deforming.strains.clone_from(&snapshot.strains);
         self.place();
         Ok(())
@@ -160,11 +161,11 @@ fields!(Snapshot {
     time_step,
     started,
     states,
-    marks,
+    skin_references,
     pairs,
-    touches,
+    contacts,
     films,
-    books,
+    work_sums,
     strains
 });
 fields!(Film {
@@ -192,18 +193,18 @@ fields!(Strain {
     rate,
     moment,
     load,
-    marked
+    skin_reference
 });
-fields!(Mark {
+fields!(SkinReference {
     centre,
     rotation,
-    room
+    skin_margin
 });
-fields!(Pair {
+fields!(CandidatePair {
     parts,
-    turns,
+    offset,
     cache,
-    touch
+    contact
 });
 fields!(Cache {
     plane,
@@ -211,10 +212,10 @@ fields!(Cache {
     contact,
     second
 });
-fields!(Touch {
+fields!(Contact {
     parts,
     blocks,
-    way,
+    image_shift,
     point,
     pressure_centre,
     normal,
@@ -224,7 +225,7 @@ fields!(Touch {
     width,
     limit,
     force,
-    seam,
+    bond,
     stored,
     power,
 });
@@ -242,7 +243,7 @@ fields!(History {
     bonded,
     slip
 });
-fields!(Seam {
+fields!(Bond {
     area,
     overlap,
     arms,
@@ -251,7 +252,7 @@ fields!(Seam {
     extents,
     seconds
 });
-fields!(Books {
+fields!(WorkSums {
     friction,
     lost,
     film,

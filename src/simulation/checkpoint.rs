@@ -1,6 +1,7 @@
 //! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
 
 mod blocks;
+#[cfg(feature = "checkpoint")]
 mod sealed;
 mod water;
 
@@ -30,10 +31,12 @@ pub struct Checkpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
+#[cfg(feature = "checkpoint")]
 const MAGIC: &sealed::Magic = b"riprap state  4\n";
 /// Step, three cell counts, four lengths, time step, cell, bytes of the blocks.
 const HEADER: usize = 8 + 3 * 4 + 4 * 8 + 2 * 8 + 8;
 
+#[cfg(feature = "checkpoint")]
 impl Checkpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
     ///
@@ -104,7 +107,7 @@ impl Checkpoint {
             [] => None,
             _ => Some(
                 CoupledState::from_bytes(blocks).map_err(|error| match error {
-                    Error::Scene { message, .. } => broken(&message),
+                    Error::Argument { message, .. } => broken(&message),
                     other => other,
                 })?,
             ),

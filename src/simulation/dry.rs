@@ -3,12 +3,10 @@
 use super::countable::countable;
 use crate::{
     Error, Result,
-    rock::{
-        self, Blocks, Snapshot,
-        broadphase::{AutoBroadphase, Broadphase},
-    },
+    coupling::begin,
+    rock::{self, Blocks, Snapshot, broadphase::Broadphase},
     scene::{
-        Scene, Search,
+        Scene,
         build::{BlockSetup, LeftOut, block_setup},
     },
     simulation::checkpoint::BlockCheckpoint,
@@ -17,44 +15,6 @@ use crate::{
 /// Sub-steps of a step where the scene gives no time step: a step keeps its length when contacts
 /// stiffen and sub-steps get shorter, and a whole number of them then wastes at most a tenth.
 const SUB_STEPS: f64 = 10.0;
-/// Sweeps over all pairs in which blocks that overlap are pushed apart; each sweep settles a layer of
-/// a pile, so this is enough for any that a scene lays by hand.
-const SWEEPS: usize = 1000;
-
-/// What finds the pairs of a scene's blocks beside a fluid, whose device it may use.
-pub(crate) fn finder(device: &wgpu::Device, queue: &wgpu::Queue, search: Search) -> AutoBroadphase {
-    let mut finder = AutoBroadphase::new(device, queue);
-    match search {
-        Search::Auto => {}
-        Search::Host => finder.crossover = usize::MAX,
-        Search::Device => finder.crossover = 0,
-    }
-    finder
-}
-
-/// The blocks of a scene at the time 0, pushed apart if it says so. They take a sub-step and go back, so
-/// that overlaps and a step that is too long show before the run.
-///
-/// # Errors
-/// Those of [`Dry::new`].
-pub(crate) async fn begin(
-    scene: &Scene,
-    setup: &BlockSetup,
-    finder: &mut impl Broadphase,
-) -> Result<Blocks> {
-    let mut blocks = Blocks::new(setup.setup.clone())?;
-    if scene.rock.relax {
-        blocks.relax(finder, SWEEPS).await?;
-    }
-    if blocks.time_step().is_finite() {
-        let start = blocks.snapshot();
-        let pairs = finder.pairs(&blocks.items()).await?;
-        blocks.set_pairs(pairs)?;
-        blocks.step()?;
-        blocks.restore(&start)?;
-    }
-    Ok(blocks)
-}
 
 /// Blocks of a scene that run.
 ///
@@ -195,7 +155,7 @@ impl<F: Broadphase> Dry<F> {
     /// If it is of other blocks or another time step.
     pub fn restore(&mut self, checkpoint: &BlockCheckpoint) -> Result<()> {
         if checkpoint.time_step != self.time_step {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has a time step of {:e} s, the scene {:e} s; restart with the \
@@ -206,7 +166,7 @@ impl<F: Broadphase> Dry<F> {
         }
         self.blocks
             .restore(&checkpoint.snapshot)
-            .map_err(|error| Error::scene("restart", error.to_string()))?;
+            .map_err(|error| Error::argument("restart", error.to_string()))?;
         self.step = checkpoint.step;
         Ok(())
     }

@@ -5,7 +5,10 @@ use crate::{
     coupling::{ExchangeInterval, Fluid, FluidLoad, LatticeCoupling},
     geometry::Pose,
     lattice::{self, Lattice},
-    scene::{Face, Scene, build::face_velocity},
+    scene::{
+        Face, Scene,
+        build::{face_velocity, lattice_key},
+    },
     units::Units,
 };
 
@@ -135,7 +138,8 @@ impl Flow<'_> {
         for (face, velocity) in self.changed_faces()? {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
             self.lattice
-                .set_face_velocity(self.queue, axis, side, velocity)?;
+                .set_face_velocity(self.queue, axis, side, velocity)
+                .map_err(|error| error.at_key(lattice_key))?;
         }
         Ok(())
     }

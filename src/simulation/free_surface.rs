@@ -1,6 +1,6 @@
 //! Simulation of free-surface water and blocks.
 
-use super::{Reading, WaterLedger, countable::countable, pool::Pool, scene_step::scene_step};
+use super::{Reading, WaterLedger, countable::countable, pool::Pool};
 use crate::{
     Error, Result,
     coupling::{self, CouplingParams, FluidLoad, Rock},
@@ -8,7 +8,7 @@ use crate::{
     rock::Blocks,
     scene::{
         Scene,
-        build::{BlockSetup, block_setup, particle_setup},
+        build::{BlockSetup, block_setup, particle_key, particle_setup, scene_step},
     },
     simulation::checkpoint::WaterCheckpoint,
     sph::{NeighbourSearch, SphSolver, Totals, Water},
@@ -60,7 +60,7 @@ impl FreeSurface {
         // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
         let [validity, memory] = [validity.pop(), memory.pop()];
         let refused = (validity.await, memory.await);
-        let particles = particles?;
+        let particles = particles.map_err(|error| error.at_key(particle_key))?;
         if let Some(error) = refused.1.or(refused.0) {
             return Err(Error::Device(format!(
                 "it does not hold {} particles ({}); use a larger spacing",
@@ -210,7 +210,7 @@ impl FreeSurface {
         let own = [domain.origin, domain.size].map(DVec3::from);
         let other = [checkpoint.origin, checkpoint.size];
         if other != own || checkpoint.spacing != spacing {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint is of a domain from {} m, {} m wide, with particles every {} m, the scene from {} m, \
@@ -220,7 +220,7 @@ impl FreeSurface {
             ));
         }
         if checkpoint.time_step != self.time_step {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has a time step of {:e} s, the scene {:e} s; restart with the scene that wrote it",

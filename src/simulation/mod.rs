@@ -11,21 +11,20 @@ mod fields;
 mod flow;
 mod free_surface;
 mod needs;
+mod point_cloud;
 mod pool;
 pub mod probe;
-mod scene_step;
 mod sensors;
 mod wall_units;
 mod water_ledger;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};
 pub use dry::Dry;
-pub(crate) use dry::{begin, finder};
 pub use face_surface::face_surface;
 pub use fields::Totals;
 pub use free_surface::FreeSurface;
 pub use needs::Needs;
-pub(crate) use scene_step::scene_step;
+pub use point_cloud::point_cloud;
 pub use sensors::Reading;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
@@ -38,7 +37,7 @@ use crate::{
     lattice::{Collision, Derived, Lattice, Observer, State},
     scene::{
         Advice, Boundary, Face, SUGA_EXCESS, Scene,
-        build::{block_setup, lattice_setup},
+        build::{block_setup, lattice_key, lattice_setup},
     },
     simulation::checkpoint::Checkpoint,
     units::Units,
@@ -83,7 +82,8 @@ impl Simulation {
         let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let made = async {
-            let mut lattice = Lattice::new(device, setup)?;
+            let mut lattice =
+                Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
             let observer = Observer::new(device, &lattice)?;
             let coupled = match scene.has_blocks() {
                 true => {
@@ -99,7 +99,9 @@ impl Simulation {
                 advice.extend(coupled.advise(scene));
                 coupled.set_interior_velocity(&scene.domain, &mut start);
             }
-            lattice.start(device, queue, &start, true)?;
+            lattice
+                .start(device, queue, &start, true)
+                .map_err(|error| error.at_key(lattice_key))?;
             Ok((lattice, observer, coupled))
         };
         let made = made.await;
@@ -271,7 +273,7 @@ impl Simulation {
             cell, time_step, ..
         } = self.units;
         if !same(checkpoint.time_step, time_step) || !same(checkpoint.cell, cell) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has a time step of {:e} s and cells of {:e} m, the scene {:e} s \
@@ -288,7 +290,7 @@ impl Simulation {
             (None, None) => {}
             (coupled, _) => {
                 let has = |some: bool| if some { "has blocks" } else { "has none" };
-                return Err(Error::scene(
+                return Err(Error::argument(
                     "restart",
                     format!(
                         "the checkpoint {} and the scene {}; restart with the scene that wrote it",

@@ -166,7 +166,7 @@ impl Pool {
     pub fn check(&self, checkpoint: &WaterCheckpoint) -> Result<()> {
         let (its, mine) = (checkpoint.sensors.len(), self.sensors.readings.len());
         if its != mine {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint has {its} pressure sensors and the scene {mine}; restart with the scene that wrote it"

@@ -6,7 +6,7 @@
 //! support of a fluid particle near a wall is therefore as full as in the interior of the fluid. The device then
 //! advances the particles ([`SphSolver`]).
 
-mod advise;
+mod bodies;
 mod body_history;
 mod body_loads;
 mod boundary_particles;
@@ -15,15 +15,14 @@ mod convex_part;
 mod counting_sort;
 mod equation_of_state;
 mod fill;
-mod from_scene;
 mod gauges;
 mod hulls;
 mod hydrostatic_start;
 mod kernels;
-mod lattice;
 mod layer_polygon;
 mod layout;
 mod neighbour_lists;
+mod particle_lattice;
 mod pressure_probes;
 mod program;
 mod setup;
@@ -34,19 +33,21 @@ mod speed_estimate;
 mod water;
 mod wendland;
 
-pub use advise::advise;
+pub use bodies::bodies;
 pub use boundary_particles::boundary_particles;
 pub use cell_grid::CellGrid;
+pub(crate) use convex_part::ConvexPart;
 pub use counting_sort::{CountingSort, SortedParticles};
 pub use equation_of_state::EquationOfState;
-pub use fill::{Start, fill};
-pub use from_scene::particle_setup;
+pub use fill::{Start, WaterBody, fill, water_volume};
 pub use gauges::Gauges;
 pub use kernels::Counts;
 pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork};
-pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, program};
+pub use particle_lattice::ParticleLattice;
+pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
 pub use setup::{Body, NeighbourSearch, Scheme, Setup, Side};
 pub use solid::{Faces, Solid};
 pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};
-pub use water::{Totals, Water, point_cloud};
+pub use speed_estimate::SpeedEstimate;
+pub use water::{Totals, Water};
 pub use wendland::Wendland;

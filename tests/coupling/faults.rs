@@ -1,10 +1,8 @@
 //! What cannot be is said, and why.
 
-use crate::{
-    rig::Rig,
-    world::{World, fluid, material},
-};
+use crate::world::{World, fluid, material};
 use glam::{DQuat, DVec3};
+use kit::Rig;
 use riprap::{
     Error,
     geometry::{Pose, Shape},
@@ -138,11 +136,9 @@ fn a_device_with_what_a_scene_needs_runs_it() {
         material("rock", 2000.0)
     );
     let scene = Scene::from_toml(&text, Path::new(""), "scene.toml").unwrap();
-    let name = std::env::var("RIPRAP_ADAPTER").ok();
-    let adapter = crate::rig::gpu::pick(name.as_deref()).unwrap();
+    let adapter = kit::gpu::selected().unwrap();
     let needs = Needs::of(&scene, &adapter).unwrap();
-    let (device, queue) =
-        crate::rig::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
+    let (device, queue) = kit::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
     let rig = Rig { device, queue };
     let mut sim = rig
         .wait(Simulation::new(&rig.device, &rig.queue, &scene))

@@ -14,8 +14,6 @@ mod inlets;
 mod places;
 mod repeat;
 mod rest;
-#[path = "../rig/mod.rs"]
-mod rig;
 mod rocking;
 mod sliding;
 mod world;

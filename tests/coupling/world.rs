@@ -1,7 +1,7 @@
 //! A scene that runs, and what is measured of it.
 
-use crate::rig::Rig;
 use glam::DVec3;
+use kit::Rig;
 use riprap::{Result, coupling::FluidLoad, scene::Scene, simulation::Simulation};
 use std::path::Path;
 

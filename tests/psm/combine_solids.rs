@@ -1,10 +1,8 @@
 //! The solid of all parts in each cell.
 
-use crate::{
-    tiling::{Noise, Placed, Tiling, centre, grid, split},
-    workbench::{POISON, Workbench},
-};
+use crate::tiling::{Noise, Placed, Tiling, centre, grid, split};
 use glam::{DMat3, DVec3};
+use kit::{POISON, Workbench};
 use riprap::psm::{
     INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, WHOLE, Walk,
     combine_parts, constants,

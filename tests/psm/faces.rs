@@ -5,9 +5,9 @@ use crate::{
     shapes::{cuboid, icosahedron, tetrahedron},
     tiling::{Noise, Placed, Tiling, centre, grid},
     voxelise,
-    workbench::{POISON, Workbench},
 };
 use glam::{DQuat, DVec3};
+use kit::{POISON, Workbench};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
     psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces},

@@ -8,17 +8,9 @@ mod null_model;
 mod operators;
 mod programs;
 mod reduce;
-#[path = "../rig/mod.rs"]
-mod rig;
 mod shapes;
 mod subject;
 mod tile_search;
 mod tiling;
-#[path = "../twin/mod.rs"]
-mod twin;
-#[path = "../twin_of/mod.rs"]
-mod twin_of;
 mod twin_step;
 mod voxelise;
-#[path = "../broadphase/workbench.rs"]
-mod workbench;

@@ -1,9 +1,9 @@
 //! What must change no bit.
 
-use crate::{
-    subject::Subject,
+use crate::subject::Subject;
+use kit::{
     twin::lattice::W,
-    twin_of::{limit, noise, walled},
+    twin::of_setup::{limit, noise, walled},
 };
 use riprap::lattice::{Force, Setup, SolidOperator, Storage};
 

@@ -1,11 +1,11 @@
 //! Blocks that [`SolidCells`] puts into the fluid, against the twin with exact solid fractions.
 
-use crate::{
-    subject::Subject,
-    twin::{Solid, tightness},
-    twin_of::{limit, walled},
-};
+use crate::subject::Subject;
 use glam::{DMat3, DQuat, DVec3};
+use kit::{
+    twin::of_setup::{limit, walled},
+    twin::{Solid, tightness},
+};
 use riprap::{
     geometry::{Load, Polyhedron, Pose},
     gpu::readback::Readback,

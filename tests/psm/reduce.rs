@@ -3,9 +3,9 @@
 use crate::{
     combine_solids::{Moving, crowd, random_shares},
     tiling::{Noise, Tiling, centre, grid},
-    workbench::{POISON, Workbench},
 };
 use glam::DVec3;
+use kit::{POISON, Workbench};
 use riprap::psm::{
     INTERIOR, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
 };

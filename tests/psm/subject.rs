@@ -1,9 +1,9 @@
 //! A lattice with blocks beside its twin.
 
-use crate::{
-    rig::Rig,
+use kit::{
+    Rig,
+    twin::of_setup::{noise, poison, random_populations, twin_of},
     twin::{Solid, Twin, lattice::Q, lattice::W, tightness},
-    twin_of::{noise, poison, random_populations, twin_of},
 };
 use riprap::{
     gpu::readback::Readback,
@@ -176,7 +176,7 @@ impl Subject {
     }
 
     /// What the fluid kernel left of the saturation.
-    pub fn saturation(&self) -> Vec<f32> {
+    pub fn psm_planes(&self) -> Vec<f32> {
         let buffer = self.lattice.psm_planes().unwrap();
         let count = (buffer.size() / 4) as usize;
         let (device, queue) = (&self.rig.device, &self.rig.queue);

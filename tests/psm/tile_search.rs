@@ -1,7 +1,7 @@
 //! Blocks that move on from where their tiles were found: what is not looked at again has not changed.
 
-use crate::rig::Rig;
 use glam::{DQuat, DVec3};
+use kit::Rig;
 use riprap::{
     geometry::{Polyhedron, Pose, Shape},
     gpu::readback::Readback,

@@ -1,9 +1,7 @@
 //! Collision and streaming with given solid fractions.
 
-use crate::{
-    subject::Subject,
-    twin_of::{limit, noise, walled},
-};
+use crate::subject::Subject;
+use kit::twin::of_setup::{limit, noise, walled};
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, Storage};
 
 /// Against the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights are 1 in sum:

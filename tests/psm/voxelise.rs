@@ -4,9 +4,9 @@ use crate::{
     exact::{ball_fraction, hull_fraction},
     shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
     tiling::{Noise, Placed, Tiling, centre, grid},
-    workbench::{POISON, Workbench},
 };
 use glam::{DQuat, DVec3};
+use kit::{POISON, Workbench};
 use riprap::{
     geometry::HalfSpace,
     psm::{Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},

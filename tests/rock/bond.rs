@@ -1,6 +1,6 @@
 //! Bonds: faces that touch at the start pull up to σ_t, in the middle or at the edge, and break for good.
 
-use crate::rig::{blocks, cuboid, run, setup};
+use crate::fixture::{blocks, cuboid, run, setup};
 use glam::DVec3;
 use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, Snapshot, law::Joint};
 

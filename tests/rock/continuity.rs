@@ -1,6 +1,6 @@
 //! What moves all blocks a little changes their way a little: nothing in a contact jumps.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
 use riprap::{
     geometry::Load,

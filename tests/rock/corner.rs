@@ -1,6 +1,6 @@
 //! A cube that falls on its corner.
 
-use crate::rig::{blocks, cuboid, joint, run, setup, try_run};
+use crate::fixture::{blocks, cuboid, joint, run, setup, try_run};
 use glam::{DQuat, DVec3};
 use riprap::rock::{Block, Setup};
 

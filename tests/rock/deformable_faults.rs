@@ -1,6 +1,6 @@
 //! Blocks that cannot deform are refused by name, and so are steps too long for those that can.
 
-use crate::rig::{blocks, cuboid, joint, setup, try_run};
+use crate::fixture::{blocks, cuboid, joint, setup, try_run};
 use glam::{DMat3, DVec3};
 use riprap::{
     Error,

@@ -1,6 +1,6 @@
 //! What cannot be computed is refused, by name, and leaves the last good state.
 
-use crate::rig::{AllPairs, blocks, cuboid, joint, setup, try_run};
+use crate::fixture::{AllPairs, blocks, cuboid, joint, setup, try_run};
 use glam::{DQuat, DVec3};
 use riprap::{
     Error,

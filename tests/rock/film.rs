@@ -1,6 +1,6 @@
 //! Films of fluid between blocks that nearly touch: lubrication, without the rest of the fluid.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::Shape,

@@ -1,6 +1,6 @@
 //! Free rotation of an asymmetric body, I = (1, 2, 3) kg m², ω₀ = (0.1, 1, 0.05) rad/s.
 
-use crate::rig::{blocks, joint, run, setup};
+use crate::fixture::{blocks, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     geometry::{Polyhedron, Shape},

@@ -1,6 +1,6 @@
 //! Blocks on rails.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     geometry::Load,

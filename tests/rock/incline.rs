@@ -1,6 +1,6 @@
 //! A block on an incline: s = ½gt²(sin α − cos α tan φ); it sticks if φ ≥ α.
 
-use crate::rig::{blocks, cuboid, joint, run, settled, setup, slope};
+use crate::fixture::{blocks, cuboid, joint, run, settled, setup, slope};
 use glam::DVec3;
 use riprap::rock::{Block, Setup};
 

@@ -1,6 +1,6 @@
 //! Energy: what is there and what was taken adds up to what was put in.
 
-use crate::rig::{AllPairs, blocks, cuboid, joint, run, setup, slope};
+use crate::fixture::{AllPairs, blocks, cuboid, joint, run, setup, slope};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::Load,

@@ -1,13 +1,16 @@
-//! Dry blocks against exact solutions.
+//! Blocks: dry ones against exact solutions, contact geometry, and the search for pairs.
 
 mod affine;
 mod bond;
+mod broadphase;
+mod contact;
 mod continuity;
 mod corner;
 mod deformable;
 mod deformable_faults;
 mod faults;
 mod film;
+mod fixture;
 mod free_body;
 mod guide;
 mod incline;
@@ -17,7 +20,6 @@ mod periodic;
 mod rebound;
 mod repeat;
 mod rest;
-mod rig;
 mod rolling;
 mod safety;
 mod sleep;

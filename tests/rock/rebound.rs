@@ -1,6 +1,6 @@
 //! A block that hits a fixed one: the contact damps, and does not pull.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
 use riprap::rock::{Block, law::Joint};
 

@@ -1,6 +1,6 @@
 //! The same bits, whatever the threads and wherever a run was cut; and nothing done for nothing.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::{Form, Part, Polyhedron, Shape},
@@ -84,7 +84,7 @@ fn five_fixed_blocks_and_a_moving_one_cost_what_one_costs() {
     let (one, five) = (slider(1), slider(5));
     assert!(one.counts().pairs > 100);
     assert_eq!(one.counts(), five.counts());
-    assert_eq!(five.candidates(), 1);
+    assert_eq!(five.candidate_pair_count(), 1);
 }
 
 /// As many blocks and parts, but another one of the blocks is the compound: its contacts are not of these parts.

@@ -1,6 +1,6 @@
 //! What stands, stands still: no creep after settling.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::Polyhedron,

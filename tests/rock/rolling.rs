@@ -2,7 +2,7 @@
 //!
 //! Its rolling radius is less than its radius by the overlap of about 0.1 mm, 1/2000: twice that in a.
 
-use crate::rig::{blocks, cuboid, joint, run, setup, slope};
+use crate::fixture::{blocks, cuboid, joint, run, setup, slope};
 use glam::DVec3;
 use riprap::{
     geometry::Shape,

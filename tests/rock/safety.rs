@@ -1,8 +1,8 @@
 //! Factors of safety of blocks that stand on others, by their contacts.
 
 use crate::{
+    fixture::{blocks, cuboid, joint, run, settled, setup},
     incline::on_incline,
-    rig::{blocks, cuboid, joint, run, settled, setup},
     toppling::column,
     wedge,
 };

@@ -1,6 +1,6 @@
 //! Blocks that sleep do what they would have done awake.
 
-use crate::rig::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
 use riprap::{
     geometry::Load,

@@ -1,6 +1,6 @@
 //! A column on an incline topples if tan α > b/h.
 
-use crate::rig::{blocks, cuboid, joint, run, settled, setup, slope};
+use crate::fixture::{blocks, cuboid, joint, run, settled, setup, slope};
 use glam::DVec3;
 use riprap::rock::{Block, Setup};
 

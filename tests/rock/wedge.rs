@@ -1,7 +1,7 @@
 //! A wedge on two planes (Goodman & Shi 1985): it slides along their line of intersection if its factor
 //! of safety, (N₁ tan φ₁ + N₂ tan φ₂)/(W sin ψ), is below one.
 
-use crate::rig::{blocks, joint, run, settled, setup};
+use crate::fixture::{blocks, joint, run, settled, setup};
 use glam::DVec3;
 use riprap::{
     geometry::{HalfSpace, Polyhedron},

@@ -1,7 +1,8 @@
 //! Walls and blocks contain the water.
 
-use crate::{rig::Rig, tank::resting};
+use crate::tank::resting;
 use glam::DVec3;
+use kit::Rig;
 use riprap::{
     scene::{
         Scene,

@@ -1,9 +1,5 @@
 //! SPH: initial particles, kernels against their twins, and small flows.
 
-#[path = "../rig/mod.rs"]
-mod rig;
-
-mod advice;
 mod boundary_particles;
 mod containment;
 mod energy;

@@ -2,12 +2,12 @@
 
 use crate::{
     penalty::{Spring, penalty},
-    rig::Rig,
     step::Noise,
     tank::{lattice, resting},
     twin::wrench,
 };
 use glam::{DQuat, DVec3};
+use kit::Rig;
 use riprap::{
     geometry::{Polyhedron, Pose, Shape},
     sph::{Body, NeighbourSearch, Scheme, Setup, Side, Solid, SphSolver, Water},
@@ -272,7 +272,7 @@ fn loads_of_many_parts_and_particles_are_complete() {
 #[test]
 fn more_parts_than_a_software_adapter_can_loop_over_are_refused() {
     let rig = Rig::new();
-    if rig.device.adapter_info().device_type != wgpu::DeviceType::Cpu {
+    if rig.device.adapter_info().device_type != riprap::wgpu::DeviceType::Cpu {
         return;
     }
     let sphere = Solid::Sphere {

@@ -35,7 +35,7 @@ fn all_variants_compile_and_bind_the_stated_number_of_buffers() {
                 for kernel in KERNELS {
                     let linked = program(&setup, &grid, kernel).link().unwrap();
                     let all = bindings(&linked, kernel).unwrap();
-                    let storage = |b: &&Binding| b.kind != wgpu::BufferBindingType::Uniform;
+                    let storage = |b: &&Binding| b.kind != riprap::wgpu::BufferBindingType::Uniform;
                     most = most.max(all.iter().filter(storage).count() as u32);
                 }
             }

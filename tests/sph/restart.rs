@@ -1,10 +1,8 @@
 //! A restart is bit-identical.
 
-use crate::{
-    rig::Rig,
-    tank::{lattice, resting, walls},
-};
+use crate::tank::{lattice, resting, walls};
 use glam::DVec3;
+use kit::Rig;
 use riprap::sph::{NeighbourSearch, Setup, Side, SphSolver};
 
 /// Neighbour lists are rebuilt after a particle has escaped, and not a second time after a restart.

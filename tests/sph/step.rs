@@ -1,11 +1,11 @@
 //! A step of the device against its twin.
 
 use crate::{
-    rig::Rig,
     tank::{lattice, resting, walls},
     twin::{BoundaryParticle, FluidParticle, Twin, wrench},
 };
 use glam::{DMat3, DQuat, DVec3};
+use kit::Rig;
 use riprap::{
     geometry::{HalfSpace, Polyhedron, Pose},
     sph::{Body, EquationOfState, Faces, NeighbourSearch, Setup, Side, Solid, SphSolver},

@@ -1,7 +1,7 @@
 //! A tank of water with walls of boundary particles, on a device.
 
-use crate::rig::Rig;
 use glam::{DMat3, DVec3};
+use kit::Rig;
 use riprap::{
     geometry::Pose,
     sph::{Body, ExchangeResult, Setup, Side, SphSolver, Water},

@@ -5,16 +5,17 @@ use super::{
     roofline::flops_a_step,
     variant::{Group, STREAM_ONLY, Variant},
 };
-use crate::kit::{
+use kit::{
     arithmetic::Arithmetic,
     clock::{Clock, Spent},
     copy::{Copy, METHODS},
     flow::sheared_noise,
+    stream_only::StreamOnly,
     subject::Subject,
 };
 use riprap::{
     Error,
-    lattice::{Lattice, StreamOnly, bytes_a_step},
+    lattice::{Lattice, bytes_a_step},
 };
 
 /// Rows of the group, in its order, printed as they are done.

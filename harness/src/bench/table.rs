@@ -1,12 +1,12 @@
 //! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
 
 use super::{report::Machine, solids::crowd};
-use crate::kit::{
+use glam::{DQuat, DVec3};
+use kit::{
     clock::{Clock, Spent},
     gpu,
     subject::Subject,
 };
-use glam::{DQuat, DVec3};
 use riprap::{
     Error, Result,
     geometry::{Pose, Shape},

@@ -39,7 +39,7 @@ pub fn measure(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     machine: &Machine,
-) -> anyhow::Result<Vec<Row>> {
+) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let (n, rounds) = match (machine.software, quick) {
         (true, true) => (32, 5),
         (true, false) => (48, 21),
@@ -124,9 +124,9 @@ pub fn measure(
         growth,
         "",
     );
-    show(
+    let targets = show(
         "unused",
-        &[
+        vec![
             Target::at_most("what is unused costs ≤ 3 % beyond noise", worst, NOISE),
             Target::at_most(
                 "moving blocks cost the same in any box, within 1.5",
@@ -135,7 +135,7 @@ pub fn measure(
             ),
         ],
     );
-    Ok(rows)
+    Ok((rows, targets))
 }
 
 fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {

@@ -1,8 +1,8 @@
 //! Steps of free water: particles and pairs a second.
 
 use super::{copy_bandwidth, report::Machine};
-use crate::kit::{exponent::exponent, gpu, tank::Tank};
 use cpu_time::ProcessTime;
+use kit::{exponent::exponent, gpu, tank::Tank};
 use riprap::{sph::NeighbourSearch, wgpu};
 use serde::Serialize;
 use std::time::{Duration, Instant};

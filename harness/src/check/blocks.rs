@@ -84,7 +84,7 @@ impl BlockFacts {
             left_out: left_out(left).collect(),
             mass: free.iter().map(mass).fold(0.0, |sum, mass| sum + mass),
             lightest: lightest.map(|block| (blocks.name(*block).into(), mass(block))),
-            pairs: blocks.candidates(),
+            pairs: blocks.candidate_pair_count(),
             contacts: blocks.contacts().count(),
             skin: blocks.skin(),
             sub_step: blocks.time_step().min(time_step),

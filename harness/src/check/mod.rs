@@ -4,6 +4,7 @@ mod accuracy;
 mod blocks;
 mod coupling;
 mod dry;
+mod kernels;
 mod report;
 mod text;
 mod trial;
@@ -35,6 +36,9 @@ pub struct Args {
     /// Print JSON; numbers are in SI, sizes in bytes.
     #[arg(long)]
     json: bool,
+    /// Write the linked WGSL of each kernel of the fluid to this folder.
+    #[arg(long, value_name = "DIR")]
+    kernels: Option<PathBuf>,
 }
 
 /// Prints the report.
@@ -44,7 +48,12 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
     if scene.has_particles() {
-        let (report, ended) = water::report(&scene, &args.scene, args.adapter.as_deref())?;
+        let (report, ended) = water::report(
+            &scene,
+            &args.scene,
+            args.adapter.as_deref(),
+            args.kernels.as_deref(),
+        )?;
         if args.json {
             print::print_json(&report)?;
         } else {
@@ -54,6 +63,10 @@ pub fn run(args: &Args) -> Result<()> {
         return Ok(ended?);
     }
     if !scene.has_fluid() {
+        if args.kernels.is_some() {
+            let message = "the scene has no fluid, so that there are no kernels to write";
+            return Err(riprap::Error::argument("--kernels", message).into());
+        }
         let report = dry::report(&scene, &args.scene, args.adapter.as_deref())?;
         return if args.json {
             print::print_json(&report)
@@ -68,6 +81,9 @@ pub fn run(args: &Args) -> Result<()> {
     let made = gpu::drive(&device, trial::PATIENCE, "compiling the kernels", made)?;
     let mut simulation = made.map_err(|error| located(error, &args.scene))?;
     let (time, ended) = trial::time(&mut simulation, &device);
+    if let Some(folder) = &args.kernels {
+        kernels::write_lattice(folder, simulation.lattice(), simulation.coupled())?;
+    }
     let adapter = Adapter::of(&adapter, args.adapter.is_none());
     let report = Report::of(&simulation, adapter, time)?;
     if args.json {

@@ -3,6 +3,7 @@
 use super::{Accuracy, Immersion};
 use crate::{
     adapters::Adapter,
+    bench::Work,
     run::{Coupling, LeftOut},
 };
 use anyhow::Result;
@@ -214,6 +215,7 @@ impl Memory {
 
 impl Kernel {
     fn of((kernel, workgroups): (&riprap::gpu::kernel::Kernel, u32)) -> Self {
+        let work = Work::of(kernel.linked(), kernel.entry());
         Self {
             file: kernel.file().into(),
             entry: kernel.entry().into(),
@@ -221,10 +223,10 @@ impl Kernel {
             bindings: kernel.bindings().iter().map(|b| b.name.clone()).collect(),
             workgroups,
             invocations: kernel.invocations(),
-            flops: kernel.work().flops,
-            read: kernel.work().read,
-            written: kernel.work().written,
-            loops: kernel.work().loops,
+            flops: work.flops,
+            read: work.read,
+            written: work.written,
+            loops: work.loops,
         }
     }
 }

@@ -1,7 +1,10 @@
 //! The report as one reads it.
 
 use super::{Report, report::Kernel};
-use crate::print::{bytes, duration};
+use crate::{
+    print::{bytes, duration},
+    run::LeftOut,
+};
 use std::fmt::Write;
 
 impl Report {
@@ -33,8 +36,8 @@ impl Report {
             line("", format!("buffers: {}", shorten(&kernel.bindings)));
             line("", kernel.work());
         }
-        for left_out in &self.left_out {
-            line("runs", left_out.to_string());
+        if let Some(left_out) = LeftOut::line(&self.left_out) {
+            line("runs", left_out);
         }
         self.numerics(&mut line);
         if let Some(blocks) = &self.blocks {

@@ -71,7 +71,7 @@ pub struct WaterReport {
 }
 
 /// Makes the water of `scene`, which was read from `file`, and tries a few steps; says how the trial ended if it did
-/// so early.
+/// so early. `kernels` is a folder for the WGSL of its kernels.
 ///
 /// # Errors
 /// What the scene lacks, or what the adapter cannot hold.
@@ -79,6 +79,7 @@ pub fn report(
     scene: &Scene,
     file: &Path,
     adapter: Option<&str>,
+    kernels: Option<&Path>,
 ) -> Result<(WaterReport, riprap::Result<()>)> {
     let mut run = SphRun::open(scene, file, adapter)?;
     let steps = scene.run.count(run.time_step());
@@ -86,6 +87,9 @@ pub fn report(
     let simulation = &run.simulation;
     let particles = simulation.particles();
     let (setup, counts) = (particles.setup(), particles.counts());
+    if let Some(folder) = kernels {
+        super::kernels::write_particles(folder, setup)?;
+    }
     let all = u64::from(counts.fluid) + u64::from(counts.boundary);
     let step = spent.as_secs_f64() / done.max(1) as f64;
     // The step before the trial took as many.

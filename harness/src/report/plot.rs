@@ -253,5 +253,4 @@ fn percent(power: i32) -> String {
 }
 
 #[cfg(test)]
-#[path = "plot_tests.rs"]
 mod tests;

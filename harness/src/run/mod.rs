@@ -106,7 +106,7 @@ fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Su
     let folder = folder(args);
     if args.steps == Some(0) {
         let message = "a run has at least one; `riprap check` looks at a scene without running it";
-        return Err(Error::scene("--steps 0", message).into());
+        return Err(Error::argument("--steps 0", message).into());
     }
     let last = args
         .steps
@@ -116,7 +116,7 @@ fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Su
         engine.restore(path)?;
         let done = engine.step();
         if done >= last {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint is of step {done} and the run ends at step {last}; give \

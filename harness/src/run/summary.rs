@@ -234,8 +234,8 @@ impl fmt::Display for Summary {
         for safety in &self.safety {
             writeln!(f, "  {safety}")?;
         }
-        for left_out in &self.left_out {
-            writeln!(f, "  ran {left_out}")?;
+        if let Some(line) = LeftOut::line(&self.left_out) {
+            writeln!(f, "  ran {line}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;

@@ -131,7 +131,7 @@ impl Search<'_> {
             report.take(trial);
             report.write(&self.folder)?;
             if let Err(wrong) = bracket.take(value, moved) {
-                bail!(Error::scene(
+                bail!(Error::argument(
                     args.key.join(", "),
                     format!("{wrong} ({told})")
                 ));

@@ -98,7 +98,7 @@ pub fn settle<E: Engine>(mut engine: E, time: f64, path: &Path) -> Result<()> {
             "{time} s is no time to settle in; give at least a time step, {:e} s",
             engine.time_step()
         );
-        return Err(Error::scene("--settle", message).into());
+        return Err(Error::argument("--settle", message).into());
     }
     let mut batch = Batch::new();
     while engine.step() < steps as u64 {
@@ -121,8 +121,8 @@ pub fn run<E: Engine>(mut engine: E, asked: &Asked<'_>) -> Result<Option<Trial>>
     let begun = Instant::now();
     if let Some(path) = &asked.settled {
         engine.restore(path).map_err(|error| match error {
-            Error::Scene { place, message } => Error::Scene {
-                place,
+            Error::Argument { what, message } => Error::Argument {
+                what,
                 message: format!(
                     "{message}; or give numerics.time_step (with blocks alone rock.time_step), so that it \
                      does not depend on the value"
@@ -189,7 +189,7 @@ impl Watched {
             let names = blocks.iter().filter(|(_, block)| free(block));
             let names: Vec<_> = names.take(20).map(|(_, block)| &*block.name).collect();
             let message = format!("no free block is called so; there are {}", names.join(", "));
-            return Err(Error::scene("--block", message));
+            return Err(Error::argument("--block", message));
         }
         Ok(Self {
             blocks: watched,

@@ -16,7 +16,7 @@ const LONGEST: u64 = 150;
 
 /// The published tables that several cases compare with.
 pub fn literature() -> anyhow::Result<Value> {
-    let text = include_str!("../../../tests/data/literature_tables.json");
+    let text = include_str!("../../kit/data/literature_tables.json");
     serde_json::from_str(text).context("the table of published values")
 }
 

@@ -1,16 +1,7 @@
 //! Contact or not, against parry's GJK and EPA, which share nothing with linear programs.
 
-// The pairs of the tests: blocks as parry and as the library see them, moved together to a gap.
-#[allow(dead_code)]
-#[path = "../../../tests/contact/pairs.rs"]
-mod pairs;
-#[allow(dead_code)]
-#[path = "../../../tests/contact/rig.rs"]
-mod rig;
-
 use super::{Outcome, Stand, Trial};
-use pairs::Couple;
-use rig::Random;
+use kit::contact::{Couple, Random};
 use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 use std::time::Instant;
 
@@ -47,7 +38,7 @@ pub fn sign(stand: &Stand) -> Outcome {
         let right = match verdict {
             Verdict::Contact(_) => overlaps,
             Verdict::Apart => !overlaps,
-            Verdict::Touching => false,
+            Verdict::Undecided => false,
         };
         wrong += u64::from(!right);
         seen[usize::from(overlaps)] += 1;

@@ -1,6 +1,5 @@
-//! Pictures: what they show is where and what the data are, and what cannot be shown is said.
+//! Pictures: what they show is where and what the data are, and what cannot be shown is reported.
 
-mod blocks;
-mod charts;
-mod rig;
-mod slices;
+mod axis;
+mod render;
+mod section;

@@ -21,8 +21,6 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "psm_cells", "psm_none", "scalar_grid", "store_f16", "store_f32",
         "stream", "sums", "velocity", "wale", "wall_rates", "weights", "bricks_all", "bricks_listed",
         "word_f16_2", "word_f16_4", "word_f16_4_wide";
-    "measure":
-        "copy_four_vectors", "copy_scalar", "copy_vector", "multiply_add", "stream_only";
     "gpu":
         "bin_count", "bin_scatter", "invocation", "saturate", "scan_spread", "scan_sum";
     "broadphase":

@@ -1,6 +1,6 @@
 //! The cheaper of the two finders.
 
-use super::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
+use super::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase};
 use crate::Result;
 
 /// Searches on the host for few items and on the device for many; the list is the same.
@@ -12,7 +12,7 @@ pub struct AutoBroadphase {
     pub crossover: usize,
     device: wgpu::Device,
     queue: wgpu::Queue,
-    on_device: Option<DeviceBroadphase>,
+    device_broadphase: Option<DeviceBroadphase>,
 }
 
 impl AutoBroadphase {
@@ -33,20 +33,20 @@ impl AutoBroadphase {
             crossover,
             device: device.clone(),
             queue: queue.clone(),
-            on_device: None,
+            device_broadphase: None,
         }
     }
 }
 
 impl Broadphase for AutoBroadphase {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        if items.len() < self.crossover {
-            return HostBroadphase.pairs(items).await;
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+        if aabbs.len() < self.crossover {
+            return HostBroadphase.pairs(aabbs).await;
         }
-        let finder = match &mut self.on_device {
-            Some(finder) => finder,
+        let broadphase = match &mut self.device_broadphase {
+            Some(broadphase) => broadphase,
             empty => empty.insert(DeviceBroadphase::new(&self.device, &self.queue)?),
         };
-        finder.pairs(items).await
+        broadphase.pairs(aabbs).await
     }
 }

@@ -1,5 +1,6 @@
 //! Blocks on disk.
 
+#[cfg(feature = "checkpoint")]
 use super::sealed;
 use crate::{Error, Result, rock::Snapshot};
 use std::path::Path;
@@ -16,10 +17,12 @@ pub struct BlockCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
+#[cfg(feature = "checkpoint")]
 const MAGIC: &sealed::Magic = b"riprap rocks  2\n";
 /// Step, time step.
 const HEADER: usize = 8 + 8;
 
+#[cfg(feature = "checkpoint")]
 impl BlockCheckpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
     ///
@@ -45,7 +48,7 @@ impl BlockCheckpoint {
         };
         let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|k| header[at + k]));
         let snapshot = Snapshot::from_bytes(rest).map_err(|error| match error {
-            Error::Scene { message, .. } => Error::file(path, message),
+            Error::Argument { message, .. } => Error::file(path, message),
             other => other,
         })?;
         Ok(Self {
@@ -56,7 +59,7 @@ impl BlockCheckpoint {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "checkpoint"))]
 mod tests {
     use super::*;
 

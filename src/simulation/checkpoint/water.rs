@@ -1,5 +1,6 @@
 //! Free water and the blocks in it on disk.
 
+#[cfg(feature = "checkpoint")]
 use super::sealed;
 use crate::{
     Error, Result,
@@ -41,6 +42,7 @@ pub struct WaterCheckpoint {
 }
 
 /// First bytes of a file; the digit is the version of the format.
+#[cfg(feature = "checkpoint")]
 const MAGIC: &sealed::Magic = b"riprap water  5\n";
 /// Words of eight bytes after them: step, time step, particles, limit, escaped, steps of the water, length of the
 /// last exchange, velocities, loads, lower corner and size of the domain, spacing, works of bodies, pushes, dummy
@@ -51,6 +53,7 @@ const PARTICLE: usize = size_of::<Particle>();
 /// Numbers of a body: a vector and a matrix.
 const BODY: usize = 12;
 
+#[cfg(feature = "checkpoint")]
 impl WaterCheckpoint {
     /// Writes the file; one that is there stays whole until the new one is complete.
     ///
@@ -164,7 +167,7 @@ impl WaterCheckpoint {
             sensors,
             loads: loads.into_iter().map(load).collect(),
             blocks: Snapshot::from_bytes(reader.rest).map_err(|error| match error {
-                Error::Scene { message, .. } => Error::file(path, message),
+                Error::Argument { message, .. } => Error::file(path, message),
                 other => other,
             })?,
         })

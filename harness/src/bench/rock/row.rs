@@ -1,7 +1,8 @@
 //! A result of the rock part, in the table and in the file.
 
 use super::{core::Cost, split::Split};
-use crate::{bench::report::Machine, kit::exponent::exponent};
+use crate::bench::report::Machine;
+use kit::exponent::exponent;
 use serde::Serialize;
 use std::fmt;
 

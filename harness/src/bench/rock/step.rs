@@ -7,7 +7,8 @@ use super::{
     row::{Basis, Done, Row, push},
     split::Split,
 };
-use crate::{bench::report::Machine, kit::pile::Pile};
+use crate::bench::report::Machine;
+use kit::pile::Pile;
 use riprap::Result;
 
 /// Contacts warm and cold and the step, for each number of blocks.
@@ -114,7 +115,7 @@ fn steps(
             kernel: "step",
             variant: variant.into(),
             count: pile.free,
-            pairs: pile.blocks.candidates(),
+            pairs: pile.blocks.candidate_pair_count(),
             contacts: pile.blocks.contacts().count(),
         };
         let row = Row {

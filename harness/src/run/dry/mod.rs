@@ -15,7 +15,7 @@ use riprap::{
     Error, Result,
     geometry::Pose,
     output::Array,
-    rock::{Block, Ledger},
+    rock::{Block, EnergyLedger},
     scene::{Field, ProbePlace, Quantity, Scene},
     simulation::{self, checkpoint::BlockCheckpoint},
 };
@@ -27,7 +27,7 @@ pub struct Dry {
     /// Name of the adapter to draw pictures on, or the first one.
     adapter: Option<String>,
     /// Energies at the start, those that a restart has not seen included.
-    start: Ledger,
+    start: EnergyLedger,
 }
 
 impl Dry {

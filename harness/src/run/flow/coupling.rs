@@ -1,10 +1,6 @@
 //! How fluid and blocks met in a run, in numbers.
 
-use riprap::{
-    coupling::Exchanges,
-    lattice::{Lattice, bytes_a_step},
-    simulation::Simulation,
-};
+use riprap::{coupling::Exchanges, simulation::Simulation};
 use serde::Serialize;
 use std::fmt;
 
@@ -33,13 +29,6 @@ pub struct Coupling {
     pub readings_skipped: u64,
     /// Bytes that blocks take on the device, without the saturation of their bricks.
     pub bytes: u64,
-    /// What the kernel for blocks moves more than the plain one in a brick, as a part of the bytes of a step; 0 where
-    /// one of them does not run.
-    pub brick_share: f64,
-    /// Seconds that reading back takes, measured at the end; 0 where it was not.
-    pub reading_seconds: f64,
-    /// Seconds of a step, without what was written; 0 where nobody knows.
-    pub step_seconds: f64,
 }
 
 impl Coupling {
@@ -69,9 +58,6 @@ impl Coupling {
             readings,
             readings_skipped: steps.saturating_sub(readings),
             bytes: cells.bytes(),
-            brick_share: brick_share(simulation.lattice()),
-            reading_seconds: 0.0,
-            step_seconds: 0.0,
         })
     }
 
@@ -81,24 +67,6 @@ impl Coupling {
             "{} tiles in {} bricks with blocks, {} mixed and {} plain ones without",
             self.tiles, self.saturated_bricks, self.mixed_bricks, self.plain_bricks
         )
-    }
-}
-
-/// Bytes that the kernel for blocks moves more than that of other bricks, counted from the code of both, a brick.
-fn brick_share(lattice: &Lattice) -> f64 {
-    let bytes = |saturated: bool| {
-        let mut kernels = lattice.kernels(false).map(|(kernel, _)| kernel);
-        let found = kernels.find(|kernel| {
-            let mut bindings = kernel.bindings().iter();
-            kernel.entry() == "collide_stream"
-                && bindings.any(|binding| binding.name == "psm_planes") == saturated
-        })?;
-        Some((found.work().bytes() * u64::from(found.invocations())) as f64)
-    };
-    let step = bytes_a_step(lattice.setup(), lattice.grid(), lattice.geometry());
-    match (bytes(true), bytes(false)) {
-        (Some(with), Some(without)) => (with - without).max(0.0) / step as f64,
-        _ => 0.0,
     }
 }
 

@@ -26,19 +26,15 @@ use probes::ProbeTable;
 use riprap::{
     Result,
     coupling::Coupled,
-    gpu::readback::Readback,
     lattice::{bytes_a_cell, bytes_a_step},
     output::Image,
-    rock::{Block, Ledger},
+    rock::{Block, EnergyLedger},
     scene::{Field, ProbePlace, Quantity, Scene},
     simulation::{Needs, Simulation, Totals, checkpoint::Checkpoint},
     wgpu,
 };
 use solids::solid_blocks;
-use std::{
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::{path::Path, time::Duration};
 use watch::Watch;
 
 /// Bytes whose copying shows what memory allows: more than caches hold.
@@ -56,7 +52,7 @@ pub struct Flow {
     pub needs: Needs,
     pub simulation: Simulation,
     /// Energies of the blocks at the start, those that a restart has not seen included.
-    start: Ledger,
+    start: EnergyLedger,
     /// Static solids, where there are views of them.
     solids: Vec<Block>,
 }
@@ -78,7 +74,7 @@ impl Flow {
             adapter: adapter.get_info(),
             start: simulation
                 .coupled()
-                .map_or_else(Ledger::default, |coupled| coupled.blocks().ledger()),
+                .map_or_else(EnergyLedger::default, |coupled| coupled.blocks().ledger()),
             device,
             queue,
             needs,
@@ -104,27 +100,6 @@ impl Flow {
     fn shown(&self) -> usize {
         let in_fluid = self.simulation.coupled().map(Coupled::in_fluid);
         in_fluid.unwrap_or_default() + self.simulation.scene().solids.len()
-    }
-
-    /// Seconds that reading a few bytes back takes: the median of some.
-    fn reading(&self) -> Result<f64> {
-        const TIMES: usize = 9;
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("a few bytes"),
-            size: 64,
-            usage: wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        let mut readback = Readback::default();
-        let mut times = Vec::new();
-        for _ in 0..TIMES {
-            let begin = Instant::now();
-            let read = readback.read::<u8>(&self.device, &self.queue, &buffer, 64);
-            gpu::drive(&self.device, PATIENCE, "a few bytes", read)??;
-            times.push(begin.elapsed().as_secs_f64());
-        }
-        times.sort_by(f64::total_cmp);
-        Ok(times[TIMES / 2])
     }
 
     /// Bytes a second that the device copies.
@@ -276,7 +251,6 @@ impl Engine for Flow {
     }
 
     fn conclude(&mut self, summary: &mut Summary, notes: &Notes, pace: &Pace) {
-        let (whole, warm) = (pace.whole(), pace.warm());
         // Others may have kept the device busy the first time.
         if let Ok(again) = self.bandwidth() {
             summary.bandwidth = summary.bandwidth.max(again);
@@ -284,11 +258,7 @@ impl Engine for Flow {
         (summary.mlups, summary.bandwidth_share) = speed(summary, pace);
         summary.max_mach = self.simulation.units().mach(notes.max_speed);
         summary.rocks = Rocks::concluded(self, notes, pace);
-        summary.coupling = Coupling::of(&self.simulation, whole.steps).map(|coupling| Coupling {
-            reading_seconds: self.reading().unwrap_or_default(),
-            step_seconds: warm.time.as_secs_f64() / warm.steps.max(1) as f64,
-            ..coupling
-        });
+        summary.coupling = Coupling::of(&self.simulation, pace.whole().steps);
         self.look_at_walls(summary);
     }
 }

@@ -4,7 +4,6 @@ mod block_files;
 mod block_probe;
 mod face_table;
 mod forces;
-mod program;
 mod rocks;
 mod safety;
 mod values;
@@ -20,7 +19,7 @@ use super::engine::{Engine, Recorders};
 use anyhow::Result;
 use riprap::{
     coupling::{Coupled, FluidLoad},
-    rock::{Blocks, Ledger, Motion, Setup},
+    rock::{Blocks, EnergyLedger, Motion, Setup},
     scene::Probe,
 };
 use std::path::Path;
@@ -43,7 +42,7 @@ pub struct Rock<'a> {
     /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.
     pub shown: usize,
     /// Energies at the start, those that a restart has not seen included.
-    pub start: &'a Ledger,
+    pub start: &'a EnergyLedger,
 }
 
 /// What writes the tables of a probe of the block called `name`.

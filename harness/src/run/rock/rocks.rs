@@ -1,9 +1,6 @@
 //! A run of blocks in numbers.
 
-use super::{
-    super::{engine::Engine, pace::Pace, recorder::Notes},
-    program,
-};
+use super::super::{engine::Engine, pace::Pace, recorder::Notes};
 use serde::Serialize;
 use std::fmt;
 
@@ -22,8 +19,6 @@ pub struct Rocks {
     pub tests: u64,
     /// Linear programs that this took.
     pub programs: u64,
-    /// Seconds that one takes, measured at the end; 0 where it was not.
-    pub program_seconds: f64,
     /// Seconds of this run's steps, without what was written.
     pub seconds: f64,
     /// Longest sub-step at the end, s.
@@ -51,7 +46,7 @@ pub struct Energies {
     pub potential: f64,
     /// Of strain, in the deformable blocks.
     pub strain: f64,
-    /// In the springs of the present contacts; may be negative, see [`riprap::rock::Ledger`].
+    /// In the springs of the present contacts; may be negative, see [`riprap::rock::EnergyLedger`].
     pub elastic: f64,
     /// Taken by friction.
     pub friction: f64,
@@ -79,10 +74,9 @@ impl Rocks {
             blocks: rock.shown,
             awake: rock.awake(),
             contacts: blocks.contacts().count(),
-            pairs: blocks.candidates(),
+            pairs: blocks.candidate_pair_count(),
             tests: blocks.counts().pairs,
             programs: blocks.counts().programs,
-            program_seconds: 0.0,
             seconds: 0.0,
             sub_step: blocks.time_step().min(engine.time_step()),
             max_speed: rock.max_speed(),
@@ -112,7 +106,6 @@ impl Rocks {
         let warm = pace.warm();
         Some(Self {
             max_speed_seen: notes.block_speed.max(now.max_speed),
-            program_seconds: program::seconds().unwrap_or_default(),
             seconds: pace.whole().time.as_secs_f64(),
             steps_a_second: warm.rate(warm.steps),
             ..now

@@ -9,7 +9,7 @@ use super::SphRun;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vtp},
-    sph::point_cloud,
+    simulation::point_cloud,
 };
 use std::path::{Path, PathBuf};
 

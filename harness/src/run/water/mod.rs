@@ -21,7 +21,8 @@ pub use energies::Energies;
 use gauges::GaugeTable;
 use riprap::{
     Error, Result,
-    rock::Ledger,
+    coupling::particle_advice,
+    rock::EnergyLedger,
     scene::{ProbePlace, Quantity, Scene},
     simulation::{FreeSurface, WaterLedger, checkpoint::WaterCheckpoint},
     sph::{self, Totals, Water},
@@ -41,7 +42,7 @@ pub struct SphRun {
     /// Warnings about the scene.
     pub warnings: Vec<String>,
     /// Energies of the blocks at the start of the scene, before any restart.
-    start: Ledger,
+    start: EnergyLedger,
     /// Energies of the water at the start of the scene, before any restart.
     first: WaterLedger,
     /// Step and state of the last readback, which several recorders share.
@@ -84,7 +85,7 @@ impl SphRun {
         run.first = run.simulation.ledger(&water);
         let simulation = &run.simulation;
         let setup = simulation.particles().setup();
-        let advice = sph::advise(
+        let advice = particle_advice(
             scene,
             simulation.setup(),
             simulation.blocks(),

@@ -1,0 +1,193 @@
+//! Blocks for these tests and benches, made from their vertices alone; random numbers.
+
+use glam::{DMat3, DQuat, DVec3};
+use parry3d_f64::shape::ConvexPolyhedron;
+use riprap::{geometry::HalfSpace, rock::contact::Placed};
+
+/// A convex block in its own frame, in the library's terms and in parry's.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Half-spaces whose intersection the block is.
+    pub faces: Vec<HalfSpace>,
+    /// Its vertices.
+    pub vertices: Vec<DVec3>,
+    /// The same block for parry.
+    pub oracle: ConvexPolyhedron,
+}
+
+impl Solid {
+    /// The convex hull of points in general position, which hold the origin.
+    pub fn hull(points: &[DVec3]) -> Self {
+        let oracle =
+            ConvexPolyhedron::from_convex_hull(points).expect("points in general position");
+        let vertices = oracle.points().to_vec();
+        let ring = oracle.vertices_adj_to_face();
+        let faces = oracle.faces().iter().map(|face| {
+            let first = face.first_vertex_or_edge as usize;
+            let corner = |k: usize| vertices[ring[first + k] as usize];
+            let normal = (1..face.num_vertices_or_edges as usize - 1)
+                .map(|k| (corner(k) - corner(0)).cross(corner(k + 1) - corner(0)))
+                .sum::<DVec3>()
+                .normalize();
+            let heights = vertices.iter().map(|v| normal.dot(*v));
+            HalfSpace {
+                normal,
+                distance: heights.fold(f64::NEG_INFINITY, f64::max),
+            }
+        });
+        Self {
+            faces: faces.collect(),
+            vertices: vertices.clone(),
+            oracle,
+        }
+    }
+
+    /// A box with the given edges.
+    pub fn cuboid(edges: DVec3) -> Self {
+        let corner = |k: u32| {
+            let sign = |bit: u32| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
+            edges * DVec3::new(sign(0), sign(1), sign(2))
+        };
+        let mut solid = Self::hull(&(0..8).map(corner).collect::<Vec<_>>());
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = axes.iter().flat_map(|axis| {
+            let distance = 0.5 * edges.dot(*axis);
+            [*axis, -*axis].map(|normal| HalfSpace { normal, distance })
+        });
+        solid.faces = faces.collect();
+        solid
+    }
+
+    /// A cube with edges of 1.
+    pub fn cube() -> Self {
+        Self::cuboid(DVec3::ONE)
+    }
+
+    /// Any tetrahedron around the origin that is not a sliver.
+    pub fn tetrahedron(random: &mut Random) -> Self {
+        loop {
+            let corners: [DVec3; 4] = std::array::from_fn(|_| 0.5 * random.direction());
+            let [a, b, c, d] = corners;
+            let volume = (b - a).cross(c - a).dot(d - a).abs() / 6.0;
+            let mean = (a + b + c + d) / 4.0;
+            let solid = Self::hull(&corners.map(|v| v - mean));
+            if volume > 0.01 && solid.faces.iter().all(|f| f.distance > 0.03) {
+                return solid;
+            }
+        }
+    }
+
+    /// A hull with 20 triangular faces, its vertices on a sphere of diameter 1.
+    pub fn hull_of_twenty(random: &mut Random) -> Self {
+        loop {
+            let points: [DVec3; 12] = std::array::from_fn(|_| 0.5 * random.direction());
+            let solid = Self::hull(&points);
+            if solid.faces.len() == 20 && solid.faces.iter().all(|f| f.distance > 0.05) {
+                return solid;
+            }
+        }
+    }
+
+    /// A cube, a tetrahedron or a hull of 20 faces.
+    pub fn any(random: &mut Random) -> Self {
+        match random.below(3) {
+            0 => Self::cube(),
+            1 => Self::tetrahedron(random),
+            _ => Self::hull_of_twenty(random),
+        }
+    }
+
+    /// The block enlarged about its origin.
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self::hull(&self.vertices.iter().map(|v| *v * scale).collect::<Vec<_>>())
+    }
+
+    /// The block in the world.
+    pub fn at(&self, centre: DVec3, rotation: DQuat) -> Placed {
+        let turn = DMat3::from_quat(rotation);
+        let faces = self.faces.iter().map(|f| HalfSpace {
+            normal: turn * f.normal,
+            ..*f
+        });
+        let distances = self.faces.iter().map(|f| f.distance);
+        Placed {
+            centre,
+            deformation: turn,
+            faces: faces.collect(),
+            vertices: self.vertices.iter().map(|v| turn * *v).collect(),
+            radius: self.radius(),
+            smallest_distance: distances.fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Distance of the farthest vertex from the origin.
+    pub fn radius(&self) -> f64 {
+        self.vertices.iter().map(|v| v.length()).fold(0.0, f64::max)
+    }
+}
+
+/// A sphere in the world.
+pub fn ball(radius: f64, centre: DVec3) -> Placed {
+    Placed {
+        centre,
+        deformation: DMat3::IDENTITY,
+        radius,
+        smallest_distance: radius,
+        ..Placed::default()
+    }
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    /// 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In 0 .. `n`.
+    pub fn below(&mut self, n: u64) -> u64 {
+        self.bits() % n
+    }
+
+    /// In [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Evenly spread logarithm.
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    /// Evenly spread over the cube of edges 2.
+    pub fn vector(&mut self) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|_| self.between(-1.0, 1.0)))
+    }
+
+    /// Evenly spread over the unit sphere.
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let v = self.vector();
+            if (0.01..1.0).contains(&v.length_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+
+    /// Evenly spread over all rotations.
+    pub fn rotation(&mut self) -> DQuat {
+        loop {
+            let v: [f64; 4] = std::array::from_fn(|_| self.between(-1.0, 1.0));
+            let q = DQuat::from_array(v);
+            if (0.01..1.0).contains(&q.length_squared()) {
+                return q.normalize();
+            }
+        }
+    }
+}

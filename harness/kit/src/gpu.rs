@@ -1,0 +1,171 @@
+//! Adapters: which there are, which one is used, and waiting for it with a time-out.
+
+use riprap::{Error, Result, wgpu};
+use std::{
+    future::Future,
+    pin::pin,
+    sync::Arc,
+    task::{Context, Poll, Wake, Waker},
+    time::{Duration, Instant},
+};
+
+/// What to do where there is no adapter.
+pub const HINT: &str = "no GPU adapter was found; install a Vulkan driver for your GPU, or the \
+    software one: apt-get install mesa-vulkan-drivers libvulkan1";
+
+/// All adapters with compute shaders, GPUs first, then Vulkan on the CPU, then OpenGL.
+pub fn adapters() -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let mut found: Vec<_> = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+        .into_iter()
+        .filter(|a| a.limits().max_compute_invocations_per_workgroup >= 64)
+        .collect();
+    found.sort_by_key(|a| rank(&a.get_info()));
+    found
+}
+
+fn rank(info: &wgpu::AdapterInfo) -> u32 {
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        _ if is_software(info) => 4,
+        _ => 3,
+    };
+    let backend = match info.backend {
+        wgpu::Backend::Gl => 1,
+        _ => 0,
+    };
+    2 * kind + backend
+}
+
+/// Whether the adapter computes on the CPU.
+pub fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    let name = info.name.to_lowercase();
+    info.device_type == wgpu::DeviceType::Cpu
+        || ["llvmpipe", "lavapipe", "swiftshader", "softpipe"]
+            .iter()
+            .any(|s| name.contains(s))
+}
+
+/// Name, back end and driver in one line.
+pub fn describe(info: &wgpu::AdapterInfo) -> String {
+    let driver = format!("{} {}", info.driver, info.driver_info);
+    format!("{} ({:?}, {})", info.name, info.backend, driver.trim())
+}
+
+/// The adapter whose description contains `name`, or the first one.
+///
+/// # Errors
+/// If there is none: what to install, or which names there are.
+pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
+    let all = adapters();
+    if all.is_empty() {
+        return Err(Error::Device(HINT.into()));
+    }
+    let names: Vec<_> = all.iter().map(|a| describe(&a.get_info())).collect();
+    let wanted = name.unwrap_or_default().to_lowercase();
+    let at = names
+        .iter()
+        .position(|n| n.to_lowercase().contains(&wanted));
+    at.and_then(|at| all.into_iter().nth(at)).ok_or_else(|| {
+        Error::Device(format!(
+            "no adapter is called '{}'; there are: {}",
+            name.unwrap_or_default(),
+            names.join("; ")
+        ))
+    })
+}
+
+/// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one: what tests run on.
+///
+/// # Errors
+/// Those of [`pick`].
+pub fn selected() -> Result<wgpu::Adapter> {
+    pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref())
+}
+
+/// A device with the given features and limits.
+///
+/// # Errors
+/// What the driver says.
+pub fn open(
+    adapter: &wgpu::Adapter,
+    features: wgpu::Features,
+    limits: wgpu::Limits,
+) -> Result<(wgpu::Device, wgpu::Queue)> {
+    let request = adapter.request_device(&wgpu::DeviceDescriptor {
+        label: Some("riprap"),
+        required_features: features,
+        required_limits: limits,
+        ..Default::default()
+    });
+    pollster::block_on(request).map_err(|e| Error::Device(e.to_string()))
+}
+
+/// Time between two looks at a GPU: short beside a step of it.
+const NAP: Duration = Duration::from_micros(20);
+
+/// Runs `future` to its end, polling the device for it.
+///
+/// A GPU is looked at often, so that the host goes on with what has come while the GPU works on the rest; a CPU adapter
+/// has no other cores than the host, which waits until all is done.
+///
+/// # Errors
+/// [`Error::Timeout`] if the device is silent for `patience`: drivers may hang on infinite waits.
+pub fn drive<T>(
+    device: &wgpu::Device,
+    patience: Duration,
+    what: &str,
+    future: impl Future<Output = T>,
+) -> Result<T> {
+    let looks = !is_software(&device.adapter_info());
+    drive_by(device, looks, patience, what, future)
+}
+
+/// The same, by looks at the device, or by waits for all that was submitted.
+///
+/// # Errors
+/// Those of [`drive`].
+pub fn drive_by<T>(
+    device: &wgpu::Device,
+    looks: bool,
+    patience: Duration,
+    what: &str,
+    future: impl Future<Output = T>,
+) -> Result<T> {
+    struct Idle;
+    impl Wake for Idle {
+        fn wake(self: Arc<Self>) {}
+    }
+    let waker = Waker::from(Arc::new(Idle));
+    let mut future = pin!(future);
+    let start = Instant::now();
+    loop {
+        if let Poll::Ready(value) = future.as_mut().poll(&mut Context::from_waker(&waker)) {
+            return Ok(value);
+        }
+        let left = patience.saturating_sub(start.elapsed());
+        let waited = device.poll(match looks {
+            true => wgpu::PollType::Poll,
+            false => wgpu::PollType::Wait {
+                submission_index: None,
+                timeout: Some(left.min(Duration::from_secs(1))),
+            },
+        });
+        match waited {
+            Err(wgpu::PollError::Timeout) | Ok(_) => {}
+            Err(error) => return Err(Error::DeviceLost(error.to_string())),
+        }
+        if looks {
+            std::thread::sleep(NAP);
+        }
+        if start.elapsed() >= patience {
+            return Err(Error::Timeout {
+                what: what.into(),
+                seconds: patience.as_secs_f64(),
+                remedy: "use fewer steps at a time, a smaller grid, or another adapter".into(),
+            });
+        }
+    }
+}

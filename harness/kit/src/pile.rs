@@ -1,0 +1,196 @@
+//! A rock mass at rest under its weight: the scene in which contacts and steps are measured.
+
+use glam::DVec3;
+use riprap::{
+    Result,
+    geometry::{Form, HalfSpace, JointSet, RockMass, Scatter, Shape},
+    rock::{
+        Block, Blocks, Material, Setup,
+        broadphase::{Broadphase, HostBroadphase},
+        contact::Placed,
+        law::Joint,
+    },
+};
+
+use std::sync::Arc;
+
+/// Blocks of about 1 m, one above the other: piles grow sideways, so that as many steps let the weight
+/// come to rest in all of them, and the share of the blocks at the walls says little about the cost.
+const LAYERS: f64 = 6.0;
+/// Width of the bedrock around the free blocks, m.
+const BEDROCK: f64 = 1.0;
+/// Mass damping, 1/s. A column of the height H swings at πc/2H = 160 rad/s, c = √(k_n h/ρ) = 614 m/s,
+/// and the pile, sheared too, at half of that: twice its frequency damps it critically.
+const DAMPING: f64 = 150.0;
+
+/// Largest speed of a block at rest, m/s: at steps of some 1e-5 s it moves by 1e-7 of its size in one.
+const REST: f64 = 3e-3;
+/// Steps after which a pile is taken as it is.
+const MOST_STEPS: u64 = 4000;
+
+/// Blocks and how much they still move.
+pub struct Pile {
+    /// The blocks, with pairs and contacts.
+    pub blocks: Blocks,
+    /// Blocks that can move.
+    pub free: usize,
+    /// Steps that it took to come to rest.
+    pub steps: u64,
+    setup: Setup,
+}
+
+impl Pile {
+    /// Fresh.
+    pub fn fresh(count: usize) -> Result<Self> {
+        let setup = jointed(count)?;
+        let blocks = Blocks::new(setup.clone())?;
+        Ok(Self {
+            free: (0..blocks.len()).filter(|&i| blocks.moves(i)).count(),
+            steps: 0,
+            blocks,
+            setup,
+        })
+    }
+
+    /// About `count` free blocks at rest.
+    ///
+    /// # Errors
+    /// If a step fails.
+    pub fn settled(count: usize) -> Result<Self> {
+        let setup = jointed(count)?;
+        let mut blocks = Blocks::new(setup.clone())?;
+        while blocks.steps() < MOST_STEPS {
+            for _ in 0..20 {
+                find_pairs(&mut blocks)?;
+                blocks.step()?;
+            }
+            if blocks.largest_speed() < REST {
+                break;
+            }
+        }
+        Ok(Self {
+            free: (0..blocks.len()).filter(|&i| blocks.moves(i)).count(),
+            steps: blocks.steps(),
+            blocks,
+            setup,
+        })
+    }
+
+    /// One step, with new pairs first where they are wanted.
+    ///
+    /// # Errors
+    /// If the step fails.
+    pub fn step(&mut self) -> Result<()> {
+        self.find_pairs()?;
+        self.blocks.step()
+    }
+
+    /// Gives the blocks new pairs where they want them; whether they did.
+    ///
+    /// # Errors
+    /// None that [`Pile::settled`] has not had.
+    pub fn find_pairs(&mut self) -> Result<bool> {
+        find_pairs(&mut self.blocks)
+    }
+
+    /// The same blocks where they are now, without velocities, pairs and contacts.
+    ///
+    /// # Errors
+    /// None that [`Pile::settled`] has not had.
+    pub fn apart(&self) -> Result<Blocks> {
+        let mut setup = self.setup.clone();
+        let poses = self.blocks.poses();
+        for (i, (block, pose)) in setup.blocks.iter_mut().zip(poses).enumerate() {
+            (block.centre, block.rotation) = (pose.centre, self.blocks.rotation(i));
+        }
+        Blocks::new(setup)
+    }
+
+    /// What the contacts see: all blocks where they are now.
+    pub fn placed(&self) -> Vec<Placed> {
+        let both = self.setup.blocks.iter().zip(self.blocks.poses());
+        let placed = both.flat_map(|(block, pose)| {
+            block.shape.parts().iter().map(move |part| {
+                let mut placed = Placed::default();
+                match &part.form {
+                    Form::Convex(shape) => placed.update(shape, part.offset, &pose),
+                    Form::Sphere { radius } => placed.update_sphere(*radius, part.offset, &pose),
+                }
+                placed
+            })
+        });
+        placed.collect()
+    }
+
+    /// The joint of every two blocks.
+    pub fn joint(&self) -> &Joint {
+        &self.setup.materials[0].joint
+    }
+}
+
+/// Gives blocks the pairs that they want; whether they did.
+fn find_pairs(blocks: &mut Blocks) -> Result<bool> {
+    let wanted = blocks.wants_pairs();
+    if wanted {
+        let pairs = pollster::block_on(HostBroadphase.pairs(&blocks.aabbs()))?;
+        blocks.set_pairs(pairs)?;
+    }
+    Ok(wanted)
+}
+
+/// Rock cut by three joint sets of 1 m. The blocks at the sides and below are bedrock and stay in their
+/// places, those that the top of the box cuts are dug away, the others are free.
+fn jointed(count: usize) -> Result<Setup> {
+    // As many whole blocks fit into one spacing more.
+    let half = 0.5 * ((count as f64 / LAYERS).sqrt() + 1.0);
+    let (low, high) = (
+        DVec3::new(-half, -half, 0.0),
+        DVec3::new(half, half, LAYERS + 1.0),
+    );
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let sides = axes.into_iter().flat_map(|axis| {
+        [
+            HalfSpace::through(low - BEDROCK, -axis),
+            HalfSpace::through(high + BEDROCK, axis),
+        ]
+    });
+    let set = |dip, dip_direction, seed| JointSet {
+        dip,
+        dip_direction,
+        spacing: 1.0,
+        scatter: Scatter::Uniform { range: 0.2 },
+        origin: DVec3::splat(0.123),
+        seed,
+        persistence: None,
+    };
+    let mass = RockMass {
+        joints: vec![set(8.0, 20.0, 1), set(80.0, 100.0, 2), set(85.0, 195.0, 3)],
+        ..RockMass::new(vec![sides.collect()])
+    };
+    let mut blocks = Vec::new();
+    for (n, fragment) in mass.cut()?.blocks.into_iter().enumerate() {
+        let corners = fragment.shape.vertices().iter();
+        let corners: Vec<_> = corners.map(|v| fragment.centre + *v).collect();
+        if corners.iter().any(|corner| corner.z > high.z) {
+            continue;
+        }
+        let shape: Arc<Shape> = Arc::new(fragment.shape.into());
+        let block = Block::new(format!("{n}"), shape, fragment.centre);
+        let free = corners
+            .iter()
+            .all(|c| c.cmpge(low).all() && c.cmple(high).all());
+        blocks.push(if free { block } else { block.fixed() });
+    }
+    Ok(Setup {
+        blocks,
+        materials: vec![Material {
+            joint: Joint {
+                friction_angle: 35f64.to_radians(),
+                ..Joint::default()
+            },
+            ..Material::default()
+        }],
+        damping: DAMPING,
+        ..Setup::default()
+    })
+}

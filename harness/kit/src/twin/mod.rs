@@ -1,0 +1,25 @@
+//! The fluid kernels once more in f64 and plain loops: the reference that GPU results are compared with.
+//!
+//! Everything is in lattice units (Δx = Δt = 1, c_s² = 1/3). Populations are stored shifted, f̃_i = f_i − w_i.
+//! Cells are numbered x + nx (y + ny z).
+
+pub mod collide;
+pub mod diagnostics;
+pub mod domain;
+pub mod equilibrium;
+pub mod flow;
+pub mod golden;
+pub mod lattice;
+pub mod moments;
+pub mod noise;
+pub mod of_setup;
+pub mod rates;
+pub mod solid;
+pub mod start;
+pub mod wale;
+
+pub use collide::collide;
+pub use domain::{Domain, Face, Profile};
+pub use flow::{Force, Twin};
+pub use rates::{Config, Equilibrium, OddClass, Operator, Rates};
+pub use solid::{Solid, SolidOperator, tightness};

@@ -1,0 +1,143 @@
+//! The f64 twin of a setup, and random states for both.
+
+use crate::Rig;
+use crate::twin::{self, Twin};
+use riprap::lattice::{
+    Collision, Equilibrium, Face, Force, Lattice, Populations, Setup, SolidOperator, Storage,
+};
+
+/// A number in (−1, 1) that depends on `n` alone.
+pub fn noise(n: usize) -> f64 {
+    let mut x = (n as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678;
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((x >> 11) as f64) / (1u64 << 52) as f64 - 1.0
+}
+
+/// The twin of a setup; pressure and outflow faces have none.
+pub fn twin_of(setup: &Setup) -> Twin {
+    let faces = [0, 1, 2, 3, 4, 5].map(|n| match &setup.faces[n / 2][n % 2] {
+        Face::Periodic => twin::Face::Periodic,
+        Face::Wall(velocity) => twin::Face::Wall(*velocity),
+        Face::FreeSlip => twin::Face::FreeSlip,
+        Face::Velocity(table) => twin::Face::Velocity(twin::Profile::Table(
+            table.iter().map(|u| u.map(f64::from)).collect(),
+        )),
+        other => panic!("no twin of {other:?}"),
+    });
+    let mut domain = twin::Domain::new(setup.cells.map(|n| n as usize), faces);
+    if !setup.solid.is_empty() {
+        domain.solid.clone_from(&setup.solid);
+    }
+    let mut config = twin::Config::new(setup.tau());
+    config.equilibrium = match setup.equilibrium {
+        Equilibrium::Product => twin::Equilibrium::Product,
+        Equilibrium::SecondOrder => twin::Equilibrium::Order2,
+    };
+    config.operator = match setup.collision {
+        Collision::Bgk => twin::Operator::Bgk,
+        Collision::Suga => twin::Operator::Suga,
+        Collision::Hermite => twin::Operator::Hermite,
+    };
+    config.c_w = setup.wale;
+    config.lambda_everywhere = setup.lambda;
+    config.floor = if setup.lambda.is_some() {
+        0.0
+    } else {
+        setup.odd_rate_floor
+    };
+    if let Some(lambda) = setup.wall_lambda {
+        config.lambda_wall = lambda;
+    }
+    config.lambda_solid = setup.solid_lambda;
+    let nothing = vec![twin::Solid::default(); domain.len()];
+    let mut twin = Twin::new(domain, config);
+    let blocks = |operator| match operator {
+        SolidOperator::Holdych => (twin::SolidOperator::Holdych, nothing),
+        SolidOperator::Noble => (twin::SolidOperator::Noble, nothing),
+        SolidOperator::Superposition => (twin::SolidOperator::Superposition, nothing),
+    };
+    twin.blocks = setup.solid_operator.map(blocks);
+    twin.force = match &setup.force {
+        Force::None => twin::Force::Uniform([0.0; 3]),
+        Force::Constant(force) => twin::Force::Uniform(*force),
+        Force::Field(field) => twin::Force::Field(field.iter().map(|f| f.map(f64::from)).collect()),
+    };
+    twin
+}
+
+/// Populations of order 0.025 w_i as in the golden trajectory, exactly the same in f32 and f64, with their own velocity.
+pub fn random_populations(twin: &mut Twin) -> Populations {
+    let n = twin.domain.len();
+    let mut values = vec![0f32; 27 * n];
+    for cell in (0..n).filter(|&cell| !twin.domain.solid[cell]) {
+        for q in 0..27 {
+            let value = (0.025 * twin::lattice::W[q] * noise(27 * cell + q)) as f32;
+            values[q * n + cell] = value;
+            twin.f[cell][q] = f64::from(value);
+        }
+    }
+    let u = twin.velocity();
+    let velocity = (0..3)
+        .flat_map(|a| u.iter().map(move |u| u[a] as f32))
+        .collect();
+    let cells = twin.domain.cells.map(|n| n as u32);
+    Populations {
+        step: 0,
+        cells,
+        values,
+        velocity,
+        carried: Vec::new(),
+    }
+}
+
+/// Fills the populations of a lattice with NaN.
+pub fn poison(rig: &Rig, lattice: &Lattice) {
+    for buffer in lattice.population_buffers() {
+        let nan = vec![0x7fc0_7fc0_u32; buffer.size() as usize / 4];
+        rig.queue
+            .write_buffer(buffer, 0, bytemuck::cast_slice(&nan));
+    }
+}
+
+/// Rounding of f32, and of half precision. The rows of `suga` have unit weight, so that the rounding
+/// of the rest population reaches corners whose weight is 64 times smaller.
+pub fn limit(setup: &Setup) -> f64 {
+    match (setup.storage, setup.collision) {
+        (Storage::F16, _) => 2e-3,
+        (Storage::F32, Collision::Suga) => 2e-6,
+        (Storage::F32, _) => 1e-6,
+    }
+}
+
+/// Storage and lanes: each precision, the fewest lanes and four.
+pub fn layouts() -> [(Storage, u32); 4] {
+    [
+        (Storage::F32, 1),
+        (Storage::F32, 4),
+        (Storage::F16, 2),
+        (Storage::F16, 4),
+    ]
+}
+
+/// Walls of every kind, corners where they meet, and a solid with an edge.
+pub fn walled(lanes: u32, storage: Storage) -> Setup {
+    let mut setup = Setup::periodic([6, 5, 7], 0.02);
+    (setup.lanes, setup.storage) = (lanes, storage);
+    let inlet = (0..5 * 7).map(|n| [0.05, 0.01 * noise(n) as f32, 0.01 * noise(99 + n) as f32]);
+    setup.faces = [
+        [Face::Velocity(inlet.collect()), Face::FreeSlip],
+        [Face::Wall([0.0; 3]), Face::Wall([0.04, 0.0, -0.02])],
+        [Face::FreeSlip, Face::Wall([0.0; 3])],
+    ];
+    setup.solid = (0..6 * 5 * 7)
+        .map(|n| [n % 6, (n / 6) % 5, n / 30])
+        .map(|[x, y, z]| {
+            let block = (2..4).contains(&x) && y < 2 && (2..6).contains(&z);
+            let bed = x < 2 && y < 2 && z < 3;
+            let under_the_lid = x == 4 && y == 4 && z < 2;
+            block || bed || under_the_lid
+        })
+        .collect();
+    setup
+}

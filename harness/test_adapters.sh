@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Runs the tests of kernels, limits and faults on the other software adapters: OpenGL (llvmpipe over EGL) and
+# SwiftShader, which has 10 storage buffers and 256 invocations a workgroup. A line for each adapter says how many
+# tests ran there.
+set -euo pipefail
+root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+export NODEVICE_SELECT=1
+
+harness/setup.sh --adapters
+target=${CARGO_TARGET_DIR:-target}
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+# A test program, and the modules or names of its tests.
+filters=(
+    "gpu lost_device:: memory:: timer::"
+    "lattice divergence_guard:: golden:: kernels:: limits:: repeat::"
+    "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise::"
+    "sph mueller:: refusals:: step::"
+    "rock broadphase::"
+    "coupling faults::"
+    "check more_cells_than_the_device_holds"
+    "run interrupted::"
+)
+
+# run_tests PROGRAM NAME...: its tests whose names contain one of the names. The whole workspace, so that nothing is
+# compiled again with fewer features.
+run_tests() {
+    local program=$1
+    shift
+    if cargo nextest --version >/dev/null 2>&1; then
+        cargo nextest run --workspace --test "$program" -- "$@"
+    else
+        cargo test --workspace --test "$program" -- "$@"
+    fi
+}
+
+# on ADAPTER DRIVER: the tests on the adapter of that name, with that Vulkan driver alone.
+on() {
+    local filter ran total=0 start=$SECONDS
+    for filter in "${filters[@]}"; do
+        # shellcheck disable=SC2086 # a filter is several words
+        RIPRAP_ADAPTER=$1 VK_DRIVER_FILES=$2 run_tests $filter >"$log" 2>&1 || { cat "$log" >&2; return 1; }
+        ran=$(sed -nE 's/^ +Summary .* ([0-9]+) tests? run:.*/\1/p; s/^test result: ok\. ([0-9]+) passed.*/\1/p' "$log")
+        if [ "${ran:-0}" -eq 0 ]; then
+            echo "no test on $1 is called: $filter" >&2
+            return 1
+        fi
+        total=$((total + ran))
+    done
+    echo "$1: $total tests of kernels, limits and faults passed in $((SECONDS - start)) s"
+}
+
+on "(gl," /dev/null
+on swiftshader "$(realpath "$target")/swiftshader/vk_swiftshader_icd.json"

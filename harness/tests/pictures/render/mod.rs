@@ -1,0 +1,12 @@
+//! Pictures in space: bodies are where the camera sees them, nearer ones hide farther ones, colours and lengths
+//! can be read, and what cannot be drawn is said.
+
+mod bodies;
+mod drops;
+mod fixture;
+mod fluid;
+mod frame;
+mod lines;
+mod refusals;
+mod sequences;
+mod shading;

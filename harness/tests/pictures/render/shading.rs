@@ -1,0 +1,162 @@
+//! Light, shadow, edges and colours on bodies.
+
+use super::fixture::{
+    body, body_in_the_middle_row, level, linear, oblique, pixel_at, plain_cube, render, seen, speed,
+};
+use glam::DVec3;
+use riprap::geometry::Polyhedron;
+use riprap::wgpu::naga;
+use riprap_harness::picture::Palette;
+use riprap_harness::render::{
+    Camera, Drawing, Ground, Instance, Mesh, SHADERS, Surface, Vertex, View,
+};
+
+#[test]
+fn shaders_are_valid() {
+    for (name, text) in SHADERS {
+        let module = naga::front::wgsl::parse_str(text)
+            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
+        let flags = naga::valid::ValidationFlags::all();
+        naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
+            .validate(&module)
+            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
+    }
+}
+
+#[test]
+fn shaded_colours_keep_the_ratios_of_the_colour_map() {
+    let meshes = [plain_cube()];
+    let size = [420, 200];
+    for value in [0.0, 0.35, 0.7, 1.0] {
+        let drawing = Drawing {
+            meshes: &meshes,
+            instances: vec![Instance {
+                value: Some(value),
+                ..body(DVec3::ZERO)
+            }],
+            view: View::From(level()),
+            colours: speed([0.0, 1.0]),
+            ..Drawing::default()
+        };
+        let picture = render(&drawing, size);
+        let [x, y] = body_in_the_middle_row(&picture);
+        let drawn = picture.pixel(x, y).map(linear);
+        let map = Palette::FromPale.colour(value);
+        let map = [map.0, map.1, map.2].map(linear);
+        let light = drawn.iter().sum::<f64>() / map.iter().sum::<f64>();
+        assert!(light > 0.3 && light < 1.02, "light {light}");
+        for (drawn, map) in drawn.iter().zip(map) {
+            // Half a step of 8 bits either way is at most 0.0045 in linear light.
+            assert!(
+                (drawn - light * map).abs() < 0.009,
+                "{value}: {drawn} of {map}"
+            );
+        }
+        // The colour bar has the exact colour, to the right of the body.
+        let exact = Palette::FromPale.colour(0.5);
+        let exact = [exact.0, exact.1, exact.2];
+        let near = |p: [u8; 3]| exact.iter().zip(p).all(|(a, b)| a.abs_diff(b) <= 2);
+        let bar =
+            (x..picture.width).any(|x| (0..picture.height).any(|y| near(picture.pixel(x, y))));
+        assert!(bar, "no colour bar");
+    }
+}
+
+#[test]
+fn fixed_blocks_are_grey_and_surfaces_without_light_have_their_own_colour() {
+    let size = [120, 90];
+    let meshes = [plain_cube()];
+    let mut drawing = Drawing {
+        meshes: &meshes,
+        instances: vec![Instance {
+            value: Some(1.0),
+            fixed: true,
+            ..body(DVec3::ZERO)
+        }],
+        view: View::From(level()),
+        ..Drawing::default()
+    };
+    let [r, g, b] = render(&drawing, size).pixel(60, 45);
+    assert!(r == g && g == b && r < 255, "{r} {g} {b}");
+    // A triangle before it.
+    let colour = [17, 130, 201];
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.5]];
+    drawing.surfaces = vec![Surface {
+        vertices: corners
+            .map(|[x, z]| Vertex {
+                position: DVec3::new(x, -1.0, z),
+                normal: -DVec3::Y,
+            })
+            .to_vec(),
+        colours: vec![colour; 3],
+        triangles: vec![[0, 1, 2]],
+        lit: false,
+    }];
+    assert_eq!(render(&drawing, size).pixel(60, 45), colour);
+}
+
+#[test]
+fn the_three_visible_faces_of_a_cube_differ() {
+    let size = [240, 180];
+    let meshes = [plain_cube()];
+    let drawing = Drawing {
+        meshes: &meshes,
+        instances: vec![body(DVec3::ZERO)],
+        view: View::From(oblique()),
+        ..Drawing::default()
+    };
+    let picture = render(&drawing, size);
+    let shades = [DVec3::X, -DVec3::Y, DVec3::Z]
+        .map(|normal| pixel_at(&picture, seen(&oblique(), size, 0.5 * normal))[0]);
+    for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+        assert!(shades[a].abs_diff(shades[b]) > 12, "shades {shades:?}");
+    }
+    assert_eq!(
+        shades.iter().max(),
+        Some(&shades[2]),
+        "the top is the lightest"
+    );
+}
+
+#[test]
+fn edges_are_drawn_dark() {
+    let size = [240, 180];
+    let cube = Mesh::of(&Polyhedron::cuboid(DVec3::ONE).expect("a cube"));
+    assert_eq!(cube.edges.len(), 12);
+    let meshes = [cube];
+    let drawing = Drawing {
+        meshes: &meshes,
+        instances: vec![body(DVec3::ZERO)],
+        view: View::From(oblique()),
+        ..Drawing::default()
+    };
+    let picture = render(&drawing, size);
+    // The edge between the front and the top.
+    let [x, y] = seen(&oblique(), size, DVec3::new(0.0, -0.5, 0.5)).map(|place| place as u32);
+    let across = (y - 3..=y + 3).map(|y| picture.pixel(x, y)[0]);
+    let face = pixel_at(&picture, seen(&oblique(), size, DVec3::new(0.0, -0.5, 0.0)))[0];
+    assert!(across.min() < Some(face / 4 * 3), "face {face}");
+}
+
+#[test]
+fn a_block_throws_its_shadow_away_from_the_sun() {
+    let size = [240, 180];
+    let meshes = [plain_cube()];
+    let camera = Camera {
+        field_of_view: 30_f64.to_radians(),
+        ..oblique()
+    };
+    let drawing = Drawing {
+        meshes: &meshes,
+        instances: vec![body(DVec3::new(0.0, 0.0, 1.0))],
+        view: View::From(camera),
+        ground: Some(Ground { height: 0.0 }),
+        sun: Some(DVec3::new(1.0, 0.0, 1.0)),
+        ..Drawing::default()
+    };
+    let picture = render(&drawing, size);
+    // Between the lines of the grid.
+    let spot = |x: f64| pixel_at(&picture, seen(&camera, size, DVec3::new(x, 0.07, 0.0)))[0];
+    assert!(spot(1.07) > 200, "open ground {}", spot(1.07));
+    assert!(spot(-1.07) < 190, "shadow {}", spot(-1.07));
+}

@@ -1,0 +1,7 @@
+//! Sections and charts.
+
+mod blocks;
+mod charts;
+mod fixture;
+mod slices;
+mod streamlines;

@@ -1,0 +1,4 @@
+//! Records of speed and validation. No time is looked at.
+
+mod bench;
+mod validate;

@@ -1,0 +1,199 @@
+//! `riprap run --error-estimate`: what it compares, and what it refuses.
+
+use crate::fixture::{args, folder, go};
+use riprap_harness::run::{Args, Estimate, Headline, run};
+use std::{path::Path, sync::atomic::AtomicBool};
+
+/// A channel that a force drives, in cells of 1/8 m: a parabola after some time.
+const CHANNEL: &str = r#"
+    [domain]
+    size = [1, 1, 1]
+    cell = 0.125
+    [fluid]
+    viscosity = 0.1
+    acceleration = [0.08, 0, 0]
+    [numerics]
+    mach = 0.1
+    velocity_scale = 0.1
+    [boundaries]
+    y_min = { kind = "wall" }
+    y_max = { kind = "wall" }
+    [run]
+    duration = 2
+    [[output.histories]]
+    quantities = ["mass", "momentum_x"]
+    every = 0.1
+    [[probes]]
+    name = "middle"
+    kind = "point"
+    at = [0.5, 0.5, 0.5]
+    fields = ["velocity"]
+    every = 0.1
+    [[probes]]
+    name = "profile"
+    kind = "line"
+    from = [0.5, 0, 0.5]
+    to = [0.5, 1, 0.5]
+    count = 5
+"#;
+
+/// A tank of water, 24 × 16 particles.
+const WATER: &str = r#"
+    [domain]
+    size = [1.2, 1, 1.2]
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [particles]
+    spacing = 0.05
+    plane = true
+    [boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [[water]]
+    kind = "box"
+    size = [1.2, 1, 0.8]
+    position = [0.6, 0.5, 0.4]
+    [run]
+    steps = 8
+    [[output.histories]]
+    quantities = ["mass", "potential_energy"]
+"#;
+
+fn estimated(folder: &Path, text: &str) -> Estimate {
+    let args = Args {
+        error_estimate: true,
+        ..args(folder, text, "out")
+    };
+    let summary = go(&args);
+    assert!(summary.complete);
+    summary.error_estimate.unwrap()
+}
+
+fn find<'a>(estimate: &'a Estimate, table: &str, quantity: &str) -> &'a Headline {
+    let mut all = estimate.headlines.iter();
+    let found = all.find(|h| h.table == table && h.quantity == quantity);
+    found.unwrap_or_else(|| panic!("no {quantity} of {table} in {estimate}"))
+}
+
+fn refused(folder: &Path, text: &str) -> String {
+    let args = Args {
+        error_estimate: true,
+        ..args(folder, text, "out")
+    };
+    let error = run(&args, &AtomicBool::new(false)).unwrap_err();
+    format!("{error:#}")
+}
+
+/// The coarse numbers are those of the scene with cells twice as wide, run by itself.
+#[test]
+fn a_flow_is_compared_with_cells_twice_as_wide() {
+    let folder = folder("estimate_channel");
+    let estimate = estimated(&folder, CHANNEL);
+    assert_eq!(estimate.missing, None);
+    assert_eq!(estimate.resolution, "cells of 0.25 m");
+
+    let wide = CHANNEL.replace("cell = 0.125", "cell = 0.25");
+    go(&args(&folder, &wide, "wide"));
+    let mean = |path: &str| {
+        let table = riprap::output::Table::read(folder.join(path)).unwrap();
+        let (times, values) = (table.column("time"), table.column("velocity_x"));
+        let rows = times.unwrap().iter().zip(values.unwrap());
+        let last: Vec<f64> = rows.filter(|(t, _)| **t >= 1.5).map(|(_, u)| *u).collect();
+        last.iter().sum::<f64>() / last.len() as f64
+    };
+    let velocity = find(&estimate, "middle", "velocity");
+    assert_eq!(velocity.value[0], mean("out/middle.csv"));
+    assert_eq!(velocity.coarse[0], mean("wide/middle.csv"));
+    // The slip of the wall on four cells is a few percent of u.
+    let relative = velocity.relative.unwrap();
+    assert!((1e-3..0.3).contains(&relative), "{estimate}");
+    assert_eq!(velocity.unit, "m/s");
+
+    assert!(find(&estimate, "history", "mass").relative.unwrap() < 1e-6);
+    assert!(find(&estimate, "history", "momentum_x").value[0] > 0.0);
+    assert!(estimate.headlines.iter().all(|h| h.table != "profile"));
+
+    let told = estimate.to_string();
+    assert!(
+        told.contains("middle: velocity (") && told.contains(" m/s ± "),
+        "{told}"
+    );
+    let json = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let all = json["error_estimate"]["headlines"].as_array().unwrap();
+    assert_eq!(all.len(), estimate.headlines.len());
+}
+
+#[test]
+fn an_odd_number_of_cells_is_refused_with_what_would_do() {
+    let text = CHANNEL.replace("size = [1, 1, 1]", "size = [1, 1.125, 1]");
+    let error = refused(&folder("estimate_odd"), &text);
+    for part in [
+        "9 cells",
+        "along y",
+        "1.000000 or 1.250000 m",
+        "--error-estimate",
+    ] {
+        assert!(error.contains(part), "{part}: {error}");
+    }
+}
+
+#[test]
+fn a_scene_without_measurements_says_so() {
+    let cut = CHANNEL.find("[[output.histories]]").unwrap();
+    let text = CHANNEL[..cut].replace("duration = 2", "duration = 0.1");
+    let estimate = estimated(&folder("estimate_nothing"), &text);
+    assert!(estimate.missing.unwrap().contains("[[probes]]"));
+}
+
+/// s = ½gt²(sin 30° − cos 30° tan 25°), exact at any step but for those of the contact.
+#[test]
+fn dry_blocks_are_compared_with_steps_twice_as_long() {
+    let text = include_str!("../../scenes/incline.toml");
+    let cut = text.find("[[views]]").unwrap();
+    let estimate = estimated(&folder("estimate_dry"), &text[..cut]);
+    assert_eq!(estimate.missing, None);
+    let position = find(&estimate, "smooth", "position");
+    assert!(position.difference < 1e-3, "{estimate}");
+    assert!(position.difference > 0.0, "{estimate}");
+}
+
+#[test]
+fn water_is_compared_with_particles_twice_as_far_apart() {
+    let estimate = estimated(&folder("estimate_water"), WATER);
+    assert_eq!(estimate.resolution, "particles 0.1 m apart");
+    assert!(find(&estimate, "history", "mass").relative.unwrap() < 1e-6);
+}
+
+/// Steps of a scene divide the intervals of its outputs, at half the resolution into other numbers.
+#[test]
+fn both_runs_of_water_end_together() {
+    let folder = folder("estimate_end");
+    let text = WATER.replace(
+        "\"potential_energy\"]",
+        "\"potential_energy\"]\n        every = 0.05",
+    );
+    let estimate = estimated(&folder, &text);
+    let end = |folder: &Path| {
+        let table = riprap::output::Table::read(folder.join("history.csv")).unwrap();
+        *table.column("time").unwrap().last().unwrap()
+    };
+    let ends = [&folder.join("out"), &estimate.folder].map(|folder| end(folder));
+    // Three steps an interval.
+    assert!((ends[0] - 8.0 * 0.05 / 3.0).abs() < 1e-9, "{ends:?}");
+    assert!((ends[0] - ends[1]).abs() < 1e-9, "{ends:?}");
+}
+
+#[test]
+fn a_restart_is_refused() {
+    let folder = folder("estimate_restart");
+    let args = Args {
+        error_estimate: true,
+        restart: Some("state.riprap".into()),
+        ..args(&folder, CHANNEL, "out")
+    };
+    let error = run(&args, &AtomicBool::new(false)).unwrap_err();
+    assert!(error.to_string().contains("--restart"), "{error}");
+}

@@ -1,0 +1,15 @@
+//! `riprap run` and the commands that run scenes: what they write, how they end, and what they refuse.
+
+mod block_shapes;
+mod coupled;
+mod deformable;
+mod dry;
+mod error_estimate;
+mod fingerprint;
+mod fixture;
+#[cfg(unix)]
+mod interrupted;
+mod lattice;
+mod sph;
+mod threshold;
+mod views;

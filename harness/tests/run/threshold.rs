@@ -1,0 +1,223 @@
+//! `riprap threshold` on scenes whose threshold is known, and what it refuses.
+
+use crate::fixture::folder;
+use riprap_harness::threshold::{Args, Report, run};
+use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
+
+/// A cube on a plane under gravity with a part along the plane: it slides once that is more than the
+/// friction of 30° holds, g tan 30° = 5.664 m/s².
+const SLIDE: &str = r#"
+[rock]
+gravity = [0, 0, -9.81]
+[[materials]]
+name = "rock"
+density = 2700
+normal_stiffness = 1e9
+friction = 30
+[[solids]]
+kind = "box"
+name = "plane"
+min = [-1, -1, -1]
+max = [1, 1, 0]
+[[blocks]]
+name = "cube"
+kind = "box"
+size = [0.1, 0.1, 0.1]
+position = [0, 0, 0.05]
+[[blocks]]
+name = "held"
+kind = "box"
+size = [0.1, 0.1, 0.1]
+position = [0, 0.5, 0.05]
+motion = "fixed"
+[run]
+duration = 0.2
+"#;
+
+/// A ball on the bed of a short channel that has a ridge behind it.
+const PUSH: &str = r#"
+[domain]
+size = [0.16, 0.08, 0.08]
+cell = 0.01
+[fluid]
+viscosity = 1e-3
+[numerics]
+velocity_scale = 3
+[boundaries]
+x_min = { kind = "velocity", velocity = [0, 0, 0] }
+x_max = { kind = "pressure" }
+z_min = { kind = "wall" }
+z_max = { kind = "free_slip" }
+[[materials]]
+name = "rock"
+density = 2650
+normal_stiffness = 1e6
+friction = 40
+[[blocks]]
+name = "plate"
+kind = "box"
+size = [0.04, 0.04, 0.04]
+position = [0.06, 0.04, 0.02]
+[run]
+steps = 60
+"#;
+
+fn args(folder: &Path, text: &str, key: &[&str], [from, to, tolerance]: [f64; 3]) -> Args {
+    let scene = folder.join("scene.toml");
+    fs::write(&scene, text).unwrap();
+    Args {
+        scene,
+        key: key.iter().map(|key| (*key).into()).collect(),
+        from,
+        to,
+        tolerance,
+        out: Some(folder.join("out")),
+        ..Args::default()
+    }
+}
+
+fn go(args: &Args) -> Report {
+    run(args, &AtomicBool::new(false)).unwrap()
+}
+
+#[test]
+fn a_block_slides_where_its_friction_gives_way() {
+    let folder = folder("threshold_slide");
+    let args = args(&folder, SLIDE, &["rock.gravity[0]"], [4.0, 8.0, 0.1]);
+    let report = go(&args);
+    let [still, moves] = report.bracket.unwrap();
+    assert!(report.complete && moves - still <= 0.1, "{report}");
+    // In 0.2 s an excess a leads ½ a t² away: a millimetre takes 0.05 m/s².
+    let slides = 9.81 * 30f64.to_radians().tan();
+    assert!(still < slides + 0.06 && slides < moves, "{report}");
+    assert_eq!(report.trials.len(), 8);
+    let first = report.trials[1].moved.as_ref().unwrap();
+    assert_eq!(first.block, "cube");
+    // From rest at 8 − 5.664 m/s²: a millimetre after √(2 · 0.001/2.336) s, in looks of a 200th of the run.
+    assert!((first.time - 0.02926).abs() < 0.0015, "{first:?}");
+    assert!(report.trials[0].moved.is_none());
+    let table = fs::read_to_string(folder.join("out/threshold.csv")).unwrap();
+    assert_eq!(table.lines().count(), 9);
+    let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["bracket"][0], still);
+    assert!(report.to_string().contains("the threshold is"), "{report}");
+}
+
+#[test]
+fn a_criterion_of_speed_and_a_settled_start_give_the_same_threshold() {
+    let folder = folder("threshold_speed");
+    let args = Args {
+        speed: Some(5e-3),
+        settle: Some(0.05),
+        block: Some("cube".into()),
+        ..args(&folder, SLIDE, &["rock.gravity[0]"], [4.0, 8.0, 0.2])
+    };
+    let report = go(&args);
+    let [still, moves] = report.bracket.unwrap();
+    let slides = 9.81 * 30f64.to_radians().tan();
+    // 5 mm/s after 0.2 s: 0.025 m/s².
+    assert!(still < slides + 0.03 && slides < moves, "{report}");
+    assert!(folder.join("out/settled.riprap").is_file());
+}
+
+#[test]
+fn a_block_that_was_under_way_at_the_end_is_said() {
+    let folder = folder("threshold_under_way");
+    // In 0.2 s an excess of 0.3 m/s² leads 6 mm away, a fifth of what counts, at a speed that covers 12 mm in as long:
+    // at 0.45 m/s² and more, 9 and 18 mm, another trial would see it.
+    let args = Args {
+        distance: Some(0.027),
+        ..args(&folder, SLIDE, &["rock.gravity[0]"], [4.0, 8.0, 0.1])
+    };
+    let report = go(&args);
+    let [still, _] = report.bracket.unwrap();
+    assert!((6.9..7.1).contains(&still), "{report}");
+    let told = report.to_string();
+    assert!(
+        told.contains("cube was under way") && told.contains("lower the threshold"),
+        "{told}"
+    );
+    assert!(!report.trials[0].under_way && report.trials.iter().any(|trial| trial.under_way));
+    let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
+    assert!(json.contains("\"warning\": \"at "), "{json}");
+    // With what it tells beside the bracket it holds the true one.
+    let slides = 9.81 * 30f64.to_radians().tan();
+    let rest = report.rest.unwrap();
+    assert!(rest <= slides && slides < still, "{rest}");
+    assert!(told.contains(&format!("at {rest} none came")), "{told}");
+}
+
+#[test]
+fn a_flow_that_is_fast_enough_moves_a_block() {
+    let folder = folder("threshold_push");
+    let key = "boundaries.x_min.velocity[0]";
+    let args = Args {
+        settle: Some(0.01),
+        ..args(&folder, PUSH, &[key], [0.0, 3.0, 1.6])
+    };
+    let report = go(&args);
+    assert!(report.complete, "{report}");
+    assert_eq!(report.trials.len(), 3);
+    assert!(report.trials[1].moved.is_some(), "{report:?}");
+    assert!(report.trials[0].steps == 60 && report.trials[1].steps < 60);
+}
+
+#[test]
+fn a_formula_at_the_key_is_multiplied() {
+    let folder = folder("threshold_formula");
+    let text = PUSH
+        .replace(
+            "velocity = [0, 0, 0]",
+            "velocity = [\"0.1*min(1, z/0.02)\", 0, 0]",
+        )
+        .replace("[run]\nsteps = 60", "[run]\nsteps = 40");
+    let key = "boundaries.x_min.velocity[0]";
+    let report = go(&args(&folder, &text, &[key], [0.0, 30.0, 16.0]));
+    assert!(report.complete, "{report}");
+    let [still, moves] = report.bracket.unwrap();
+    // Factors of a profile of 0.1 m/s: 30 m/s would be refused.
+    assert!(0.0 <= still && moves <= 30.0, "{report}");
+    assert!(report.trials[1].moved.is_some() && report.trials[0].moved.is_none());
+}
+
+/// What the program says when it refuses.
+#[track_caller]
+fn refused(args: &[&str], words: &[&str]) {
+    let folder = folder("threshold_refused");
+    let scene = folder.join("scene.toml");
+    fs::write(&scene, SLIDE).unwrap();
+    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
+        .arg("threshold")
+        .arg(&scene)
+        .args(args)
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    let told = String::from_utf8(program.stderr).unwrap();
+    assert_eq!(program.status.code(), Some(2), "{told}");
+    for word in words {
+        assert!(told.contains(word), "`{word}` is not in: {told}");
+    }
+}
+
+#[test]
+fn what_cannot_be_searched_is_refused() {
+    let ends = ["--from", "4", "--to", "8", "--tolerance", "0.5"];
+    let with = |more: &[&'static str]| [&ends[..], more].concat();
+    let key = ["--key", "rock.gravity[0]"];
+    refused(&with(&["--key", "rock.gravity[5]"]), &["no [5] among 3"]);
+    refused(&with(&["--key", "rock.gravty[0]"]), &["no `gravty`"]);
+    refused(
+        &with(&["--key", "materials[0].name"]),
+        &["neither a number nor a formula", "rock"],
+    );
+    refused(
+        &with(&["--key", "rock.gravity[0]", "--block", "held"]),
+        &["--block", "cube"],
+    );
+    let both = |from, to| [&key[..], &["--from", from, "--to", to, "--tolerance", "1"]].concat();
+    refused(&both("7", "8"), &["moves at 7 already", "--from"]);
+    refused(&both("-1", "2"), &["no block moves at 2", "--to"]);
+    refused(&both("3", "3"), &["nothing between"]);
+}

@@ -1,0 +1,130 @@
+//! The kernels of blocks, particles and the search for pairs in the languages of drivers.
+
+use super::translate::translate;
+use glam::DVec3;
+use riprap::{
+    gpu::link::{Program, SOURCES},
+    lattice::{Grid, Setup as Fluid, single_cells},
+    psm::{
+        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
+        voxelise_edges,
+    },
+    sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
+};
+use std::collections::HashMap;
+
+/// One for each number that a caller gives.
+fn plain(program: &Program, entry: &str) {
+    let linked = program
+        .link()
+        .unwrap_or_else(|error| panic!("{entry}: {error}"));
+    let overrides = linked.module.overrides.iter();
+    let numbers: HashMap<_, _> = overrides
+        .filter(|(_, o)| o.init.is_none())
+        .filter_map(|(_, o)| Some((o.name.clone()?, 1.0)))
+        .collect();
+    translate(&linked, entry, &numbers, false);
+}
+
+const SEARCH: [&str; 4] = ["bin_count", "bin_scatter", "scan_sum", "scan_spread"];
+
+const SPHERES: Forms = Forms {
+    spheres: true,
+    polyhedra: false,
+};
+const POLYHEDRA: Forms = Forms {
+    spheres: false,
+    polyhedra: true,
+};
+
+fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
+    vec![
+        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Parallel, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Serial, SPHERES)),
+        ("voxelise", voxelise(grid, Walk::Serial, POLYHEDRA)),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
+        ("voxelise_edges", voxelise_edges(grid, SPHERES)),
+        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
+        ("combine_parts", combine_parts(grid, Walk::Serial)),
+        ("combine_parts", combine_parts(grid, Walk::Parallel)),
+        ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
+        ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
+        ("reduce_faces", reduce_faces(grid)),
+        ("sum_faces", sum_faces()),
+        ("reduce_blocks", reduce_blocks()),
+    ]
+}
+
+fn grid() -> Grid {
+    Grid {
+        cells: [8; 3],
+        elements: [8, 8, 4],
+        lanes: 2,
+        brick: [4; 3],
+    }
+}
+
+#[test]
+fn kernels_of_blocks() {
+    for (entry, program) in blocks(&grid()) {
+        plain(&program, entry);
+    }
+}
+
+#[test]
+fn kernels_of_particles_in_all_variants() {
+    for periodic in [false, true] {
+        for state in [EquationOfState::Linear, EquationOfState::Tait] {
+            for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
+                let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
+                (setup.equation_of_state, setup.neighbours) = (state, neighbours);
+                // With one of them, to have both.
+                setup.laminar_viscosity = match state {
+                    EquationOfState::Linear => 0.0,
+                    EquationOfState::Tait => 0.01,
+                };
+                if periodic {
+                    setup.faces[0] = [Side::Periodic; 2];
+                }
+                let frame = CellGrid::new(&setup).unwrap();
+                for kernel in KERNELS {
+                    plain(&sph::program(&setup, &frame, kernel), kernel);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn kernels_of_the_search_for_pairs() {
+    for kernel in SEARCH {
+        plain(&Program::new(kernel), kernel);
+    }
+    for found in ["found_count", "found_write"] {
+        plain(&Program::new("pairs").slot("found", found), "pairs");
+    }
+}
+
+#[test]
+fn the_kernel_that_gathers() {
+    let fluid = Fluid::periodic([4; 3], 0.1);
+    plain(&single_cells(&fluid, 1, "gather"), "gather");
+}
+
+/// A kernel that nobody adds to a test is found here.
+#[test]
+fn every_file_with_an_entry_point_is_translated() {
+    let single = super::single_cells::SINGLE.iter().map(|(file, ..)| *file);
+    let known: Vec<&str> = blocks(&grid())
+        .iter()
+        .map(|(entry, _)| *entry)
+        .chain(KERNELS)
+        .chain(SEARCH)
+        .chain(["pairs", "gather", "collide_stream"])
+        .chain(single)
+        .collect();
+    for (name, text) in SOURCES {
+        assert!(!text.contains("@compute") || known.contains(name), "{name}");
+    }
+}

@@ -1,0 +1,135 @@
+//! The kernels at walls and faces, at the start and for output.
+
+use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
+use riprap::lattice::{Equilibrium, Face, Setup, single_cells};
+
+/// Files, entry points and buffers of the kernels for single cells, without flags and force.
+pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
+    ("links", &["reflect"], &["cell_pass", "links"]),
+    (
+        "moving_wall",
+        &["move_wall"],
+        &["cell_pass", "moving_cells", "wall_velocity"],
+    ),
+    (
+        "pressure_face",
+        &["hold_pressure"],
+        &["cell_pass", "open_face", "face_cells"],
+    ),
+    (
+        "outflow",
+        &["flow_out", "remember"],
+        &["cell_pass", "open_face", "face_cells", "carried"],
+    ),
+    (
+        "exchange",
+        &["take_out", "bring_in"],
+        &["cell_pass", "direction", "canonical"],
+    ),
+    (
+        "initialise",
+        &["initialise"],
+        &[
+            "cell_pass",
+            "density",
+            "velocity_x",
+            "velocity_y",
+            "velocity_z",
+        ],
+    ),
+    (
+        "macroscopic",
+        &["macroscopic"],
+        &[
+            "cell_pass",
+            "density_out",
+            "velocity_x_out",
+            "velocity_y_out",
+            "velocity_z_out",
+        ],
+    ),
+    (
+        "velocity_psm",
+        &["velocity_psm"],
+        &[
+            "bricks",
+            "psm_planes",
+            "density",
+            "velocity_x_out",
+            "velocity_y_out",
+            "velocity_z_out",
+        ],
+    ),
+    (
+        "velocity_restored",
+        &["velocity_restored"],
+        &[
+            "restored_cells",
+            "restored_velocity",
+            "velocity_x_out",
+            "velocity_y_out",
+            "velocity_z_out",
+        ],
+    ),
+    (
+        "sums",
+        &["sum_cells"],
+        &[
+            "density",
+            "velocity_x",
+            "velocity_y",
+            "velocity_z",
+            "partial_sums",
+        ],
+    ),
+    (
+        "derive",
+        &["derive"],
+        &["velocity_x", "velocity_y", "velocity_z", "derived"],
+    ),
+];
+const QUANTITIES: [&str; 3] = [
+    "quantity_q_criterion",
+    "quantity_vorticity",
+    "quantity_eddy_viscosity",
+];
+
+#[test]
+fn kernels_for_single_cells_in_all_variants() {
+    for variant in variants(&[SINGLE.len(), 4, 2, 2, 3, 3]) {
+        let [kernel, layout, equilibrium, walls, force, quantity] = variant[..] else {
+            unreachable!()
+        };
+        let (file, entries, wanted) = SINGLE[kernel];
+        let mut setup = Setup::periodic([4; 3], 0.1);
+        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[layout];
+        setup.equilibrium = [Equilibrium::Product, Equilibrium::SecondOrder][equilibrium];
+        setup.wale = Some(0.5);
+        if walls == 1 {
+            setup.faces[0] = [Face::FreeSlip, Face::FreeSlip];
+        }
+        setup.force = forces()[force].clone();
+        let count = bindings_of(&variant);
+        let program = single_cells(&setup, count, file).slot("quantity", QUANTITIES[quantity]);
+        let linked = program
+            .link()
+            .unwrap_or_else(|error| panic!("{file} {setup:?} {count}: {error}"));
+        for entry in entries {
+            let (found, populations) = names(&linked, entry);
+            for name in wanted {
+                assert!(
+                    found.contains(*name) || entries.len() > 1,
+                    "{entry}: {name}"
+                );
+            }
+            for name in &found {
+                let known = wanted.contains(&name.as_str())
+                    || name == "flags" && walls == 1
+                    || name == "force_field" && force == 2;
+                assert!(known, "{entry} binds {name}");
+            }
+            assert!([0, count as usize].contains(&populations), "{entry}");
+            specialise(&linked, entry, &setup, force == 1);
+        }
+    }
+}

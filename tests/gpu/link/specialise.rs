@@ -1,0 +1,76 @@
+//! Variants, and a linked kernel as drivers see it.
+
+use super::translate::translate;
+use riprap::{
+    gpu::{kernel::bindings, link::Linked},
+    lattice::{Force, Grid, Setup, Storage, constants},
+};
+use std::collections::{BTreeSet, HashMap};
+
+/// Numbers of bindings that spread 27 directions in all ways that the limits of devices ask for.
+pub const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
+/// Storage, lanes, and whether words have 64 bits.
+pub const LAYOUTS: [(Storage, u32, bool); 6] = [
+    (Storage::F32, 1, false),
+    (Storage::F32, 4, false),
+    (Storage::F32, 4, true),
+    (Storage::F16, 2, false),
+    (Storage::F16, 4, false),
+    (Storage::F16, 4, true),
+];
+
+/// The kinds of body force.
+pub fn forces() -> [Force; 3] {
+    [
+        Force::None,
+        Force::Constant([1e-6; 3]),
+        Force::Field(vec![[1e-6; 3]; 64]),
+    ]
+}
+
+/// One of each choice that a setup offers.
+pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+    let counts = counts.to_vec();
+    (0..counts.iter().product()).map(move |mut n| {
+        let digit = |count: &usize| {
+            let digit = n % count;
+            n /= count;
+            digit
+        };
+        counts.iter().map(digit).collect()
+    })
+}
+
+/// Each number of bindings occurs with each value of each choice: the others run through all
+/// remainders of their sum.
+pub fn bindings_of(variant: &[usize]) -> u32 {
+    BINDINGS[variant.iter().sum::<usize>() % BINDINGS.len()]
+}
+
+/// naga's last steps before a driver sees a shader: overrides become numbers, expressions of them are evaluated and
+/// validated, and the whole is written in the language of the driver.
+pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
+    let grid = Grid::new(setup).unwrap();
+    let mut numbers: HashMap<String, f64> = [
+        ("BRICKS", 1.0),
+        ("GUARD_COUNTS", 1.0),
+        ("NON_EQUILIBRIUM", 1.0),
+        ("AXIS", 2.0),
+    ]
+    .into_iter()
+    .chain(constants(setup, &grid, odd))
+    .map(|(name, value)| (name.into(), value))
+    .collect();
+    numbers.retain(|name, _| linked.declares(name));
+    translate(linked, entry, &numbers, setup.is_wide());
+}
+
+/// Names of the buffers but those of the populations, and how many those are.
+pub fn names(linked: &Linked, entry: &str) -> (BTreeSet<String>, usize) {
+    let (populations, others): (Vec<_>, Vec<_>) = bindings(linked, entry)
+        .unwrap()
+        .into_iter()
+        .map(|binding| binding.name)
+        .partition(|name| name.starts_with("populations_"));
+    (others.into_iter().collect(), populations.len())
+}

@@ -1,0 +1,172 @@
+//! Devices that are too small or full: an error that names what does not fit, how large it is, and what to change.
+
+use kit::{Rig, gpu};
+use riprap::{
+    Error, Result,
+    scene::Scene,
+    simulation::{FreeSurface, Simulation},
+    wgpu,
+};
+use std::{path::Path, time::Duration};
+
+/// 16 × 16 × 16 cells, with a block if `blocks` is one.
+fn flow(blocks: &str) -> Scene {
+    scene(&format!(
+        r#"
+        domain = {{ size = [16, 16, 16], cell = 1 }}
+        fluid = {{ density = 1, viscosity = 0.02 }}
+        numerics = {{ time_step = 1, velocity_scale = 0.06 }}
+        rock = {{ gravity = [0, 0, 0] }}
+        run = {{ steps = 1 }}
+        materials = [{{ name = "rock", density = 2.65, normal_stiffness = 1e-2, friction = 30 }}]
+        {blocks}
+        "#
+    ))
+}
+
+const BLOCK: &str = r#"blocks = [{ kind = "box", size = [12, 12, 12], position = [8, 8, 8] }]"#;
+
+/// 40 × 20 particles.
+fn water() -> Scene {
+    scene(
+        r#"
+        domain = { size = [2, 0.1, 1.2] }
+        fluid = { acceleration = [0, 0, -9.81] }
+        particles = { spacing = 0.025, plane = true }
+        water = [{ kind = "box", size = [1, 0.1, 0.5], position = [0.5, 0.05, 0.25] }]
+        run = { duration = 1 }
+        [boundaries]
+        x_min = { kind = "wall" }
+        x_max = { kind = "wall" }
+        z_min = { kind = "wall" }
+        z_max = { kind = "open" }
+        "#,
+    )
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::from_toml(text, Path::new(""), "scene.toml").unwrap()
+}
+
+/// A device whose buffers and bindings hold so many bytes.
+fn small(bytes: u64) -> Rig {
+    Rig::with_limits(wgpu::Limits {
+        max_storage_buffer_binding_size: bytes,
+        max_buffer_size: bytes,
+        ..Rig::new().device.limits()
+    })
+}
+
+fn made_flow(rig: &Rig, scene: &Scene) -> Result<()> {
+    let made = Simulation::new(&rig.device, &rig.queue, scene);
+    gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
+}
+
+fn made_water(rig: &Rig) -> Result<()> {
+    let scene = water();
+    let made = FreeSurface::new(&rig.device, &rig.queue, &scene);
+    gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
+}
+
+/// What is said, all of which has these words.
+fn says(found: Result<()>, words: &[&str]) {
+    let error = found.unwrap_err().to_string();
+    for word in words {
+        assert!(error.contains(word), "{word}: {error}");
+    }
+}
+
+#[test]
+fn a_fluid_that_a_binding_does_not_hold_is_refused_with_its_bytes() {
+    // A direction of 4096 cells takes 16 384 bytes. Beside the populations a kernel of output has four bindings.
+    let bindings = Rig::new()
+        .device
+        .limits()
+        .max_storage_buffers_per_shader_stage
+        - 4;
+    let least = 16_384 * u64::from(27_u32.div_ceil(bindings));
+    let rig = small(least - 4);
+    let (wants, has) = (least.to_string(), (least - 4).to_string());
+    says(
+        made_flow(&rig, &flow("")),
+        &["populations", &wants, &has, "larger cell"],
+    );
+    assert!(made_flow(&small(least), &flow("")).is_ok());
+}
+
+#[test]
+fn blocks_that_a_binding_does_not_hold_are_refused_with_their_bytes() {
+    // Nine numbers of each of the 4096 cells are 147 456 bytes.
+    let rig = small(140_000);
+    assert!(made_flow(&rig, &flow("")).is_ok());
+    let scene = flow(BLOCK);
+    let made = Simulation::new(&rig.device, &rig.queue, &scene);
+    let made = gpu::drive(&rig.device, Duration::from_secs(60), "a test", made).unwrap();
+    // Where they are is known when they are placed.
+    let moved = made.and_then(|mut made| {
+        gpu::drive(
+            &rig.device,
+            Duration::from_secs(60),
+            "a test",
+            made.advance(1),
+        )?
+    });
+    says(
+        moved,
+        &[
+            "cells that blocks reach",
+            "140000",
+            "fewer or smaller blocks",
+        ],
+    );
+}
+
+#[test]
+fn water_that_a_buffer_does_not_hold_is_refused_with_its_bytes() {
+    // 800 particles of water alone take 12 800 bytes of velocities.
+    let rig = small(8_192);
+    says(made_water(&rig), &["8192", "larger spacing"]);
+    assert!(made_water(&Rig::new()).is_ok());
+}
+
+/// A device on which every allocation counts as one too many: wgpu compares what is asked with a part of what the driver
+/// says is free, here none. Drivers that do not say what is free have no such device.
+fn full() -> Option<Rig> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
+            for_resource_creation: Some(0),
+            for_device_loss: None,
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let usual = gpu::selected().unwrap();
+    let (name, backend) = (usual.get_info().name, usual.get_info().backend);
+    let all = pollster::block_on(instance.enumerate_adapters(backend.into()));
+    let adapter = all.into_iter().find(|a| a.get_info().name == name)?;
+    let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits()).ok()?;
+    let scope = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let _ = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 1 << 20,
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    let refused = pollster::block_on(scope.pop());
+    refused.is_some().then_some(Rig { device, queue })
+}
+
+#[test]
+fn a_device_without_memory_says_what_it_does_not_hold() {
+    let Some(rig) = full() else {
+        eprintln!("this driver does not say how much memory is free: not tested");
+        return;
+    };
+    says(made_flow(&rig, &flow("")), &["4096 cells", "larger cell"]);
+    says(
+        made_flow(&rig, &flow(BLOCK)),
+        &["4096 cells", "larger cell"],
+    );
+    says(made_water(&rig), &["800 particles", "larger spacing"]);
+    // Nothing of it is left to fail later.
+    assert!(matches!(made_water(&rig), Err(Error::Device(_))));
+}

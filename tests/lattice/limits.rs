@@ -1,0 +1,480 @@
+//! Grids at the limits of devices: few and small bindings, many workgroups, too many cells, and
+//! hardly any; and numbers beyond all limits.
+
+use kit::Rig;
+use riprap::{
+    Error,
+    gpu::readback::Readback,
+    lattice::{
+        Derived, Face, Force, Grid, Lattice, Observer, Rates, Setup, State, Storage, Sums, memory,
+    },
+    wgpu,
+};
+
+/// What WebGPU promises everywhere: 8 storage buffers of 128 MiB a kernel.
+fn promised() -> wgpu::Limits {
+    let limits = wgpu::Limits::default();
+    assert_eq!(limits.max_storage_buffers_per_shader_stage, 8);
+    assert_eq!(limits.max_storage_buffer_binding_size, 128 << 20);
+    limits
+}
+
+fn cells(setup: &Setup) -> usize {
+    setup.cells.iter().map(|&n| n as usize).product()
+}
+
+/// A wave of 100 cells in density and velocity along x.
+fn waves(setup: &Setup) -> State {
+    let mut state = State::rest(cells(setup));
+    let nx = setup.cells[0] as usize;
+    for n in 0..state.excess.len() {
+        let phase = std::f64::consts::TAU * ((n % nx) % 100) as f64 / 100.0;
+        state.excess[n] = (0.01 * phase.cos()) as f32;
+        state.velocity[0][n] = (0.03 * phase.sin()) as f32;
+        state.velocity[1][n] = (0.02 * phase.cos()) as f32;
+    }
+    state
+}
+
+fn sums(rig: &Rig, lattice: &mut Lattice) -> Sums {
+    let mut observer = Observer::new(&rig.device, lattice).unwrap();
+    rig.wait(observer.sums(&rig.device, &rig.queue, lattice))
+        .unwrap()
+}
+
+/// Everything that takes bindings at once leaves two for the populations.
+#[test]
+fn eight_storage_buffers_give_the_same_bits_as_more() {
+    let mut setup = Setup::periodic([9, 6, 8], 1e-3);
+    setup.wale = Some(0.5);
+    setup.force = Force::Field(vec![[1e-6, 0.0, 2e-6]; 432]);
+    setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.01, 0.0, 0.0])];
+    let state = waves(&setup);
+    let run = |limits, bindings| {
+        let rig = Rig::with_limits(limits);
+        let mut setup = setup.clone();
+        setup.bindings = bindings;
+        let mut lattice = rig.start(setup, &state, true);
+        rig.run(&mut lattice, 21);
+        let count = lattice.population_buffers().len();
+        (count, rig.populations(&mut lattice))
+    };
+    let all = Rig::new();
+    let (one, expected) = run(promised(), None);
+    assert_eq!(one, 1);
+    let (two, found) = run(promised(), Some(2));
+    assert_eq!(two, 2);
+    assert!(found == expected, "two bindings");
+    // What leaves two of eight leaves all but six of more.
+    let most = (all.device.limits().max_storage_buffers_per_shader_stage - 6).min(27);
+    let (_, found) = run(all.device.limits(), Some(most));
+    assert!(found == expected, "{most} bindings");
+    // More than the device has are refused, not cut.
+    let rig = Rig::with_limits(promised());
+    setup.bindings = Some(3);
+    let refused = Lattice::new(&rig.device, setup).unwrap_err();
+    assert!(matches!(refused, Error::Limit { .. }), "{refused}");
+}
+
+/// 1.28 million cells are 138 MB of populations.
+#[test]
+fn populations_above_a_binding_of_128_mib_are_spread() {
+    let setup = Setup::periodic([200, 80, 80], 1e-3);
+    let state = waves(&setup);
+    let run = |limits, bindings| {
+        let rig = Rig::with_limits(limits);
+        let mut setup = setup.clone();
+        setup.bindings = bindings;
+        let mut lattice = rig.start(setup, &state, true);
+        rig.run(&mut lattice, 3);
+        (lattice.population_buffers().len(), rig.state(&mut lattice))
+    };
+    let (count, expected) = run(promised(), None);
+    assert_eq!(count, 2);
+    let all = Rig::new();
+    let (_, found) = run(all.device.limits(), Some(all.most_bindings()));
+    assert!(found == expected);
+}
+
+/// The message of [`Error::Limit`], after a look at its numbers.
+fn limit(error: Error) -> String {
+    match &error {
+        Error::Limit { wants, has, .. } => assert!(wants > has, "{error}"),
+        other => panic!("{other}"),
+    }
+    error.to_string()
+}
+
+#[test]
+fn a_grid_that_the_device_does_not_hold_is_refused_with_numbers() {
+    let rig = Rig::with_limits(promised());
+    for walls in [false, true] {
+        let mut setup = Setup::periodic([1000, 1000, 100], 1e-3);
+        if walls {
+            setup.faces[2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        }
+        let message = limit(Lattice::new(&rig.device, setup).unwrap_err());
+        assert!(message.contains("cells"), "{message}");
+        assert!(message.contains("134217728"), "{message}");
+    }
+    // More cells than an index of 32 bits reaches, on whatever device.
+    let setup = Setup::periodic([2000, 2000, 2000], 1e-3);
+    let message = limit(Lattice::new(&rig.device, setup).unwrap_err());
+    assert!(message.contains("8000000000"), "{message}");
+}
+
+/// As many cells as the refusal names do fit.
+#[test]
+fn the_remedy_of_a_refused_grid_holds() {
+    let kinds =
+        [Storage::F32, Storage::F16].map(|storage| [None, Some(0.325)].map(|wale| (storage, wale)));
+    for (storage, wale) in kinds.into_iter().flatten() {
+        let of = |nx: u32| {
+            let mut setup = Setup::periodic([nx, 100, 100], 1e-3);
+            setup.wale = wale;
+            setup.storage = storage;
+            setup.lanes = if storage == Storage::F32 { 1 } else { 2 };
+            let grid = Grid::new(&setup).unwrap();
+            memory(&setup, &grid, &promised())
+        };
+        let message = limit(of(15_000).unwrap_err());
+        let (_, after) = message.split_once("holds about ").unwrap();
+        let count: u32 = after.split(' ').next().unwrap().parse().unwrap();
+        assert!(of(count / 10_000).is_ok(), "{message}");
+        assert!(of(count / 10_000 + 1).is_err(), "{message}");
+    }
+}
+
+/// 67 188 workgroups in one row, 65 535 of which WebGPU promises. The waves are the same from the
+/// first to the last; the sums, whose loops must be short on every driver, count every cell.
+#[test]
+fn more_workgroups_than_one_dimension_holds() {
+    const NX: u32 = 4_300_000;
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([NX, 1, 1], 0.01);
+    setup.brick = [64, 1, 1];
+    let state = waves(&setup);
+    let mass: f64 = state.excess.iter().map(|&e| f64::from(e)).sum();
+    let mut lattice = rig.start(setup, &state, true);
+    rig.run(&mut lattice, 6);
+    let end = rig.state(&mut lattice);
+    let fields = [&end.excess, &end.velocity[0], &end.velocity[1]];
+    for (field, start) in
+        fields
+            .into_iter()
+            .zip([&state.excess, &state.velocity[0], &state.velocity[1]])
+    {
+        assert!(field.chunks(100).all(|wave| wave == &field[..100]));
+        assert!(field[..100] != start[..100], "nothing has moved");
+    }
+    let sums = sums(&rig, &mut lattice);
+    assert_eq!(sums.cells, f64::from(NX));
+    // 1e-9 a cell: single precision rounds 0.01 to that.
+    assert!(
+        (sums.excess - mass).abs() < 1e-9 * f64::from(NX),
+        "{sums:?}"
+    );
+}
+
+/// A duct of one cell, between slip walls: 4.56 million links, again more than 65 535 groups.
+#[test]
+fn more_links_than_one_dimension_holds() {
+    const NX: u32 = 190_000;
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([NX, 1, 1], 0.01);
+    setup.faces[1] = [Face::FreeSlip, Face::FreeSlip];
+    setup.faces[2] = [Face::FreeSlip, Face::FreeSlip];
+    setup.brick = [64, 1, 1];
+    let mut state = waves(&setup);
+    state.velocity[1].fill(0.0);
+    let mut lattice = rig.start(setup, &state, true);
+    assert!(lattice.geometry().links.len() > 65_535 * 64);
+    rig.run(&mut lattice, 5);
+    let end = rig.state(&mut lattice);
+    assert!(
+        end.excess
+            .chunks(100)
+            .all(|wave| wave == &end.excess[..100])
+    );
+    assert!(end.velocity[1].iter().all(|v| v.abs() < 1e-7));
+    assert_eq!(sums(&rig, &mut lattice).cells, f64::from(NX));
+}
+
+/// Mass before and after 100 steps of noise, for every layout that takes the height.
+fn keeps_its_mass(size: [u32; 3], walls: [bool; 3]) {
+    let rig = Rig::new();
+    for (storage, lanes) in [
+        (Storage::F32, 1),
+        (Storage::F32, 4),
+        (Storage::F16, 2),
+        (Storage::F16, 4),
+    ] {
+        let mut setup = Setup::periodic(size, 0.02);
+        (setup.storage, setup.lanes) = (storage, lanes);
+        for axis in 0..3 {
+            if walls[axis] {
+                setup.faces[axis] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+            }
+        }
+        if !walls[2] && !size[2].is_multiple_of(lanes) {
+            let refused = Lattice::new(&rig.device, setup).unwrap_err();
+            assert!(refused.to_string().contains("lanes"), "{refused}");
+            continue;
+        }
+        let mut state = State::rest(cells(&setup));
+        for n in 0..state.excess.len() {
+            state.excess[n] = 0.01 * (n as f32).sin();
+            for (a, u) in state.velocity.iter_mut().enumerate() {
+                u[n] = 0.03 * (n as f32 + a as f32).cos();
+            }
+        }
+        let count = state.excess.len() as f64;
+        let mut lattice = rig.start(setup, &state, true);
+        let before = sums(&rig, &mut lattice);
+        rig.run(&mut lattice, 101);
+        let after = sums(&rig, &mut lattice);
+        assert_eq!(after.cells, count);
+        // Each step rounds 27 populations of about 0.003 to 2^-25 or, in 16 bits, 2^-12 of that. In
+        // 100 steps these errors add up, as random ones do, to a tenth of what is allowed.
+        let drift = match storage {
+            Storage::F32 => 1e-7,
+            Storage::F16 => 5e-4,
+        };
+        let kept = (after.excess - before.excess).abs();
+        assert!(
+            kept < drift * count,
+            "{size:?} {storage:?} {lanes}: {before:?} {after:?}"
+        );
+        if walls == [false; 3] {
+            for (after, before) in after.momentum.iter().zip(before.momentum) {
+                let kept = (after - before).abs();
+                assert!(kept < drift * count, "{size:?} {storage:?} {lanes}: {kept}");
+            }
+        }
+    }
+}
+
+#[test]
+fn grids_of_one_cell_keep_their_mass() {
+    keeps_its_mass([1, 1, 1], [false; 3]);
+    keeps_its_mass([1, 1, 4], [false; 3]);
+    keeps_its_mass([1, 1, 1], [true; 3]);
+    keeps_its_mass([1, 1, 4], [true, true, false]);
+}
+
+#[test]
+fn odd_and_prime_grids_keep_their_mass() {
+    keeps_its_mass([7, 11, 13], [false; 3]);
+    keeps_its_mass([7, 11, 13], [true; 3]);
+    keeps_its_mass([17, 3, 5], [false, true, false]);
+    keeps_its_mass([2, 2, 2], [false; 3]);
+}
+
+/// A fluid cell between solids on all sides: what is at rest there stays at rest to the bit.
+#[test]
+fn a_cell_between_solids_is_a_closed_box() {
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([3, 3, 3], 0.02);
+    setup.solid = (0..27).map(|n| n != 13).collect();
+    let mut state = State::rest(27);
+    state.excess[13] = 0.01;
+    let mut lattice = rig.start(setup, &state, true);
+    let before = sums(&rig, &mut lattice);
+    rig.run(&mut lattice, 100);
+    let after = sums(&rig, &mut lattice);
+    assert_eq!(after.cells, 1.0);
+    assert!((after.excess - 0.01).abs() < 1e-7, "{before:?} {after:?}");
+    assert!(after.max_speed < 1e-7, "{after:?}");
+}
+
+/// Rows of 64, or of 32 where those leave fewer invocations beyond the grid; short grids have short rows.
+#[test]
+fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
+    for (cells, wall, row) in [
+        (1, false, 8),
+        (17, false, 32),
+        (32, false, 32),
+        (32, true, 32),
+        (96, false, 32),
+        (96, true, 32),
+        (97, false, 64),
+        (128, false, 64),
+        (128, true, 64),
+        (144, true, 32),
+    ] {
+        let mut setup = Setup::periodic([cells, 3, 3], 0.01);
+        if wall {
+            setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        }
+        setup.suit_cpu(wgpu::Features::empty());
+        assert_eq!(setup.brick[0], row, "{cells} cells, walls: {wall}");
+        assert!(setup.brick.iter().product::<u32>() >= 32);
+    }
+}
+
+/// A device that does nothing: what is refused never reaches one.
+fn nothing() -> (wgpu::Device, wgpu::Queue) {
+    wgpu::Device::noop(&wgpu::DeviceDescriptor::default())
+}
+
+#[test]
+fn numbers_that_cannot_be_are_refused_by_name() {
+    const NAN: f64 = f64::NAN;
+    let (device, _) = nothing();
+    let wall = || Face::Wall([0.0; 3]);
+    let closed = |face: Face| move |setup: &mut Setup| setup.faces[1] = [face.clone(), wall()];
+    let refused = |place: &str, change: &dyn Fn(&mut Setup)| {
+        let mut setup = Setup::periodic([4; 3], 0.01);
+        change(&mut setup);
+        let told = Lattice::new(&device, setup).unwrap_err().to_string();
+        assert!(told.starts_with(&format!("{place}: ")), "{place}: {told}");
+    };
+    for nu in [NAN, 0.0, -1.0, 1e300, 1e-300] {
+        refused("nu", &|s| s.nu = nu);
+    }
+    for bad in [NAN, f64::INFINITY, 1e300] {
+        refused("force", &|s| {
+            s.force = Force::Constant([0.0, bad, 0.0]);
+        });
+        refused("force", &|s| {
+            s.force = Force::Field(vec![[bad as f32; 3]; 64]);
+        });
+        refused("max_speed", &|s| s.max_speed = bad);
+        refused("faces.y_min", &closed(Face::Wall([bad, 0.0, 0.0])));
+        let inlet = Face::Velocity(vec![[0.0, bad as f32, 0.0]; 16]);
+        refused("faces.y_min", &closed(inlet));
+    }
+    for bad in [NAN, 0.0, -1.0, 2.1, 5.0] {
+        refused("rates.s4", &|s| s.rates = Rates::equal(bad));
+        refused("rates.s26", &|s| s.rates.s26 = bad);
+    }
+    for bad in [NAN, -1.0, 0.0, f64::INFINITY] {
+        refused("lambda", &|s| s.lambda = Some(bad));
+        refused("wall_lambda", &|s| s.wall_lambda = Some(bad));
+        refused("solid_lambda", &|s| s.solid_lambda = Some(bad));
+        let density = bad;
+        refused("faces.y_min", &closed(Face::Pressure { density }));
+        refused("faces.y_min", &closed(Face::Outflow { density }));
+    }
+    for bad in [NAN, -1.0, 2.0] {
+        refused("odd_rate_floor", &|s| s.odd_rate_floor = bad);
+    }
+    for bad in [NAN, -1.0, f64::INFINITY] {
+        refused("wale", &|s| s.wale = Some(bad));
+    }
+    refused("max_speed", &|s| s.max_speed = -1.0);
+    // It would push water into the domain, or out of it.
+    refused("faces.y_min", &closed(Face::Wall([0.0, 0.1, 0.0])));
+    refused("brick", &|s| s.brick = [u32::MAX; 3]);
+    refused("brick", &|s| s.brick = [1 << 31, 1 << 31, 1 << 7]);
+}
+
+#[test]
+fn grids_of_more_cells_than_can_be_counted_are_refused() {
+    let (device, _) = nothing();
+    for cells in [[1 << 22, 1 << 21, 1 << 21], [u32::MAX; 3]] {
+        let mut setup = Setup::periodic(cells, 0.01);
+        setup.suit_cpu(wgpu::Features::empty());
+        for walls in [false, true] {
+            if walls {
+                setup.faces = [const { [Face::FreeSlip, Face::FreeSlip] }; 3];
+            }
+            let message = limit(Lattice::new(&device, setup.clone()).unwrap_err());
+            assert!(message.starts_with("cells of one grid"), "{message}");
+        }
+    }
+}
+
+#[test]
+fn velocities_of_faces_that_are_none_are_refused() {
+    let (device, queue) = nothing();
+    let mut setup = Setup::periodic([4; 3], 0.01);
+    setup.faces[0] = [
+        Face::Velocity(vec![[0.01, 0.0, 0.0]; 16]),
+        Face::Outflow { density: 1.0 },
+    ];
+    let mut lattice = Lattice::new(&device, setup).unwrap();
+    let mut set =
+        |axis, side, value| lattice.set_face_velocity(&queue, axis, side, vec![[value; 3]; 16]);
+    assert!(set(0, 0, 0.02).is_ok());
+    for (axis, side, value, told) in [
+        (5, 0, 0.02, "axes are 0 to 2"),
+        (0, 2, 0.02, "axes are 0 to 2"),
+        (0, 1, 0.02, "faces.x_max"),
+        (0, 0, f32::NAN, "faces.x_min: contains NaN"),
+    ] {
+        let message = set(axis, side, value).unwrap_err().to_string();
+        assert!(message.contains(told), "{message}");
+    }
+    assert_eq!(
+        lattice.setup().faces[0][0],
+        Face::Velocity(vec![[0.02; 3]; 16])
+    );
+}
+
+/// A kernel of output has five storage buffers.
+#[test]
+fn a_device_of_few_bindings_is_told_of_them_and_not_of_bytes() {
+    let limits = |n| wgpu::Limits {
+        max_storage_buffers_per_shader_stage: n,
+        ..wgpu::Limits::default()
+    };
+    let found = |setup: &Setup, n| memory(setup, &Grid::new(setup).unwrap(), &limits(n));
+    let mut setup = Setup::periodic([8; 3], 0.01);
+    assert!(found(&setup, 5).is_ok());
+    let message = limit(found(&setup, 4).unwrap_err());
+    assert!(
+        message.contains("storage buffers a shader stage"),
+        "{message}"
+    );
+    assert!(!message.contains("bytes"), "{message}");
+    setup.bindings = Some(3);
+    let message = limit(found(&setup, 6).unwrap_err());
+    assert!(message.contains("`bindings` to at most 2"), "{message}");
+}
+
+#[test]
+fn what_a_lattice_does_not_have_is_not_observed() {
+    let (device, queue) = nothing();
+    let lattice = |n| Lattice::new(&device, Setup::periodic([n; 3], 0.01)).unwrap();
+    let (mut own, mut other) = (lattice(4), lattice(4));
+    let mut observer = Observer::new(&device, &own).unwrap();
+    for kind in [Derived::EddyViscosity, Derived::Vorticity(9)] {
+        let read = observer.derived(&device, &queue, &mut own, kind);
+        let message = pollster::block_on(read).unwrap_err().to_string();
+        assert!(message.starts_with("derived: "), "{message}");
+    }
+    let message = pollster::block_on(observer.state_on(&device, &queue, &mut own, Some(&[64])));
+    let message = message.unwrap_err().to_string();
+    assert!(message.contains("no cell 64"), "{message}");
+    let message = pollster::block_on(observer.sums(&device, &queue, &mut other)).unwrap_err();
+    assert!(message.to_string().contains("another lattice"), "{message}");
+    let message = pollster::block_on(observer.state(&device, &queue, &mut other)).unwrap_err();
+    assert!(message.to_string().contains("another lattice"), "{message}");
+}
+
+#[test]
+fn more_than_a_buffer_holds_is_not_read_back() {
+    let (device, queue) = nothing();
+    let buffer = |usage| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 16,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let open = buffer(wgpu::BufferUsages::COPY_SRC);
+    let closed = buffer(wgpu::BufferUsages::STORAGE);
+    let mut readback = Readback::default();
+    for (buffer, count, told) in [
+        (&open, 17, "that has 16"),
+        (&open, usize::MAX, "that has 16"),
+        (&open, 3, "words of 4"),
+        (&closed, 4, "COPY_SRC"),
+    ] {
+        let read = readback.read::<u8>(&device, &queue, buffer, count);
+        let message = pollster::block_on(read).unwrap_err().to_string();
+        assert!(message.contains(told), "{message}");
+    }
+}

@@ -1,0 +1,244 @@
+//! The same bits: twice, after a checkpoint, in every layout, from any workgroup.
+
+use kit::Rig;
+use riprap::{
+    lattice::{Face, Force, Inside, Lattice, Populations, Setup, State, Storage},
+    simulation::checkpoint::Checkpoint,
+    wgpu,
+};
+
+/// WALE, force, walls, an inlet and an outflow: everything that carries memory from step to step.
+fn setup() -> Setup {
+    let mut setup = Setup::periodic([11, 7, 8], 1e-3);
+    setup.wale = Some(0.5);
+    setup.force = Force::Constant([1e-6, 0.0, 0.0]);
+    setup.faces[0] = [
+        Face::Velocity(vec![[0.03, 0.0, 0.0]; 56]),
+        Face::Outflow { density: 1.0 },
+    ];
+    setup.faces[1] = [Face::Wall([0.0; 3]), Face::FreeSlip];
+    setup.solid = (0..616)
+        .map(|n| (4..6).contains(&(n % 11)) && (n / 11) % 7 < 3)
+        .collect();
+    setup
+}
+
+fn state() -> State {
+    let mut state = State::rest(616);
+    for n in 0..616 {
+        state.velocity[0][n] = 0.03;
+        state.velocity[2][n] = 0.01 * (0.1 * n as f32).sin();
+    }
+    state
+}
+
+fn run(rig: &Rig, setup: Setup, steps: usize) -> (Lattice, Populations) {
+    let mut lattice = rig.start(setup, &state(), true);
+    rig.run(&mut lattice, steps);
+    let end = rig.populations(&mut lattice);
+    (lattice, end)
+}
+
+/// Bits of the fluid cells; what lies in solids is nobody's.
+fn bits(populations: &Populations) -> Vec<u32> {
+    let solid = setup().solid;
+    let cells = populations.values.iter().zip(solid.iter().cycle());
+    let fluid = cells
+        .filter(|(_, solid)| !**solid)
+        .map(|(f, _)| f.to_bits());
+    fluid
+        .chain(populations.carried.iter().map(|v| v.to_bits()))
+        .collect()
+}
+
+#[test]
+fn a_run_repeats_to_the_bit() {
+    let rig = Rig::new();
+    for storage in [Storage::F32, Storage::F16] {
+        let mut setup = setup();
+        (setup.storage, setup.lanes) = (storage, 4);
+        let first = run(&rig, setup.clone(), 101).1;
+        assert_eq!(bits(&first), bits(&run(&rig, setup, 101).1));
+    }
+}
+
+#[test]
+fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
+    let rig = Rig::new();
+    let reference = bits(&run(&rig, setup(), 51).1);
+    let mut others = vec![setup(); 6];
+    others[0].lanes = 4;
+    others[1].bindings = Some(rig.most_bindings());
+    others[2].brick = [64, 1, 1];
+    others[3].brick = [32, 4, 2];
+    others[4].brick = [4, 4, 8];
+    others[5].brick = [4, 4, 2];
+    for other in others {
+        let what = format!(
+            "{} lanes, {:?} bindings, brick {:?}",
+            other.lanes, other.bindings, other.brick
+        );
+        assert!(bits(&run(&rig, other, 51).1) == reference, "{what}");
+    }
+}
+
+#[test]
+fn words_of_64_bits_change_no_bit() {
+    let rig = Rig::new();
+    if !rig.device.features().contains(wgpu::Features::SHADER_INT64) {
+        eprintln!("this adapter has no 64-bit words: nothing to compare");
+        return;
+    }
+    let field = Force::Field((0..616).map(|n| [1e-7 * n as f32, 0.0, 1e-6]).collect());
+    for storage in [Storage::F32, Storage::F16] {
+        let mut narrow = setup();
+        (narrow.storage, narrow.lanes, narrow.force) = (storage, 4, field.clone());
+        let wide = Setup {
+            wide: true,
+            ..narrow.clone()
+        };
+        let expected = bits(&run(&rig, narrow, 51).1);
+        assert!(bits(&run(&rig, wide, 51).1) == expected, "{storage:?}");
+    }
+}
+
+#[test]
+fn words_that_the_device_has_not_are_refused() {
+    let (device, _) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let mut setup = Setup::periodic([4, 4, 4], 0.1);
+    (setup.lanes, setup.wide) = (4, true);
+    let error = Lattice::new(&device, setup).unwrap_err().to_string();
+    assert!(error.contains("SHADER_INT64"), "{error}");
+}
+
+#[test]
+fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
+    let rig = Rig::new();
+    let file = std::env::temp_dir().join(format!("riprap-repeat-{}.riprap", std::process::id()));
+    for storage in [Storage::F32, Storage::F16] {
+        for stop in [50, 51] {
+            let mut setup = setup();
+            (setup.storage, setup.lanes) = (storage, if storage == Storage::F32 { 1 } else { 2 });
+            let whole = run(&rig, setup.clone(), 100).1;
+            let saved = Checkpoint {
+                time_step: 1e-3,
+                cell: 1e-2,
+                populations: run(&rig, setup.clone(), stop).1,
+                inside: Inside {
+                    cells: vec![3, 17],
+                    velocity: vec![0.1, -0.2, 0.3, -0.4, 0.5, -0.6],
+                },
+                blocks: None,
+            };
+            saved.write(&file).unwrap();
+            let read = Checkpoint::read(&file).unwrap();
+            assert_eq!(read, saved);
+            let mut lattice = Lattice::new(&rig.device, setup).unwrap();
+            lattice
+                .set_populations(&rig.device, &rig.queue, &read.populations)
+                .unwrap();
+            rig.run(&mut lattice, 100 - stop);
+            let resumed = rig.populations(&mut lattice);
+            assert_eq!(resumed.step, 100);
+            assert!(
+                bits(&resumed) == bits(&whole),
+                "{storage:?}, stopped at {stop}"
+            );
+        }
+    }
+    std::fs::remove_file(&file).unwrap();
+}
+
+#[test]
+fn a_checkpoint_changes_lanes_and_bindings() {
+    let rig = Rig::new();
+    let whole = run(&rig, setup(), 60).1;
+    let saved = run(&rig, setup(), 31).1;
+    let mut other = setup();
+    (other.lanes, other.bindings) = (4, Some(9));
+    let mut lattice = Lattice::new(&rig.device, other).unwrap();
+    lattice
+        .set_populations(&rig.device, &rig.queue, &saved)
+        .unwrap();
+    rig.run(&mut lattice, 29);
+    assert!(bits(&rig.populations(&mut lattice)) == bits(&whole));
+}
+
+#[test]
+fn broken_checkpoints_are_refused() {
+    let rig = Rig::new();
+    let file = std::env::temp_dir().join(format!("riprap-broken-{}.riprap", std::process::id()));
+    let saved = Checkpoint {
+        time_step: 1.0,
+        cell: 1.0,
+        populations: run(&rig, setup(), 2).1,
+        inside: Inside::default(),
+        blocks: None,
+    };
+    saved.write(&file).unwrap();
+    let bytes = std::fs::read(&file).unwrap();
+    let changed = |at: usize, to: u8| {
+        let mut bytes = bytes.clone();
+        bytes[at] = to;
+        bytes
+    };
+    let middle = bytes.len() / 2;
+    for (content, hint) in [
+        (&bytes[..bytes.len() - 5], "cut short"),
+        (&bytes[..40], "cut short"),
+        (&bytes[..14], "cut short"),
+        (&bytes[..3], "not a checkpoint"),
+        (&changed(middle, !bytes[middle]), "damaged"),
+        (&changed(14, b'2'), "version 2 of its format"),
+        (&b"<VTKFile>"[..], "not a checkpoint"),
+    ] {
+        std::fs::write(&file, content).unwrap();
+        let error = Checkpoint::read(&file).unwrap_err().to_string();
+        assert!(error.contains(hint), "{error}");
+    }
+    std::fs::remove_file(&file).unwrap();
+    let mut lattice = Lattice::new(&rig.device, Setup::periodic([4, 4, 4], 0.1)).unwrap();
+    let error = lattice
+        .set_populations(&rig.device, &rig.queue, &saved.populations)
+        .unwrap_err();
+    assert!(error.to_string().contains("[11, 7, 8]"), "{error}");
+}
+
+#[test]
+fn the_guard_names_the_first_bad_step_and_cell() {
+    use riprap::lattice::{Fault, Observer};
+    let rig = Rig::new();
+    for lanes in [1, 4] {
+        let mut setup = Setup::periodic([6, 5, 8], 0.01);
+        setup.lanes = lanes;
+        setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        let mut saved = run_box(&rig, &setup, 7);
+        let n = 6 * 5 * 8;
+        let bad = |x: usize, y: usize, z: usize| x + 6 * (y + 5 * z);
+        saved.values[3 * n + bad(4, 2, 5)] = f32::NAN;
+        saved.values[bad(1, 3, 7)] = 7.0; // ρ = 8 and at rest: no fault by itself
+        let mut lattice = Lattice::new(&rig.device, setup).unwrap();
+        lattice
+            .set_populations(&rig.device, &rig.queue, &saved)
+            .unwrap();
+        let mut observer = Observer::new(&rig.device, &lattice).unwrap();
+        rig.run(&mut lattice, 3);
+        let fault = rig
+            .wait(observer.fault(&rig.device, &rig.queue, &lattice))
+            .unwrap();
+        assert_eq!(
+            fault,
+            Some(Fault {
+                step: 7,
+                cell: [4, 2, 5]
+            }),
+            "{lanes} lanes"
+        );
+    }
+}
+
+fn run_box(rig: &Rig, setup: &Setup, steps: usize) -> Populations {
+    let mut lattice = rig.start(setup.clone(), &State::rest(240), false);
+    rig.run(&mut lattice, steps);
+    rig.populations(&mut lattice)
+}

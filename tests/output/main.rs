@@ -1,0 +1,4 @@
+//! Files, and quantities that are derived for them.
+
+mod files;
+mod velocity_quantities;

@@ -1,0 +1,103 @@
+//! Boxes in one place, without size, far away, huge: the list is still that of every pair tried.
+
+use super::finders::Finders;
+use kit::broadphase::{Random, brute_force, item};
+use riprap::rock::broadphase::Aabb;
+
+fn agree(items: &[Aabb]) -> usize {
+    let found = Finders::new().pairs(items);
+    assert!(found == brute_force(items), "{} pairs", found.len());
+    found.len()
+}
+
+#[test]
+fn everything_in_one_place() {
+    let boxes: Vec<_> = (0..307).map(|n| item([-3.0; 3], [0.5; 3], n)).collect();
+    assert_eq!(agree(&boxes), 307 * 306 / 2);
+    let points: Vec<_> = (0..307).map(|n| item([7.0; 3], [0.0; 3], n)).collect();
+    assert_eq!(agree(&points), 307 * 306 / 2);
+}
+
+/// Nothing is compared in cells of one group: 10¹⁰ comparisons would be noticed.
+#[test]
+fn everything_of_one_group() {
+    let boxes = vec![item([-3.0; 3], [0.5; 3], 4); 100_000];
+    assert_eq!(Finders::new().pairs(&boxes), [[0; 2]; 0]);
+}
+
+/// Corners on a coarse lattice: faces, edges and corners touch exactly, often on cell borders.
+#[test]
+fn boxes_that_just_touch_pair() {
+    let mut random = Random(11);
+    let boxes: Vec<_> = (0..997)
+        .map(|group| {
+            let min = [(); 3].map(|()| f64::from(random.bits() % 41) - 20.0);
+            let edges = [(); 3].map(|()| f64::from(random.bits() % 4));
+            item(min, edges, group)
+        })
+        .collect();
+    agree(&boxes);
+}
+
+/// Neighbours in f64 that are the same number in f32.
+#[test]
+fn a_gap_that_f32_does_not_see_is_a_gap() {
+    let gap = 1e-12;
+    let boxes: Vec<_> = (0..101)
+        .map(|n| item([f64::from(n) * (1.0 + gap), 0.0, 0.0], [1.0; 3], n))
+        .collect();
+    assert_eq!(agree(&boxes), 0);
+}
+
+/// Terrain of 10 km, gravel of 1 cm on one spot of it, and a rock between.
+#[test]
+fn gravel_on_terrain() {
+    let mut random = Random(12);
+    let mut boxes = vec![
+        item([-5000.0, -5000.0, -100.0], [10_000.0, 10_000.0, 100.0], 0),
+        item([4000.05, -3000.0, 0.0], [1.0; 3], 1),
+    ];
+    boxes.extend((2..1009).map(|group| {
+        let at = [4000.0, -3000.0, -0.05].map(|x| x + random.between(0.0, 0.15));
+        item(at, [random.between(0.005, 0.01); 3], group)
+    }));
+    assert!(agree(&boxes) > 1009);
+}
+
+/// One box 10³⁰ m away does not spoil the search for the others.
+#[test]
+fn far_away_and_next_to_nothing() {
+    let mut boxes: Vec<_> = (0..211)
+        .map(|n| item([f64::from(n) * 1e-20, 0.0, 0.0], [1e-20; 3], n))
+        .collect();
+    boxes.push(item([1e30, -1e30, 1e30], [1e20; 3], 1000));
+    boxes.push(item([-1e30; 3], [2e30; 3], 1001));
+    agree(&boxes);
+}
+
+/// Every level at once: each box holds all smaller ones.
+#[test]
+fn nested_boxes_of_all_sizes() {
+    let boxes: Vec<_> = (0..191)
+        .map(|n| {
+            let half = 0.51 * f64::exp2(f64::from(n) - 95.0);
+            item([-half; 3], [2.0 * half; 3], n as u32)
+        })
+        .collect();
+    assert_eq!(agree(&boxes), 191 * 190 / 2);
+}
+
+/// Thin plates in a stack: each cell holds many.
+#[test]
+fn plates_and_needles() {
+    let mut random = Random(13);
+    let boxes: Vec<_> = (0..997)
+        .map(|group| {
+            let mut edges = [1.0; 3];
+            edges[random.bits() as usize % 3] = 0.001;
+            edges[random.bits() as usize % 3] = 0.001;
+            item([(); 3].map(|()| random.between(-4.0, 4.0)), edges, group)
+        })
+        .collect();
+    agree(&boxes);
+}

@@ -1,0 +1,134 @@
+//! Exact touch, deep overlap, numbers that are none.
+
+use glam::{DQuat, DVec3};
+use kit::contact::{Random, Solid, ball};
+use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
+
+fn resolve(a: &Placed, b: &Placed) -> riprap::Result<Verdict> {
+    Resolver::new(Options::default()).resolve(a, b, &mut Cache::default())
+}
+
+/// Faces, edges and corners that meet exactly, in any orientation: no force, and no panic.
+#[test]
+fn exact_touch_gives_no_force() {
+    let cube = Solid::cube();
+    let mut random = Random(14);
+    let shifts = [
+        DVec3::new(0.0, 0.0, 1.0),
+        DVec3::new(0.3, -0.2, 1.0),
+        DVec3::new(0.0, 1.0, 1.0),
+        DVec3::new(0.4, 1.0, 1.0),
+        DVec3::new(1.0, 1.0, 1.0),
+    ];
+    for round in 0..200 {
+        let turn = if round < 5 {
+            DQuat::IDENTITY
+        } else {
+            random.rotation()
+        };
+        let place = random.vector() * 10.0;
+        let a = cube.at(place, turn);
+        let b = cube.at(place + turn * shifts[round % 5], turn);
+        let verdict = resolve(&a, &b).unwrap();
+        assert!(
+            matches!(verdict, Verdict::Undecided | Verdict::Apart),
+            "{:?}: {verdict:?}",
+            shifts[round % 5]
+        );
+    }
+}
+
+/// A crossing of edges at exact touch, which no face separates.
+#[test]
+fn crossing_edges_that_touch_give_no_force() {
+    let cube = Solid::cube();
+    let half = 0.5f64.sqrt();
+    let a = cube.at(
+        -DVec3::Z * half,
+        DQuat::from_rotation_x(std::f64::consts::FRAC_PI_4),
+    );
+    let b = cube.at(
+        DVec3::Z * half,
+        DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4),
+    );
+    match resolve(&a, &b).unwrap() {
+        Verdict::Undecided | Verdict::Apart => {}
+        Verdict::Contact(contact) => assert!(contact.overlap < 1e-14, "{contact:?}"),
+    }
+}
+
+/// A contact that touches for a step keeps its history: the point is still there when it closes.
+#[test]
+fn touch_keeps_the_cache() {
+    let cube = Solid::cube();
+    let mut resolver = Resolver::new(Options::default());
+    let mut cache = Cache::default();
+    let a = cube.at(DVec3::ZERO, DQuat::IDENTITY);
+    let mut at = |z: f64| {
+        let b = cube.at(DVec3::Z * z, DQuat::IDENTITY);
+        resolver.resolve(&a, &b, &mut cache).unwrap()
+    };
+    assert!(matches!(at(1.0 - 1e-4), Verdict::Contact(_)));
+    assert_eq!(at(1.0), Verdict::Undecided);
+    assert!(matches!(at(1.0 - 1e-4), Verdict::Contact(_)));
+    assert!(cache.contact);
+}
+
+#[test]
+fn deep_overlap_is_visible() {
+    let cube = Solid::cube();
+    let a = cube.at(DVec3::ZERO, DQuat::IDENTITY);
+    for (u, deep) in [(0.049, false), (0.051, true), (0.3, true)] {
+        let b = cube.at(DVec3::new(0.1, 0.05, 1.0 - u), DQuat::IDENTITY);
+        let Verdict::Contact(contact) = resolve(&a, &b).unwrap() else {
+            panic!("no contact");
+        };
+        assert_eq!(contact.is_deep(), deep, "{u}");
+        if u < 0.1 {
+            assert!((contact.overlap - u).abs() < 1e-12);
+        }
+    }
+    // One in the other, and one where the other is: still an answer.
+    let small = Solid::cuboid(DVec3::splat(0.2)).at(DVec3::splat(0.1), DQuat::IDENTITY);
+    for b in [small, a.clone()] {
+        let Verdict::Contact(contact) = resolve(&a, &b).unwrap() else {
+            panic!("no contact");
+        };
+        assert!(contact.is_deep() && contact.point.is_finite());
+    }
+}
+
+#[test]
+fn a_pose_that_is_not_finite_is_an_error() {
+    let cube = Solid::cube();
+    let good = cube.at(DVec3::ZERO, DQuat::IDENTITY);
+    let lost = cube.at(DVec3::new(0.0, f64::NAN, 0.9), DQuat::IDENTITY);
+    let far = cube.at(DVec3::new(0.0, f64::INFINITY, 0.9), DQuat::IDENTITY);
+    let no_size = ball(f64::NAN, DVec3::Z);
+    let mut turned = Placed::default();
+    let pose = riprap::geometry::Pose::rigid(
+        DVec3::Z,
+        DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0),
+        DVec3::ZERO,
+        DVec3::ZERO,
+    );
+    turned.update_sphere(0.4, DVec3::X, &pose);
+    for bad in [&lost, &far, &no_size, &turned] {
+        for (a, b) in [(&good, bad), (bad, &good)] {
+            let message = resolve(a, b).unwrap_err().to_string();
+            assert!(message.contains("not finite"), "{message}");
+        }
+    }
+}
+
+/// Numbers that are wrong in one vertex only: whatever is answered, it is answered.
+#[test]
+fn a_broken_face_does_not_hang() {
+    let cube = Solid::cube();
+    let good = cube.at(DVec3::ZERO, DQuat::IDENTITY);
+    let mut bad = cube.at(DVec3::Z * 0.99, DQuat::IDENTITY);
+    bad.faces[2].normal.x = f64::NAN;
+    let _ = resolve(&good, &bad);
+    bad.vertices[1].x = f64::NAN;
+    let _ = resolve(&good, &bad);
+}

@@ -1,0 +1,5 @@
+//! Whole simulations: probes, sensors and restarts.
+
+mod pressure_sensors;
+mod probes;
+mod sph_restart;

@@ -1,0 +1,143 @@
+//! Pressure sensors on walls: water at rest presses by its depth, in corners too, and what strikes a block presses on a patch
+//! over its face as it pushes the block.
+
+use kit::Rig;
+use riprap::{scene::Scene, simulation::FreeSurface};
+use std::path::Path;
+
+const TANK: &str = r#"
+    [fluid]
+    acceleration = [0, 0, -9.81]
+    [boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "open" }
+    [run]
+    duration = 1
+    [output]
+    every = 0.01
+"#;
+
+fn pool(rig: &Rig, rest: &str) -> FreeSurface {
+    let scene = Scene::from_toml(&format!("{TANK}{rest}"), Path::new(""), "scene.toml").unwrap();
+    rig.wait(FreeSurface::new(&rig.device, &rig.queue, &scene))
+        .unwrap()
+}
+
+#[test]
+fn water_at_rest_presses_by_its_depth() {
+    let rig = Rig::new();
+    let mut pool = pool(
+        &rig,
+        r#"
+        [domain]
+        size = [0.6, 0.1, 0.6]
+        [particles]
+        spacing = 0.02
+        plane = true
+        [[water]]
+        kind = "box"
+        size = [0.6, 0.1, 0.4]
+        position = [0.3, 0.05, 0.2]
+        [[probes]]
+        name = "wall"
+        kind = "sensor"
+        at = [0, 0.05, 0.2]
+        normal = "+x"
+        size = 0.08
+        [[probes]]
+        name = "corner"
+        kind = "sensor"
+        at = [0.59, 0.05, 0]
+        normal = "+z"
+        [[probes]]
+        name = "dry"
+        kind = "sensor"
+        at = [0, 0.05, 0.55]
+        normal = "+x"
+        size = 0.04
+    "#,
+    );
+    rig.wait(pool.advance(40)).unwrap();
+    let pressure = |name: &str| pool.sensor(name).unwrap().pressure;
+    for (name, depth) in [("wall", 0.2), ("corner", 0.4)] {
+        let (found, expected) = (pressure(name), 9810.0 * depth);
+        assert!(
+            (found / expected - 1.0).abs() < 0.05,
+            "{name}: {found}, {expected}"
+        );
+        let impulse = pool.sensor(name).unwrap().impulse / pool.time();
+        assert!((impulse / expected - 1.0).abs() < 0.05, "{name}: {impulse}");
+    }
+    assert_eq!(pressure("dry"), 0.0);
+    assert_eq!(pool.sensor("none"), None);
+}
+
+const DAM: &str = r#"
+    [domain]
+    size = [1.2, 0.1, 0.8]
+    [particles]
+    spacing = 0.02
+    plane = true
+    [[water]]
+    kind = "box"
+    size = [0.4, 0.1, 0.4]
+    position = [0.2, 0.05, 0.2]
+    [[materials]]
+    name = "rock"
+    density = 2650
+    normal_stiffness = 1e9
+    friction = 30
+    [[blocks]]
+    name = "wall"
+    kind = "box"
+    size = [0.1, 0.1, 0.8]
+    position = [1.05, 0.05, 0.4]
+    motion = "fixed"
+    [[probes]]
+    name = "wall"
+    kind = "block"
+    block = "wall"
+    every = 0.01
+    [[probes]]
+    name = "patch"
+    kind = "sensor"
+    at = [1.0, 0.05, 0.4]
+    normal = "-x"
+    size = 0.8
+    every = 0.01
+"#;
+
+#[test]
+fn a_patch_over_a_face_feels_what_pushes_its_block() {
+    let rig = Rig::new();
+    let mut pool = pool(&rig, DAM);
+    let (mut pushed, mut cut) = (0.0, None);
+    while pool.time() < 0.8 {
+        rig.wait(pool.advance(1)).unwrap();
+        pushed += pool.external_load()[0].flow.force.x * pool.time_step();
+        if cut.is_none() && pool.time() > 0.5 {
+            cut = Some((pool.step(), rig.wait(pool.checkpoint()).unwrap()));
+        }
+    }
+    let felt = pool.sensor("patch").unwrap();
+    let patch = felt.impulse * 0.8 * 0.1;
+    assert!(pushed > 1.0, "nothing has struck: {pushed}");
+    assert!((patch / pushed - 1.0).abs() < 0.1, "{patch} {pushed}");
+    // From the state on the way to the same bits.
+    let (step, state) = cut.unwrap();
+    let last = pool.step();
+    let mut again = self::pool(&rig, DAM);
+    again.restore(&state).unwrap();
+    rig.wait(again.advance(last - step)).unwrap();
+    assert_eq!(again.sensor("patch"), Some(felt));
+    // A scene without it is another one.
+    let (without, _) = DAM.split_once("[[probes]]\n    name = \"patch\"").unwrap();
+    let mut without = self::pool(&rig, without);
+    let refused = without.restore(&state).unwrap_err().to_string();
+    assert!(
+        refused.contains("1 pressure sensors and the scene 0"),
+        "{refused}"
+    );
+}

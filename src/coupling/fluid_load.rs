@@ -9,6 +9,7 @@ use glam::DVec3;
 
 /// Load of the fluid on a block, the mean since the previous exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FluidLoad {
     /// Load of the flow; zero at rest where buoyancy is separate.
     pub flow: Load,

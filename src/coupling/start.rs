@@ -1,7 +1,7 @@
 //! The blocks of a scene at the time 0.
 
 use crate::{
-    Result,
+    Error, Result,
     rock::{
         Blocks,
         broadphase::{AutoBroadphase, Broadphase},
@@ -16,34 +16,48 @@ use crate::{
 /// a pile, so this is enough for any that a scene lays by hand.
 const SWEEPS: usize = 1000;
 
-/// What finds the pairs of a scene's blocks beside a fluid, whose device it may use.
-pub(crate) fn finder(device: &wgpu::Device, queue: &wgpu::Queue, search: Search) -> AutoBroadphase {
-    let mut finder = AutoBroadphase::new(device, queue);
-    match search {
-        Search::Auto => {}
-        Search::Host => finder.crossover = usize::MAX,
-        Search::Device => finder.crossover = 0,
+/// The broadphase of the blocks of a scene, on `device` if there is one and the scene permits it.
+///
+/// # Errors
+/// [`Error::Scene`] if the scene wants a device and there is none.
+pub(super) fn broadphase(
+    device: Option<(&wgpu::Device, &wgpu::Queue)>,
+    search: Search,
+) -> Result<AutoBroadphase> {
+    let mut broadphase = match (device, search) {
+        (Some((device, queue)), Search::Auto | Search::Device) => {
+            AutoBroadphase::new(device, queue)
+        }
+        (None, Search::Device) => {
+            let message = "pairs are to be searched on a device, and none was given; give one, or use search = \"host\"";
+            return Err(Error::scene("rock.search", message));
+        }
+        (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),
+    };
+    if search == Search::Device {
+        broadphase.crossover = 0;
     }
-    finder
+    Ok(broadphase)
 }
 
 /// The blocks of a scene at the time 0, pushed apart if it says so. They take a sub-step and go back, so
 /// that overlaps and a step that is too long show before the run.
 ///
 /// # Errors
-/// Those of [`Blocks::new`], [`Blocks::relax`] and [`Blocks::step`].
-pub(crate) async fn begin(
+/// [`Error::Overlaps`] if blocks overlap, or cannot be pushed apart; [`Error::TimeStep`] if the step is too long for the
+/// contacts at the start.
+pub(super) async fn begin(
     scene: &Scene,
     setup: &BlockSetup,
-    finder: &mut impl Broadphase,
+    broadphase: &mut impl Broadphase,
 ) -> Result<Blocks> {
     let mut blocks = Blocks::new(setup.setup.clone()).map_err(|error| error.at_key(rock_key))?;
     if scene.rock.relax {
-        blocks.relax(finder, SWEEPS).await?;
+        blocks.relax(broadphase, SWEEPS).await?;
     }
     if blocks.time_step().is_finite() {
         let start = blocks.snapshot();
-        let pairs = finder.pairs(&blocks.aabbs()).await?;
+        let pairs = broadphase.pairs(&blocks.aabbs()).await?;
         blocks.set_pairs(pairs)?;
         blocks.step()?;
         blocks.restore(&start)?;

@@ -6,6 +6,7 @@ use glam::{DMat3, DQuat, DVec3};
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
 /// one any matrix, so that the velocity of a point is the same formula for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Centroid, m.
     pub centre: DVec3,
@@ -123,6 +124,7 @@ pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
 
 /// What a fluid does to a block in a step, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Load {
     /// Force, N.
     pub force: DVec3,

@@ -6,5 +6,7 @@ pub(crate) mod filled;
 pub mod kernel;
 pub mod layout;
 pub mod link;
+#[cfg(feature = "checkpoint")]
+pub(crate) mod plain_bytes;
 pub mod readback;
 pub mod timer;

@@ -183,6 +183,11 @@ impl Lattice {
         self.record_rest(pass);
     }
 
+    /// Records the boundaries of the coming step alone. [`Lattice::record_psm`] does so unless it has been done.
+    pub fn record_boundaries(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.close(pass);
+    }
+
     /// Records the first part of a step: the boundaries, and the bricks that blocks reach. What the
     /// blocks feel is known after it.
     pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {

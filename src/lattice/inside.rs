@@ -6,10 +6,13 @@ use std::sync::Arc;
 
 /// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inside {
     /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub cells: Vec<u32>,
     /// Their velocities, component by component, lattice units.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
 }
 

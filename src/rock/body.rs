@@ -122,6 +122,7 @@ impl Body {
 
 /// State of a block between two steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct State {
     /// m.
     pub centre: DVec3,

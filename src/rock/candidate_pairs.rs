@@ -19,6 +19,7 @@ use rayon::prelude::*;
 
 /// A candidate pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct CandidatePair {
     /// First and second part, in ascending order.
     pub parts: [u32; 2],
@@ -50,6 +51,7 @@ impl CandidatePair {
 
 /// Pose of a block when the list was made, and how far it may move from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SkinReference {
     pub centre: DVec3,
     pub rotation: DQuat,

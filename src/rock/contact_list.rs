@@ -19,6 +19,7 @@ pub(super) const DISTANCES_PER_LIMIT: f64 = 10.0;
 
 /// A contact, vectors along the world's axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Contact {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],

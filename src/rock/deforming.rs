@@ -31,6 +31,7 @@ pub(super) struct Deforming {
 
 /// What changes of one, between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Strain {
     /// F.
     pub deformation: DMat3,

@@ -63,6 +63,7 @@ const CHUNKS_PER_TASK: usize = 8;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct WorkSums {
     pub friction: f64,
     pub lost: f64,

@@ -25,6 +25,7 @@ const NO_BODY: u32 = u32::MAX;
 
 /// One mode, closing or tilt, in which one gap resists.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Film {
     pub blocks: [u32; 2],
     /// Along which the second block moves away from the first; zero for a tilt.

@@ -13,7 +13,6 @@ mod applied_forces;
 mod blocks;
 mod body;
 mod bonds;
-mod bytes;
 mod candidate_pairs;
 mod check;
 mod contact_list;
@@ -41,5 +40,6 @@ pub use setup::{
     Block, Deformable, FixedPoint, Guide, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
 };
 pub use snapshot::Snapshot;
+pub use step::StepTimes;
 
 use body::Body;

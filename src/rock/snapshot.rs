@@ -3,28 +3,19 @@
 use super::{
     Blocks,
     body::State,
-    bytes::{Plain, fields},
     candidate_pairs::{CandidatePair, SkinReference},
     contact_list::{Contact, ContactList},
     deforming::Strain,
     energy::WorkSums,
     films::Film,
 };
-use crate::{
-    Error, Result,
-    rock::{
-        contact::{Bond, Cache},
-        law::{Force, History},
-    },
-};
-
-/// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 5\n";
+use crate::{Error, Result};
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
     time: f64,
     steps: u64,
@@ -46,29 +37,17 @@ impl Snapshot {
         self.time
     }
 
-    /// As bytes, the same on every machine.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = MAGIC.to_vec();
-        self.write(&mut bytes);
-        bytes
-    }
-
-    /// From what [`Snapshot::to_bytes`] gave.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] if the bytes are no snapshot, or are cut short.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
-            let message = "this is no snapshot of this version of riprap";
-            return Err(Error::argument("snapshot", message));
-        };
-        let snapshot = Self::read(&mut rest)?;
-        if rest.is_empty() {
-            Ok(snapshot)
-        } else {
-            let message = format!("{} bytes too many", rest.len());
-            Err(Error::argument("snapshot", message))
-        }
+    /// Bytes of memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        let lists = [
+            size_of_val(&*self.states),
+            size_of_val(&*self.skin_references),
+            size_of_val(&*self.pairs),
+            size_of_val(&*self.contacts),
+            size_of_val(&*self.films),
+            size_of_val(&*self.strains),
+        ];
+        (size_of::<Self>() + lists.iter().sum::<usize>()) as u64
     }
 }
 
@@ -154,108 +133,3 @@ impl Blocks {
         Ok(())
     }
 }
-
-fields!(Snapshot {
-    time,
-    steps,
-    time_step,
-    started,
-    states,
-    skin_references,
-    pairs,
-    contacts,
-    films,
-    work_sums,
-    strains
-});
-fields!(Film {
-    blocks,
-    normal,
-    arms,
-    resistance
-});
-fields!(State {
-    centre,
-    rotation,
-    velocity,
-    momentum,
-    spin,
-    force,
-    torque,
-    load,
-    load_torque,
-    slow,
-    asleep,
-    slept,
-});
-fields!(Strain {
-    deformation,
-    rate,
-    moment,
-    load,
-    skin_reference
-});
-fields!(SkinReference {
-    centre,
-    rotation,
-    skin_margin
-});
-fields!(CandidatePair {
-    parts,
-    offset,
-    cache,
-    contact
-});
-fields!(Cache {
-    plane,
-    point,
-    contact,
-    second
-});
-fields!(Contact {
-    parts,
-    blocks,
-    image_shift,
-    point,
-    pressure_centre,
-    normal,
-    overlap,
-    area,
-    section,
-    width,
-    limit,
-    force,
-    bond,
-    stored,
-    power,
-});
-fields!(Force {
-    spring,
-    dashpot,
-    moment,
-    bending,
-    friction,
-    history
-});
-fields!(History {
-    shear,
-    normal,
-    bonded,
-    slip
-});
-fields!(Bond {
-    area,
-    overlap,
-    arms,
-    normals,
-    axis,
-    extents,
-    seconds
-});
-fields!(WorkSums {
-    friction,
-    lost,
-    film,
-    work,
-    power
-});

@@ -36,6 +36,7 @@ pub struct ExchangeResult {
 
 /// Work on the water since the start, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct ExternalWork {
     /// Work of moving bodies with loads: minus the load on them along their motion in the steps of the water.
     pub bodies: f64,
@@ -49,6 +50,7 @@ pub struct ExternalWork {
 
 /// State of the solver in a checkpoint, without the particles.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct SphState {
     /// Longest next step, in the unit of the device.
     pub step_limit: f32,

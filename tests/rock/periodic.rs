@@ -101,7 +101,7 @@ fn a_blow_goes_round_a_ring() {
     let start = blocks.ledger();
     let bytes = {
         run(&mut blocks, 0.8);
-        blocks.snapshot().to_bytes()
+        postcard::to_allocvec(&blocks.snapshot()).unwrap()
     };
     run(&mut blocks, 3.6);
     let momentum: DVec3 = (0..8)
@@ -121,7 +121,7 @@ fn a_blow_goes_round_a_ring() {
     }
     let mut again = self::blocks(setup);
     again
-        .restore(&Snapshot::from_bytes(&bytes).expect("a snapshot"))
+        .restore(&postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot"))
         .expect("of the same blocks");
     run(&mut again, 3.6);
     assert_eq!(again.snapshot(), blocks.snapshot());

@@ -3,7 +3,7 @@
 use kit::Rig;
 use riprap::{
     scene::Scene,
-    simulation::{FreeSurface, checkpoint::WaterCheckpoint},
+    simulation::{Simulation, checkpoint::Checkpoint},
 };
 use std::path::Path;
 
@@ -69,13 +69,13 @@ const SCENE: &str = r#"
 const STEPS: u64 = 17;
 const CUT: u64 = 6;
 
-fn pool(rig: &Rig) -> FreeSurface {
+fn pool(rig: &Rig) -> Simulation {
     let scene = Scene::from_toml(SCENE, Path::new(""), "scene.toml").unwrap();
-    rig.wait(FreeSurface::new(&rig.device, &rig.queue, &scene))
+    rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
         .unwrap()
 }
 
-fn state(rig: &Rig, pool: &mut FreeSurface) -> WaterCheckpoint {
+fn state(rig: &Rig, pool: &mut Simulation) -> Checkpoint {
     rig.wait(pool.checkpoint()).unwrap()
 }
 
@@ -92,13 +92,15 @@ fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     // Everything anew, as in another process.
     let rig = Rig::new();
     let mut rest = pool(&rig);
-    rest.restore(&WaterCheckpoint::read(&file).unwrap())
-        .unwrap();
+    rest.restore(&Checkpoint::read(&file).unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
     rig.wait(rest.advance(STEPS - CUT)).unwrap();
     let found = state(&rig, &mut rest);
     assert!(found == expected, "the states differ");
     // Something has happened between: water and blocks moved, the stone has a contact, and the joint is known.
-    assert!(expected != start && expected.blocks != start.blocks);
-    assert!(whole.blocks().contacts().count() > 0, "nothing touches");
+    assert!(expected != start && expected.rock != start.rock);
+    assert!(
+        whole.rock().unwrap().blocks().contacts().count() > 0,
+        "nothing touches"
+    );
 }

@@ -182,8 +182,9 @@ fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
 fn same_kernels(worlds: &[World; 2]) -> bool {
     let kernels = |world: &World| {
         let of = |simulation: &Simulation| {
-            let all = simulation.lattice().kernels(false);
-            all.map(|(kernel, groups)| {
+            let lattice = simulation.lattice()?;
+            let all = lattice.kernels(false);
+            let all = all.map(|(kernel, groups)| {
                 let bindings: Vec<_> = kernel.bindings().iter().map(|b| b.name.clone()).collect();
                 (
                     kernel.file().to_owned(),
@@ -191,10 +192,10 @@ fn same_kernels(worlds: &[World; 2]) -> bool {
                     bindings,
                     groups,
                 )
-            })
-            .collect::<Vec<_>>()
+            });
+            Some(all.collect::<Vec<_>>())
         };
-        world.simulation.as_ref().map(of)
+        world.simulation.as_ref().and_then(of)
     };
     kernels(&worlds[0]) == kernels(&worlds[1])
 }

@@ -72,8 +72,11 @@ impl Accuracy {
     /// Of the blocks in a fluid, and of the walls beside it; `speed` (m/s) is that of the fluid.
     pub fn all(simulation: &Simulation, speed: Option<f64>) -> Vec<Self> {
         let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
+        let (Some(lattice), Some(units)) = (simulation.lattice(), simulation.units()) else {
+            return Vec::new();
+        };
         let scene = simulation.scene();
-        let tau = simulation.lattice().setup().tau();
+        let tau = lattice.setup().tau();
         let cell = scene.domain.cell;
         let narrowest = simulation.coupled().and_then(|coupled| coupled.narrowest());
         let blocks = narrowest.and_then(|width| {
@@ -107,7 +110,7 @@ impl Accuracy {
         let narrow = walls.map(|axis| scene.cells()[axis.index()]).min();
         let walls = narrow.and_then(|cells| of_walls(&rows, f64::from(cells), tau));
         // The formula of a pressure that is not finite has been refused.
-        let compression = scene.compression(simulation.units()).unwrap_or_default();
+        let compression = scene.compression(units).unwrap_or_default();
         let all = blocks.into_iter().chain(walls);
         all.map(|found| found.compressed(compression)).collect()
     }

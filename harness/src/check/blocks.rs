@@ -89,7 +89,7 @@ impl BlockFacts {
             skin: blocks.skin(),
             sub_step: blocks.time_step().min(time_step),
             sub_steps: sub_steps.max(1.0) as u64,
-            host_memory: blocks.snapshot().to_bytes().len() as u64
+            host_memory: blocks.snapshot().bytes()
                 + shapes.values().map(|shape| size(shape)).sum::<u64>(),
         }
     }

@@ -51,7 +51,7 @@ impl Immersion {
         let shown = coupled.in_fluid() + scene.solids.len();
         let setup = coupled.setup();
         let shown = &setup.setup.blocks[..shown];
-        let time_step = simulation.units().time_step;
+        let time_step = simulation.time_step();
         let mut open: Vec<&Gap> = coupled.gaps().iter().collect();
         open.retain(|gap| !gap.is_closed(cell));
         open.sort_by(|a, b| a.width.total_cmp(&b.width));
@@ -65,7 +65,7 @@ impl Immersion {
             narrowest: open
                 .iter()
                 .take(LISTED)
-                .map(|gap| Narrow::of(coupled, gap, cell))
+                .map(|gap| Narrow::of(&coupled, gap, cell))
                 .collect(),
         })
     }
@@ -103,7 +103,7 @@ impl Immersion {
 }
 
 impl Narrow {
-    fn of(coupled: &Coupled, gap: &Gap, cell: f64) -> Self {
+    fn of(coupled: &Coupled<'_>, gap: &Gap, cell: f64) -> Self {
         Self {
             blocks: gap.blocks.map(|block| coupled.blocks().name(block).into()),
             width: gap.width,

@@ -1,37 +1,38 @@
 //! The linked WGSL of the kernels of a scene, as files.
 
 use anyhow::Result;
-use riprap::{Error, coupling::Coupled, gpu::link::Linked, lattice::Lattice, psm::SolidCells, sph};
+use riprap::{Error, gpu::link::Linked, psm::SolidCells, simulation::Simulation, sph};
 use std::{fmt::Write, path::Path};
 
-/// Writes a file for each program of a fluid on a lattice: those of a step, and the single-cell kernels that are in use.
+/// Writes a file for each program of the fluid of a scene: those of a step, and the single-cell kernels that are in use.
 ///
 /// # Errors
-/// If the folder or a file cannot be written.
-pub fn write_lattice(folder: &Path, lattice: &Lattice, coupled: Option<&Coupled>) -> Result<()> {
-    let single = lattice.single_cell_kernels();
-    let solid_cells = coupled.map(Coupled::solid_cells);
-    let step = lattice.kernels(false);
-    let blocks = solid_cells.into_iter().flat_map(SolidCells::kernels);
-    let faces = solid_cells.into_iter().flat_map(SolidCells::face_kernels);
-    let kernels = step.chain(blocks).map(|(kernel, _)| kernel).chain(faces);
-    let kernels = kernels.chain(single.iter().map(|kernel| &**kernel));
-    write(folder, kernels.map(|kernel| kernel.linked()))
-}
-
-/// Writes a file for each program of a fluid of particles.
-///
-/// # Errors
-/// If the folder or a file cannot be written.
-pub fn write_particles(folder: &Path, setup: &sph::Setup) -> Result<()> {
+/// If the scene has no fluid, or the folder or a file cannot be written.
+pub fn write(folder: &Path, simulation: &Simulation) -> Result<()> {
+    if let Some(lattice) = simulation.lattice() {
+        let single = lattice.single_cell_kernels();
+        let coupled = simulation.coupled();
+        let solid_cells = coupled.as_ref().map(|coupled| coupled.solid_cells());
+        let step = lattice.kernels(false);
+        let blocks = solid_cells.into_iter().flat_map(SolidCells::kernels);
+        let faces = solid_cells.into_iter().flat_map(SolidCells::face_kernels);
+        let kernels = step.chain(blocks).map(|(kernel, _)| kernel).chain(faces);
+        let kernels = kernels.chain(single.iter().map(|kernel| &**kernel));
+        return write_programs(folder, kernels.map(|kernel| kernel.linked()));
+    }
+    let Some(particles) = simulation.particles() else {
+        let message = "the scene has no fluid, so that there are no kernels to write";
+        return Err(Error::argument("--kernels", message).into());
+    };
+    let setup = particles.setup();
     let grid = sph::CellGrid::new(setup)?;
     let linked = sph::kernels_of(setup).map(|kernel| sph::program(setup, &grid, kernel).link());
     let linked = linked.collect::<riprap::Result<Vec<_>>>()?;
-    write(folder, linked.iter())
+    write_programs(folder, linked.iter())
 }
 
 /// Writes each program once; programs of the same file that differ in their slots are numbered.
-fn write<'a>(folder: &Path, linked: impl Iterator<Item = &'a Linked>) -> Result<()> {
+fn write_programs<'a>(folder: &Path, linked: impl Iterator<Item = &'a Linked>) -> Result<()> {
     let failed = |path: &Path, error: std::io::Error| {
         let message = format!("cannot be written: {error}; choose another folder with `--kernels`");
         Error::file(path, message)

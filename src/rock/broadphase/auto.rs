@@ -10,8 +10,7 @@ use crate::Result;
 pub struct AutoBroadphase {
     /// Items from which on the device is used.
     pub crossover: usize,
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    device: Option<(wgpu::Device, wgpu::Queue)>,
     device_broadphase: Option<DeviceBroadphase>,
 }
 
@@ -31,8 +30,16 @@ impl AutoBroadphase {
         };
         Self {
             crossover,
-            device: device.clone(),
-            queue: queue.clone(),
+            device: Some((device.clone(), queue.clone())),
+            device_broadphase: None,
+        }
+    }
+
+    /// Searches on the host alone.
+    pub fn on_host() -> Self {
+        Self {
+            crossover: usize::MAX,
+            device: None,
             device_broadphase: None,
         }
     }
@@ -40,12 +47,13 @@ impl AutoBroadphase {
 
 impl Broadphase for AutoBroadphase {
     async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
-        if aabbs.len() < self.crossover {
-            return HostBroadphase.pairs(aabbs).await;
-        }
+        let (device, queue) = match &self.device {
+            Some(device) if aabbs.len() >= self.crossover => device,
+            _ => return HostBroadphase.pairs(aabbs).await,
+        };
         let broadphase = match &mut self.device_broadphase {
             Some(broadphase) => broadphase,
-            empty => empty.insert(DeviceBroadphase::new(&self.device, &self.queue)?),
+            empty => empty.insert(DeviceBroadphase::new(device, queue)?),
         };
         broadphase.pairs(aabbs).await
     }

@@ -51,3 +51,6 @@ pub trait Broadphase {
     /// If a device fails, or an item is not finite.
     fn pairs(&mut self, aabbs: &[Aabb]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
 }
+
+/// Most storage buffers in a kernel of [`DeviceBroadphase`].
+pub const MAX_STORAGE_BUFFERS: u32 = 6;

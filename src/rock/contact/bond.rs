@@ -12,6 +12,7 @@ const SMALLEST_PATCH: f64 = 1e-6;
 /// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
 /// the axes of its block's frame, before it deforms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bond {
     /// m².
     pub area: f64,

@@ -8,6 +8,7 @@ use super::pair::Pair;
 /// blocks. Both are hints: they are tested before they are believed, so a cache that is old, or
 /// belongs to another pair, costs time and changes no verdict. Plain data, for checkpoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cache {
     /// Normal of the plane, away from the block that holds it; zero: none.
     pub plane: [f64; 3],

@@ -19,6 +19,7 @@ use glam::{DQuat, DVec3};
 
 /// What a contact remembers from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
     /// Shear force of the spring on the second block, N, in the first block's frame.
     pub shear: DVec3,
@@ -66,6 +67,7 @@ pub struct Motion {
 
 /// What a contact does to the second block; the first gets the opposite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Force {
     /// Force of the springs, N.
     pub spring: DVec3,

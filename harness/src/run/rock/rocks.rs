@@ -1,6 +1,6 @@
 //! A run of blocks in numbers.
 
-use super::super::{engine::Engine, pace::Pace, recorder::Notes};
+use super::super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
 use serde::Serialize;
 use std::fmt;
 
@@ -65,9 +65,9 @@ pub struct Energies {
 }
 
 impl Rocks {
-    /// The present state of the blocks of `engine`, if it has any.
-    pub fn of(engine: &impl Engine) -> Option<Self> {
-        let rock = engine.rock()?;
+    /// The present state of the blocks of `run`, if it has any.
+    pub fn of(run: &SceneRun) -> Option<Self> {
+        let rock = run.rock()?;
         let blocks = rock.blocks;
         let ledger = blocks.ledger();
         Some(Self {
@@ -78,7 +78,7 @@ impl Rocks {
             tests: blocks.counts().pairs,
             programs: blocks.counts().programs,
             seconds: 0.0,
-            sub_step: blocks.time_step().min(engine.time_step()),
+            sub_step: blocks.time_step().min(run.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
             energy_error: rock.energy_error(&ledger),
@@ -101,12 +101,12 @@ impl Rocks {
     }
 
     /// The state at the end of a run.
-    pub fn concluded(engine: &impl Engine, notes: &Notes, pace: &Pace) -> Option<Self> {
-        let now = Self::of(engine)?;
-        let warm = pace.warm();
+    pub fn finished(run: &SceneRun, log: &RunLog, throughput: &Throughput) -> Option<Self> {
+        let now = Self::of(run)?;
+        let warm = throughput.warm();
         Some(Self {
-            max_speed_seen: notes.block_speed.max(now.max_speed),
-            seconds: pace.whole().time.as_secs_f64(),
+            max_speed_seen: log.block_speed.max(now.max_speed),
+            seconds: throughput.whole().time.as_secs_f64(),
             steps_a_second: warm.rate(warm.steps),
             ..now
         })

@@ -1,19 +1,19 @@
 //! Numbers that sum up all blocks.
 
-use super::{super::recorder::Notes, Rock};
+use super::{super::recorder::RunLog, Rock};
 use riprap::{rock::EnergyLedger, scene::Quantity};
 
 /// The present values of `quantities`, those of blocks from `rock`, the others from `of_fluid`.
 pub fn values(
     rock: Option<Rock<'_>>,
     quantities: &[Quantity],
-    notes: &mut Notes,
+    log: &mut RunLog,
     of_fluid: impl Fn(Quantity) -> f64,
 ) -> Vec<f64> {
     let Some(rock) = rock else {
         return quantities.iter().map(|q| of_fluid(*q)).collect();
     };
-    notes.block_speed = notes.block_speed.max(rock.max_speed());
+    log.block_speed = log.block_speed.max(rock.max_speed());
     let ledger = rock.blocks.ledger();
     let value = |quantity: &Quantity| match quantity.is_of_blocks() {
         true => value(&rock, *quantity, &ledger),

@@ -3,12 +3,13 @@
 use super::{
     batch::Batch,
     checkpoints::Checkpoints,
-    engine::{Engine, Recorders},
+    header::print_header,
     history::{self, History},
-    pace::{Pace, Timed},
     progress::Progress,
-    recorder::Notes,
+    recorder::{Recorders, RunLog},
+    scene_run::SceneRun,
     summary::{Summary, Unfinished},
+    throughput::{Throughput, Timed},
 };
 use anyhow::{Context, Result};
 use riprap::Error;
@@ -19,27 +20,27 @@ use std::{
 };
 
 /// A run under way.
-pub struct Journey<E> {
+pub struct Runner {
     folder: PathBuf,
     last: u64,
-    recorders: Recorders<E>,
-    notes: Notes,
-    pace: Pace,
+    recorders: Recorders,
+    log: RunLog,
+    throughput: Throughput,
     pub summary: Summary,
 }
 
-impl<E: Engine> Journey<E> {
+impl Runner {
     /// Makes ready what will be written to `folder` until the step `last`; `restart` is the file of
     /// the checkpoint that the simulation has been restored from, `text` what the scene's file holds.
     pub fn new(
-        engine: &mut E,
+        run: &mut SceneRun,
         folder: &Path,
         last: u64,
         restart: Option<&Path>,
         text: &str,
     ) -> Result<Self> {
-        let mut recorders: Recorders<E> = Vec::new();
-        let scene = engine.scene();
+        let mut recorders: Recorders = Vec::new();
+        let scene = run.scene();
         for probe in &scene.probes {
             if history::claims(&scene.output.histories, &probe.name) {
                 return Err(Error::scene(
@@ -50,99 +51,106 @@ impl<E: Engine> Journey<E> {
             }
         }
         for number in 0..scene.output.histories.len() {
-            recorders.push(Box::new(History::new(engine, folder, last, number)?));
+            recorders.push(Box::new(History::new(run, folder, last, number)?));
         }
-        recorders.extend(engine.recorders(folder, last)?);
+        recorders.extend(run.recorders(folder, last)?);
         // Last, so that what it continues from has been written.
-        recorders.push(Box::new(Checkpoints::new(engine, folder, last, text)));
-        let notes = Notes {
-            checkpoint: restart.map(|path| (engine.step(), path.to_owned())),
-            ..Notes::default()
+        recorders.push(Box::new(Checkpoints::new(run, folder, last, text)));
+        let log = RunLog {
+            checkpoint: restart.map(|path| (run.step(), path.to_owned())),
+            ..RunLog::default()
         };
         Ok(Self {
             folder: folder.to_owned(),
             last,
             recorders,
-            notes,
-            pace: Pace::default(),
-            summary: engine.summary()?,
+            log,
+            throughput: Throughput::default(),
+            summary: run.summary()?,
         })
     }
 
+    /// Prints what will run on what to standard error.
+    pub fn print_header(&self, run: &SceneRun) {
+        print_header(run, &self.summary, &self.folder, self.last);
+    }
+
     /// Computes to the end, or until `stop` is set, or until the flow diverges.
-    pub fn go(mut self, engine: &mut E, stop: &AtomicBool) -> Result<Summary> {
+    pub fn run_to_end(mut self, run: &mut SceneRun, stop: &AtomicBool) -> Result<Summary> {
         let start = Instant::now();
-        let mut progress = Progress::new(engine.step(), self.last);
-        let moved = self.travel(engine, stop, &mut progress);
+        let mut progress = Progress::new(run.step(), self.last);
+        let moved = self.advance_to_last(run, stop, &mut progress);
         progress.end();
-        let step = engine.step();
+        let step = run.step();
         match moved {
             Err(error) => match error.downcast_ref::<Error>() {
                 Some(diverged) if leaves_range(diverged) => {
                     self.summary.diverged = true;
                     self.summary.divergence = Some(diverged.to_string());
-                    if engine.is_good() {
-                        self.record(engine, true)
-                            .with_context(|| Unfinished::new(step, &self.notes))?;
+                    if run.is_intact() {
+                        self.record(run, true)
+                            .with_context(|| Unfinished::new(step, &self.log))?;
                     }
                 }
-                _ => return Err(error).context(Unfinished::new(step, &self.notes)),
+                _ => return Err(error).context(Unfinished::new(step, &self.log)),
             },
             Ok(()) => self.summary.complete = step == self.last,
         }
         for recorder in &mut self.recorders {
             recorder
-                .finish(engine, &mut self.notes)
-                .with_context(|| Unfinished::new(step, &self.notes))?;
+                .finish(run, &mut self.log)
+                .with_context(|| Unfinished::new(step, &self.log))?;
         }
-        engine.conclude(&mut self.summary, &self.notes, &self.pace);
+        run.finish(&mut self.summary, &self.log, &self.throughput);
         let summary = &mut self.summary;
         summary.steps = step;
-        summary.time = engine.time();
+        summary.time = run.time();
         summary.seconds = start.elapsed().as_secs_f64();
-        summary.take(&self.notes);
+        summary.take(&self.log);
         summary.tell_left_out();
         let written = summary.write(&self.folder);
-        written.with_context(|| Unfinished::new(step, &self.notes))?;
+        written.with_context(|| Unfinished::new(step, &self.log))?;
         Ok(self.summary)
     }
 
-    fn travel(&mut self, engine: &mut E, stop: &AtomicBool, progress: &mut Progress) -> Result<()> {
+    fn advance_to_last(
+        &mut self,
+        run: &mut SceneRun,
+        stop: &AtomicBool,
+        progress: &mut Progress,
+    ) -> Result<()> {
         let mut batch = Batch::new();
-        self.record(engine, false)?;
+        self.record(run, false)?;
         loop {
-            let step = engine.step();
+            let step = run.step();
             if step >= self.last {
                 return Ok(());
             }
             if stop.load(Ordering::Relaxed) {
-                return self.record(engine, true);
+                return self.record(run, true);
             }
             let next = self.recorders.iter().map(|r| r.schedule().next(step)).min();
             let steps = batch.steps().min(next.unwrap_or(self.last) - step);
-            let (start, fluid_steps) = (Instant::now(), engine.fluid_steps());
-            engine.advance(steps)?;
+            let (start, fluid_steps) = (Instant::now(), run.simulation.fluid_steps());
+            run.advance(steps)?;
             let time = start.elapsed();
             batch.learn(steps, time);
-            self.pace.add(Timed {
+            self.throughput.add(Timed {
                 steps,
-                fluid_steps: engine.fluid_steps() - fluid_steps,
+                fluid_steps: run.simulation.fluid_steps() - fluid_steps,
                 time,
             });
-            progress.show(
-                step + steps,
-                &engine.describe_pace(&self.summary, &self.pace),
-            );
-            self.record(engine, false)?;
+            progress.show(step + steps, &run.describe(&self.summary, &self.throughput));
+            self.record(run, false)?;
         }
     }
 
     /// Writes what is due; everything that is not, if the run is `ending` here.
-    fn record(&mut self, engine: &mut E, ending: bool) -> Result<()> {
-        let step = engine.step();
+    fn record(&mut self, run: &mut SceneRun, ending: bool) -> Result<()> {
+        let step = run.step();
         for recorder in &mut self.recorders {
             if recorder.schedule().due(step) != ending {
-                recorder.record(engine, &mut self.notes)?;
+                recorder.record(run, &mut self.log)?;
             }
         }
         Ok(())

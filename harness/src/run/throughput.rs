@@ -32,12 +32,12 @@ impl Timed {
 
 /// The steps of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pace {
+pub struct Throughput {
     first: Timed,
     rest: Timed,
 }
 
-impl Pace {
+impl Throughput {
     /// Counts a batch of steps.
     pub fn add(&mut self, batch: Timed) {
         match self.first.steps < FIRST {
@@ -77,17 +77,17 @@ mod tests {
     /// A first step of 2 s and 50 of 10 ms each: 100 steps a second, not 20.
     #[test]
     fn compilation_does_not_count_in_speeds() {
-        let mut pace = Pace::default();
-        pace.add(batch(1, 2000));
+        let mut throughput = Throughput::default();
+        throughput.add(batch(1, 2000));
         // All that there is.
-        assert_eq!(pace.warm(), batch(1, 2000));
-        pace.add(batch(1, 1000));
-        assert_eq!(pace.warm(), batch(2, 3000));
-        pace.add(batch(10, 100));
-        pace.add(batch(40, 400));
-        assert_eq!(pace.warm(), batch(50, 500));
-        assert_eq!(pace.whole(), batch(52, 3500));
-        let warm = pace.warm();
+        assert_eq!(throughput.warm(), batch(1, 2000));
+        throughput.add(batch(1, 1000));
+        assert_eq!(throughput.warm(), batch(2, 3000));
+        throughput.add(batch(10, 100));
+        throughput.add(batch(40, 400));
+        assert_eq!(throughput.warm(), batch(50, 500));
+        assert_eq!(throughput.whole(), batch(52, 3500));
+        let warm = throughput.warm();
         assert!((warm.rate(warm.steps) - 100.0).abs() < 1e-9);
         assert!((warm.rate(warm.fluid_steps) - 300.0).abs() < 1e-9);
     }

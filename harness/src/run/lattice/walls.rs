@@ -1,21 +1,18 @@
 //! Whether the shear at walls and blocks was resolved.
 
-use super::{super::summary::Summary, Flow, PATIENCE};
-use crate::gpu;
+use super::super::{scene_run::SceneRun, summary::Summary};
 use riprap::simulation::{FirstCell, SUBLAYER};
 
-impl Flow {
-    /// Notes the largest y⁺, and warns of one beyond the viscous sublayer. Of a flow that has diverged
-    /// nobody knows.
-    pub(super) fn look_at_walls(&mut self, summary: &mut Summary) {
+impl SceneRun {
+    /// Adds the largest y⁺ to the summary, and a warning if it is beyond the viscous sublayer; not of a flow that has
+    /// diverged.
+    pub(in super::super) fn report_wall_units(&mut self, summary: &mut Summary) {
         if summary.diverged {
             return;
         }
-        let looked = self.simulation.wall_units();
-        let looked = gpu::drive(&self.device, PATIENCE, "reading cells beside walls", looked);
-        let found = match looked {
-            Ok(Ok(found)) => found,
-            Ok(Err(error)) | Err(error) => {
+        let found = match self.wall_units() {
+            Ok(found) => found,
+            Err(error) => {
                 return summary.warnings.push(format!("y⁺ is not known: {error}"));
             }
         };
@@ -39,7 +36,7 @@ impl Flow {
     fn warning(&self, cell: &FirstCell, beside: &str) -> String {
         let [x, y, z] = cell.position;
         // With the same friction.
-        let finer = self.simulation.units().cell * SUBLAYER / cell.y_plus;
+        let finer = self.scene().domain.cell * SUBLAYER / cell.y_plus;
         format!(
             "y⁺ is at least {:.1} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \
              shear is not resolved there and there is no wall model, so that friction comes out too small; \

@@ -36,7 +36,7 @@ impl Coupling {
     pub fn of(simulation: &Simulation, steps: u64) -> Option<Self> {
         let coupled = simulation.coupled()?;
         let cells = coupled.solid_cells();
-        let geometry = simulation.lattice().geometry();
+        let geometry = simulation.lattice()?.geometry();
         let solid_bricks = cells.bricks();
         let others = |list: &[u32]| {
             let reached = |brick: &&u32| solid_bricks.binary_search(brick).is_err();

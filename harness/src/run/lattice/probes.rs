@@ -2,11 +2,10 @@
 
 use super::super::{
     history::table,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
-    views::Shown,
 };
-use super::Flow;
 use anyhow::Result;
 use riprap::{output::Csv, scene::Probe, simulation::probe::Gauge};
 use std::path::{Path, PathBuf};
@@ -20,31 +19,31 @@ pub struct ProbeTable {
 
 impl ProbeTable {
     /// Begins the table, or goes on with it after a restart.
-    pub fn new(engine: &Flow, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
-        let simulation = &engine.simulation;
+    pub fn new(run: &SceneRun, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
+        let simulation = &run.simulation;
         let gauge = Gauge::new(simulation.scene(), simulation.solid(), probe)?;
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::new(probe.every, simulation.units(), last),
-            table: table(engine, &path, gauge.columns())?,
+            schedule: Schedule::new(probe.every, simulation.time_step(), last),
+            table: table(run, &path, gauge.columns())?,
             path,
             gauge,
         })
     }
 }
 
-impl Recorder<Flow> for ProbeTable {
+impl Recorder for ProbeTable {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
-        let arrays = engine.read(self.gauge.fields(), self.gauge.cells())?;
-        let (step, time) = (engine.simulation.step(), engine.simulation.time());
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let arrays = run.read(self.gauge.fields(), self.gauge.cells())?;
+        let (step, time) = (run.simulation.step(), run.simulation.time());
         for row in self.gauge.rows(&arrays)? {
             self.table.append(step, time, &row)?;
         }
-        notes.file(self.path.clone());
+        log.file(self.path.clone());
         Ok(())
     }
 }

@@ -1,10 +1,10 @@
 //! Fields for ParaView: `fields_000123.vti` and the collection `fields.pvd`.
 
 use super::super::{
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
-use super::Flow;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vti},
@@ -21,8 +21,8 @@ pub struct Fields {
 
 impl Fields {
     /// Begins the collection, or goes on with it after a restart.
-    pub fn new(engine: &Flow, folder: &Path, last: u64) -> Result<Self> {
-        let simulation = &engine.simulation;
+    pub fn new(run: &SceneRun, folder: &Path, last: u64) -> Result<Self> {
+        let simulation = &run.simulation;
         let output = &simulation.scene().output;
         let path = folder.join("fields.pvd");
         let mut fields = output.fields.clone();
@@ -32,7 +32,7 @@ impl Fields {
             fields.push(Field::Solid);
         }
         Ok(Self {
-            schedule: Schedule::new(output.every, simulation.units(), last),
+            schedule: Schedule::new(output.every, simulation.time_step(), last),
             fields,
             folder: folder.to_owned(),
             collection: match simulation.step() {
@@ -43,18 +43,18 @@ impl Fields {
     }
 }
 
-impl Recorder<Flow> for Fields {
+impl Recorder for Fields {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut Flow, notes: &mut Notes) -> Result<()> {
-        let step = engine.simulation.step();
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let step = run.simulation.step();
         let path = self.folder.join(format!("fields_{step:06}.vti"));
-        write_vti(&path, &engine.image(&self.fields)?)?;
-        self.collection.add(engine.simulation.time(), &path)?;
-        notes.file(self.folder.join("fields.pvd"));
-        notes.file(path);
+        write_vti(&path, &run.image(&self.fields)?)?;
+        self.collection.add(run.simulation.time(), &path)?;
+        log.file(self.folder.join("fields.pvd"));
+        log.file(path);
         Ok(())
     }
 }

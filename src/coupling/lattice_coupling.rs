@@ -7,6 +7,7 @@ use super::{
 use crate::{
     Error, Result,
     geometry::{Load, Pose},
+    gpu::timer::{Phases, begin_pass},
     lattice::Lattice,
     psm::{FaceLoad, Frame, SolidBlock, SolidCells},
     rock::Period,
@@ -81,7 +82,7 @@ impl LatticeCoupling {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         poses: &[Pose],
     ) -> Result<()> {
         if self.placed.as_deref() == Some(poses) {
@@ -103,7 +104,7 @@ impl LatticeCoupling {
             )));
         }
         self.cells
-            .record_cells(&mut encoder.begin_compute_pass(&Default::default()));
+            .record_cells(&mut begin_pass(phases, encoder, "voxelise"));
         self.placed = Some(poses.to_vec());
         Ok(())
     }
@@ -132,10 +133,10 @@ impl LatticeCoupling {
     pub fn record_loads(
         &mut self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         step: u64,
     ) {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let mut pass = begin_pass(phases, encoder, "reduce");
         self.cells.record_loads(&mut pass);
         drop(pass);
         let sums = Copied {
@@ -177,13 +178,13 @@ impl LatticeCoupling {
     pub fn record_faces(
         &mut self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         step: u64,
     ) {
         let Some(buffer) = self.cells.face_sums() else {
             return;
         };
-        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let mut pass = begin_pass(phases, encoder, "reduce faces");
         self.cells.record_faces(&mut pass);
         drop(pass);
         let sums = Copied {

@@ -281,6 +281,11 @@ impl Rock {
         &self.cell_load
     }
 
+    /// Times the phases of the steps of the blocks from now on.
+    pub fn time_phases(&mut self) {
+        self.blocks.time_phases();
+    }
+
     /// The blocks in their present state.
     pub fn blocks(&self) -> &Blocks {
         &self.blocks

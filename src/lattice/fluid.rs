@@ -41,7 +41,7 @@ impl Dispatch {
 /// A D3Q27 lattice Boltzmann fluid.
 ///
 /// It owns buffers and pipelines; device, queue and encoder are the caller's. A step is recorded
-/// by [`Lattice::record`]; nothing is read back unless asked.
+/// by [`Lattice::record`]; nothing is read back unless requested.
 #[derive(Debug)]
 pub struct Lattice {
     pub(super) setup: Setup,
@@ -179,18 +179,23 @@ impl Lattice {
 
     /// Records one step into the caller's pass.
     pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
-        self.record_saturated(pass);
+        self.record_psm(pass);
         self.record_rest(pass);
+    }
+
+    /// Records the boundaries of the coming step alone. [`Lattice::record_psm`] does so unless it has been done.
+    pub fn record_boundaries(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.close(pass);
     }
 
     /// Records the first part of a step: the boundaries, and the bricks that blocks reach. What the
     /// blocks feel is known after it.
-    pub fn record_saturated(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+    pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
         self.streams.record(pass, self.parity(), true);
     }
 
-    /// Records the rest of a step after [`Lattice::record_saturated`]: all other bricks. Streaming is in
+    /// Records the rest of a step after [`Lattice::record_psm`]: all other bricks. Streaming is in
     /// place and every population has one owner a step, so that the bits do not depend on this split.
     pub fn record_rest(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.streams.record(pass, self.parity(), false);
@@ -203,7 +208,7 @@ impl Lattice {
     ///
     /// # Errors
     /// If the setup has no blocks, or a brick does not exist, is solid or is listed twice.
-    pub fn set_saturated(
+    pub fn set_psm_bricks(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -233,16 +238,16 @@ impl Lattice {
         streams.set(device, queue, (setup, geometry, buffers), bricks)
     }
 
-    /// What blocks leave of the cells of the bricks that they reach, in the order of
-    /// [`Lattice::set_saturated`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
+    /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of
+    /// [`Lattice::set_psm_bricks`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
     /// buffer after that call, if it had to grow.
-    pub fn saturation(&self) -> Option<&wgpu::Buffer> {
-        self.streams.saturation()
+    pub fn psm_planes(&self) -> Option<&wgpu::Buffer> {
+        self.streams.psm_planes()
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
-    pub(super) fn saturated_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
-        self.streams.saturated()
+    pub(super) fn psm_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
+        self.streams.psm_bricks()
     }
 
     /// Records the boundary passes of the coming step, unless that is done: after it the

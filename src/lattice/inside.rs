@@ -63,7 +63,7 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<Inside> {
-        if lattice.saturation().is_none() {
+        if lattice.psm_planes().is_none() {
             return Ok(Inside::default());
         }
         let shown = self.state(device, queue, lattice).await?.velocity;
@@ -104,12 +104,13 @@ impl Observer {
         let dispatch = match inside.cells.len() as u32 {
             0 => None,
             count => {
-                let program = lattice.cell_program("inside_kept");
-                let kernel = lattice.cell_kernel(device, &program, "inside_kept", &[])?;
+                let program = lattice.cell_program("velocity_restored");
+                let kernel = lattice.cell_kernel(device, &program, "velocity_restored", &[])?;
                 let cells = storage(device, "kept cells", bytemuck::cast_slice(&inside.cells));
                 let velocity = bytemuck::cast_slice(&inside.velocity);
                 let velocity = storage(device, "kept velocity", velocity);
-                let mut buffers = vec![("kept_cells", &cells), ("kept_velocity", &velocity)];
+                let mut buffers =
+                    vec![("restored_cells", &cells), ("restored_velocity", &velocity)];
                 buffers.extend(VELOCITY_OUT.into_iter().zip(self.velocity()));
                 let bind = kernel.bind(device, &buffers)?;
                 Some((kernel, bind, count.div_ceil(64)))

@@ -63,7 +63,7 @@ pub use inside::Inside;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
 #[doc(hidden)]
-pub use program::{Reach, collide_stream, constants, single_cells};
+pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
 pub use stages::Stages;
 pub use start::State;

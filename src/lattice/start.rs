@@ -67,7 +67,7 @@ impl Lattice {
         ];
         let program = self.cell_program("initialise");
         let mut encoder = device.create_command_encoder(&Default::default());
-        let share = f64::from(u8::from(non_equilibrium));
+        let amount = f64::from(u8::from(non_equilibrium));
         for half in self.halves() {
             let dispatch = CellDispatch {
                 program: &program,
@@ -77,7 +77,7 @@ impl Lattice {
                     ..CellPass::default()
                 },
                 buffers: &buffers,
-                constants: &[("NON_EQUILIBRIUM", share)],
+                constants: &[("NON_EQUILIBRIUM", amount)],
                 invocations: cells as u32,
             };
             let dispatch = self.cell_dispatch(device, &dispatch)?;

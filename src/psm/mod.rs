@@ -1,16 +1,16 @@
 //! Blocks in the fluid as partially saturated cells (Noble & Torczynski 1998; Gardner & Sitar 2018).
 //!
-//! Every cell that a block reaches knows which share of it is solid and how the solid moves there; the
+//! Every cell that a block reaches knows its solid fraction and how the solid moves there; the
 //! fluid kernel weighs its collision with that, and the reaction, summed over the cells, is the load on
 //! the block. The device works on tiles: the part of one convex part of a block in one lane of one brick,
 //! which is what a workgroup of the fluid kernel runs.
 //!
 //! 1. `voxelise` and `voxelise_edges` write the solid fraction of one part in each cell of a tile,
-//! 2. `saturate_cells` adds the parts that share a cell,
+//! 2. `combine_parts` adds the parts that share a cell,
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
-//! 5. where someone asks for single faces, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
-//!    cells beside them. What cells inside the solid feel belongs to no face: full ones reflect what was in them
+//! 5. where loads on single faces are requested, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
+//!    cells along them. What cells inside the solid feel belongs to no face: full ones reflect what was in them
 //!    when they were covered, and only over the whole block that cancels.
 //!
 //! ```
@@ -74,14 +74,14 @@ pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 #[doc(hidden)]
 pub use program::{
-    MOST_BINDINGS, MOST_FACES, WHOLE, Walk, constants, reduce_blocks, reduce_faces, reduce_tiles,
-    saturate_cells, sum_faces, voxelise, voxelise_edges,
+    Forms, MOST_BINDINGS, MOST_FACES, WHOLE, Walk, combine_parts, constants, reduce_blocks,
+    reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
 };
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 #[doc(hidden)]
 pub use tables::{
-    DEEP, DEEP_SUM, FACE_LOAD, FaceJob, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES, Tile,
-    WRENCH,
+    FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
+    Tile, WRENCH,
 };
 
 pub(crate) use near_cells::near_cells;

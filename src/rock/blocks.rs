@@ -13,7 +13,7 @@ use super::{
     period::Periods,
     placed_parts::PlacedParts,
     resolver_pool::ResolverPool,
-    step::is_time,
+    step::{StepTimes, is_time},
     time_step,
 };
 use crate::{
@@ -27,6 +27,7 @@ use crate::{
     },
 };
 use glam::{DQuat, DVec3};
+use std::time::Instant;
 
 /// Blocks that move under gravity, loads and each other's contacts.
 ///
@@ -95,6 +96,8 @@ pub struct Blocks {
     pub(super) next_states: Vec<State>,
     pub(super) next_pairs: Vec<CandidatePair>,
     pub(super) next_contacts: ContactList,
+    /// Times of the phases of steps, if requested.
+    pub(super) step_times: Option<StepTimes>,
 }
 
 impl Blocks {
@@ -147,6 +150,7 @@ impl Blocks {
             next_states: states.clone(),
             next_pairs: Vec::new(),
             next_contacts: ContactList::default(),
+            step_times: None,
             bodies,
             states,
             deforming,
@@ -355,12 +359,26 @@ impl Blocks {
         is_time(until)?;
         while self.time < until {
             if self.wants_pairs() {
+                let start = self.step_times.map(|_| Instant::now());
                 let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
+                if let (Some(times), Some(start)) = (&mut self.step_times, start) {
+                    times.broadphase += start.elapsed().as_secs_f64();
+                }
             }
             self.step_known(self.substep_to(until))?;
         }
         Ok(())
+    }
+
+    /// Times the phases of steps from now on.
+    pub fn time_phases(&mut self) {
+        self.step_times.get_or_insert_default();
+    }
+
+    /// Times of the phases of steps; `None` unless requested by [`Blocks::time_phases`].
+    pub fn step_times(&self) -> Option<StepTimes> {
+        self.step_times
     }
 
     /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.

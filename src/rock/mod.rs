@@ -67,5 +67,6 @@ pub use setup::{
     Block, Deformable, FixedPoint, Guide, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
 };
 pub use snapshot::Snapshot;
+pub use step::StepTimes;
 
 use body::Body;

@@ -10,9 +10,23 @@ use super::{
 };
 use crate::{Error, Result, error::Overlap, rock::law};
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// Blocks that one thread takes at least: handing out fewer costs more.
 pub(super) const BLOCKS_PER_TASK: usize = 256;
+
+/// Times that the host spends in the phases of steps, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepTimes {
+    /// Steps that have been timed.
+    pub steps: u64,
+    /// Candidate pairs.
+    pub broadphase: f64,
+    /// Contacts of the pairs and their forces.
+    pub contact: f64,
+    /// Motion, energies and sleep.
+    pub integrate: f64,
+}
 
 /// Refuses a time `until` (s) that is not finite.
 pub(super) fn is_time(until: f64) -> Result<()> {
@@ -95,6 +109,7 @@ impl Blocks {
         if !self.started {
             self.start()?;
         }
+        let start = self.step_times.map(|times| (Instant::now(), times.contact));
         if let Err(error) = self.kick_drift(dt) {
             self.place();
             return Err(error);
@@ -102,6 +117,10 @@ impl Blocks {
         self.finish_step(dt);
         if let Some(end) = end {
             self.time = end;
+        }
+        if let (Some(times), Some((start, contact))) = (&mut self.step_times, start) {
+            times.steps += 1;
+            times.integrate += start.elapsed().as_secs_f64() - (times.contact - contact);
         }
         Ok(())
     }
@@ -161,7 +180,11 @@ impl Blocks {
         let strains = &self.deforming.next;
         self.parts
             .place_moving(&self.bodies, &self.next_states, strains);
+        let start = self.step_times.map(|_| Instant::now());
         self.find_contacts(dt, false)?;
+        if let (Some(times), Some(start)) = (&mut self.step_times, start) {
+            times.contact += start.elapsed().as_secs_f64();
+        }
         self.check_step(dt)
     }
 

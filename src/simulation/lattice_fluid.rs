@@ -9,6 +9,7 @@ use crate::{
     coupling::{Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, couple},
     error::told,
     geometry::Pose,
+    gpu::timer::{Phases, begin_pass},
     lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
     scene::{
         Advice, Boundary, Face, SUGA_EXCESS, Scene,
@@ -16,7 +17,7 @@ use crate::{
     },
     units::Units,
 };
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 /// The fluid of a scene, and its coupling to the blocks.
 #[derive(Debug)]
@@ -31,6 +32,8 @@ pub(super) struct LatticeFluid {
     time_dependent_faces: Vec<Face>,
     /// The coupling to the blocks in it, if there are any.
     coupling: Option<LatticeCoupling>,
+    /// Times of the phases of a step, if requested.
+    pub phases: Option<Phases>,
 }
 
 impl LatticeFluid {
@@ -95,6 +98,7 @@ impl LatticeFluid {
             lattice,
             observer,
             coupling,
+            phases: None,
         };
         Ok((fluid, rock, advice))
     }
@@ -181,7 +185,13 @@ impl Fluid for LatticeFluid {
         if let Some(coupling) = &mut self.coupling {
             let (device, queue) = (&self.device, &self.queue);
             coupling
-                .place(device, queue, &mut self.lattice, &mut encoder, poses)
+                .place(
+                    device,
+                    queue,
+                    &mut self.lattice,
+                    (&mut encoder, &mut self.phases),
+                    poses,
+                )
                 .await?;
         }
         loop {
@@ -193,23 +203,22 @@ impl Fluid for LatticeFluid {
             {
                 return self.exchange(encoder).await;
             }
-            self.lattice
-                .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+            self.record_psm(&mut encoder);
             if let Some(coupling) = self
                 .coupling
                 .as_mut()
                 .filter(|coupling| coupling.needs_loads(interval, next, last))
             {
-                coupling.record_loads(&self.device, &mut encoder, next);
+                let phases = &mut self.phases;
+                coupling.record_loads(&self.device, (&mut encoder, phases), next);
             }
-            self.lattice
-                .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
+            self.record_rest(&mut encoder);
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
             if self.lattice.step() == last || !goes_on {
                 // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
                 // written between two submissions.
-                self.queue.submit([encoder.finish()]);
+                self.submit(encoder).await?;
                 self.set_faces()?;
                 return Ok(None);
             }
@@ -218,28 +227,62 @@ impl Fluid for LatticeFluid {
 }
 
 impl LatticeFluid {
+    /// Records the boundaries and the bricks with blocks.
+    fn record_psm(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if self.phases.is_some() {
+            let mut pass = begin_pass(&mut self.phases, encoder, "boundaries");
+            self.lattice.record_boundaries(&mut pass);
+        }
+        let mut pass = begin_pass(&mut self.phases, encoder, "bricks with blocks");
+        self.lattice.record_psm(&mut pass);
+    }
+
+    /// Records the other bricks.
+    fn record_rest(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = begin_pass(&mut self.phases, encoder, "bulk");
+        self.lattice.record_rest(&mut pass);
+    }
+
+    /// Submits steps that end without an exchange.
+    async fn submit(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
+        if let Some(phases) = &self.phases {
+            phases.resolve(&mut encoder);
+        }
+        self.queue.submit([encoder.finish()]);
+        match &mut self.phases {
+            Some(phases) => phases.collect(&self.device, &self.queue).await,
+            None => Ok(()),
+        }
+    }
+
     /// The last step of a stretch, at whose end blocks and fluid meet: the fluid around them runs first, and the rest
     /// of it while their loads are read.
     async fn exchange(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
     ) -> Result<Option<Vec<FluidLoad>>> {
-        let (device, queue, step) = (&self.device, &self.queue, self.lattice.step() + 1);
-        self.lattice
-            .record_saturated(&mut encoder.begin_compute_pass(&Default::default()));
+        let step = self.lattice.step() + 1;
+        self.record_psm(&mut encoder);
         if let Some(coupling) = &mut self.coupling {
-            coupling.record_loads(device, &mut encoder, step);
-            coupling.record_faces(device, &mut encoder, step);
+            coupling.record_loads(&self.device, (&mut encoder, &mut self.phases), step);
+            coupling.record_faces(&self.device, (&mut encoder, &mut self.phases), step);
         }
-        queue.submit([encoder.finish()]);
-        let mut encoder = device.create_command_encoder(&Default::default());
-        self.lattice
-            .record_rest(&mut encoder.begin_compute_pass(&Default::default()));
-        queue.submit([encoder.finish()]);
+        self.queue.submit([encoder.finish()]);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        self.record_rest(&mut encoder);
+        if let Some(phases) = &self.phases {
+            phases.resolve(&mut encoder);
+        }
+        self.queue.submit([encoder.finish()]);
         let Some(coupling) = &mut self.coupling else {
             return Ok(None);
         };
+        let start = self.phases.is_some().then(Instant::now);
         coupling.read_loads().await?;
+        if let (Some(phases), Some(start)) = (&mut self.phases, start) {
+            phases.add("readback wait", start.elapsed().as_secs_f64());
+            phases.collect(&self.device, &self.queue).await?;
+        }
         let loads = coupling.exchange();
         self.set_faces()?;
         Ok(Some(loads))

@@ -26,10 +26,12 @@ pub use sensors::Reading;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
 
+pub use crate::gpu::timer::Phase;
 use crate::{
     Error, Result,
     coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock},
     geometry::Pose,
+    gpu::timer::Phases,
     lattice::{Lattice, Setup},
     scene::{
         Advice, Scene,
@@ -219,6 +221,45 @@ impl Simulation {
             // Free water always has a rock, of no blocks if the scene has none.
             (Some(Fluid::Particles(_)) | None, None) => Ok(()),
         }
+    }
+
+    /// Times the phases of steps from now on; this costs a readback at each exchange.
+    pub fn time_phases(&mut self) {
+        if let Some(Fluid::Lattice(fluid)) = &mut self.fluid {
+            let phases = Phases::new(&fluid.device, &fluid.queue);
+            fluid.phases.get_or_insert(phases);
+        }
+        if let Some(rock) = &mut self.rock {
+            rock.time_phases();
+        }
+    }
+
+    /// The phases of steps that have been timed since [`Simulation::time_phases`]: passes of a lattice fluid, the wait for
+    /// its loads, and the phases of the steps of blocks.
+    pub fn phases(&self) -> Vec<Phase> {
+        let mut phases = match &self.fluid {
+            Some(Fluid::Lattice(fluid)) => fluid.phases.as_ref().map(Phases::times),
+            _ => None,
+        }
+        .unwrap_or_default()
+        .to_vec();
+        let times = self
+            .rock
+            .as_ref()
+            .and_then(|rock| rock.blocks().step_times());
+        if let Some(times) = times {
+            let phase = |name: &str, seconds| Phase {
+                name: name.into(),
+                count: times.steps,
+                seconds,
+            };
+            phases.extend([
+                phase("broadphase", times.broadphase),
+                phase("contact", times.contact),
+                phase("integrate", times.integrate),
+            ]);
+        }
+        phases
     }
 
     /// Blocks, a lattice, or free water.

@@ -73,7 +73,7 @@ pub use kernels::Counts;
 pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork};
 pub use particle_lattice::ParticleLattice;
 #[doc(hidden)]
-pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, program};
+pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
 pub use setup::{Body, NeighbourSearch, Scheme, Setup, Side};
 pub use solid::{Faces, Solid};
 pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};

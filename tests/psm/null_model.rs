@@ -48,7 +48,7 @@ fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
         // None listed at first, then some, then none again.
         for (bricks, steps) in [(&[][..], 2), (&listed[..], 3), (&[], 2)] {
             let (device, queue) = (&with.rig.device, &with.rig.queue);
-            with.lattice.set_saturated(device, queue, bricks).unwrap();
+            with.lattice.set_psm_bricks(device, queue, bricks).unwrap();
             with.rig.run(&mut with.lattice, steps);
         }
         let found = with.rig.populations(&mut with.lattice).values;
@@ -84,7 +84,7 @@ fn neither_the_order_of_bricks_nor_a_step_in_two_submissions_changes_a_bit() {
             let mut encoder = split.rig.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             match rest {
-                false => split.lattice.record_saturated(&mut pass),
+                false => split.lattice.record_psm(&mut pass),
                 true => split.lattice.record_rest(&mut pass),
             }
             drop(pass);
@@ -100,7 +100,7 @@ fn lists_of_bricks_that_cannot_be_are_refused() {
     let list = subject.some_bricks();
     let refusal = |subject: &mut Subject, bricks: &[u32]| {
         let (device, queue) = (&subject.rig.device, &subject.rig.queue);
-        let refused = subject.lattice.set_saturated(device, queue, bricks);
+        let refused = subject.lattice.set_psm_bricks(device, queue, bricks);
         refused.unwrap_err().to_string()
     };
     let error = refusal(&mut subject, &list);

@@ -3,7 +3,7 @@
 use riprap::{
     Error,
     gpu::kernel::{Kernel, Shader},
-    lattice::{Lattice, Reach, collide_stream, constants},
+    lattice::{BrickKind, Lattice, collide_stream, constants},
     wgpu,
 };
 
@@ -28,7 +28,7 @@ impl StreamOnly {
         let buffers = lattice.population_buffers();
         // The layout of the fused kernel, and another text in place of its collision.
         let text = include_str!("kernels/stream_only.wgsl");
-        let program = collide_stream(setup, buffers.len() as u32, Reach::All);
+        let program = collide_stream(setup, buffers.len() as u32, BrickKind::All);
         let shader = Shader::new(device, program.text("collide_stream", text).link()?);
         let names: Vec<String> = (0..buffers.len())
             .map(|n| format!("populations_{n}"))

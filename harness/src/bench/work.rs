@@ -225,7 +225,7 @@ mod tests {
     use super::*;
     use riprap::{
         gpu::link::Program,
-        lattice::{Collision, Force, Reach, Setup, Storage, bytes_a_cell, collide_stream},
+        lattice::{BrickKind, Collision, Force, Setup, Storage, bytes_a_cell, collide_stream},
     };
 
     fn work(body: &str) -> Work {
@@ -289,7 +289,7 @@ mod tests {
     ];
 
     fn step(setup: &Setup) -> Work {
-        let linked = collide_stream(setup, 1, Reach::All).link().unwrap();
+        let linked = collide_stream(setup, 1, BrickKind::All).link().unwrap();
         Work::of(&linked, "collide_stream")
     }
 

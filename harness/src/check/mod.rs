@@ -4,6 +4,7 @@ mod accuracy;
 mod blocks;
 mod coupling;
 mod dry;
+mod kernels;
 mod lines;
 mod report;
 mod text;
@@ -34,6 +35,9 @@ pub struct Args {
     /// Print JSON; numbers are in SI, sizes in bytes.
     #[arg(long)]
     json: bool,
+    /// Write the linked WGSL of each kernel of the fluid to this folder.
+    #[arg(long, value_name = "DIR")]
+    kernels: Option<PathBuf>,
 }
 
 /// Prints the report.
@@ -67,6 +71,9 @@ pub fn run(args: &Args) -> Result<()> {
             ended
         }
     };
+    if let Some(folder) = &args.kernels {
+        kernels::write(folder, &run.simulation)?;
+    }
     Ok(ended?)
 }
 

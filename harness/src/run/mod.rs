@@ -23,6 +23,7 @@ mod slice_field;
 mod slices;
 mod summary;
 mod throughput;
+mod timings;
 mod views;
 mod water;
 
@@ -69,6 +70,9 @@ pub struct Args {
     /// eighth of the cells or particles, a sixteenth of the time; of dry rock, steps twice as long
     #[arg(long)]
     pub error_estimate: bool,
+    /// Print the times of the phases of steps at the end: passes on the device where it has timestamps, and the host
+    #[arg(long)]
+    pub timings: bool,
 }
 
 /// Runs a scene until its end, or until `stop` is set.
@@ -125,7 +129,14 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         eprintln!("warning: {warning}");
         runner.summary.warnings.push(warning);
     }
-    runner.run_to_end(&mut run, stop)
+    if args.timings {
+        run.simulation.time_phases();
+    }
+    let summary = runner.run_to_end(&mut run, stop)?;
+    if args.timings {
+        eprint!("{}", timings::table(&run.simulation.phases()));
+    }
+    Ok(summary)
 }
 
 /// Where a run writes to.

@@ -170,7 +170,7 @@ fn bits(tank: &mut Tank<'_>, stand: &Stand) -> anyhow::Result<Vec<u8>> {
 /// Bytes that blocks take on the device.
 fn buffers(tank: &Tank<'_>) -> u64 {
     let lattice = tank.lattice();
-    let saturation = lattice.saturation().map_or(0, riprap::wgpu::Buffer::size);
+    let saturation = lattice.psm_planes().map_or(0, riprap::wgpu::Buffer::size);
     let blocks = tank
         .simulation
         .coupled()

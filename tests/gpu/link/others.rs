@@ -6,7 +6,7 @@ use riprap::{
     gpu::link::{Program, SOURCES},
     lattice::{Grid, Setup as Fluid, single_cells},
     psm::{
-        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
         voxelise_edges,
     },
     sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
@@ -28,13 +28,26 @@ fn plain(program: &Program, entry: &str) {
 
 const SEARCH: [&str; 4] = ["bin_count", "bin_scatter", "scan_sum", "scan_spread"];
 
+const SPHERES: Forms = Forms {
+    spheres: true,
+    polyhedra: false,
+};
+const POLYHEDRA: Forms = Forms {
+    spheres: false,
+    polyhedra: true,
+};
+
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid, Walk::Serial)),
-        ("voxelise", voxelise(grid, Walk::Parallel)),
-        ("voxelise_edges", voxelise_edges(grid)),
-        ("saturate_cells", saturate_cells(grid, Walk::Serial)),
-        ("saturate_cells", saturate_cells(grid, Walk::Parallel)),
+        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Parallel, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Serial, SPHERES)),
+        ("voxelise", voxelise(grid, Walk::Serial, POLYHEDRA)),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
+        ("voxelise_edges", voxelise_edges(grid, SPHERES)),
+        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
+        ("combine_parts", combine_parts(grid, Walk::Serial)),
+        ("combine_parts", combine_parts(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
         ("reduce_faces", reduce_faces(grid)),

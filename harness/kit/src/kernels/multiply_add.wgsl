@@ -19,7 +19,7 @@ fn multiply_add(
     for (var k = 0u; k < 8u; k++) { // unroll
         x[k] = vec4<f32>(f32(n + k));
     }
-    for (var turn = 0u; turn < TURNS; turn++) {
+    for (var index = 0u; index < TURNS; index++) {
         for (var k = 0u; k < 32u; k++) { // unroll
             x[k % 8u] = x[k % 8u] * a + b;
         }

@@ -1,6 +1,6 @@
 // Lehmann 2022, Computation 10(6):92, Esoteric-Pull: streaming without collision. The traffic of a step is all
 // there, its arithmetic is not: what no collision kernel of the same layout can beat.
-// needs stream, $where
+// needs stream, $bricks
 
 @compute @workgroup_size(64)
 fn stream_only(
@@ -8,11 +8,11 @@ fn stream_only(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = group.x + group.y * groups.x;
-    if (turn >= brick_count()) {
+    let index = group.x + group.y * groups.x;
+    if (index >= brick_count()) {
         return;
     }
-    let p = place(brick_of(turn), local);
+    let p = place(brick_of(index), local);
     if (p.outside) {
         return;
     }

@@ -1,6 +1,6 @@
-// Share of a sphere in a cell on its surface.
+// Solid fraction of a sphere in a cell on its surface.
 //
-// Along the main axis z the share is G(z0) - G(z1), G(z) the volume of the sphere above height z over the cell's square.
+// Along the main axis z the solid fraction is G(z0) - G(z1), G(z) the volume of the sphere above height z over the cell's square.
 // With h = sqrt(R^2 - x^2 - y^2), u = max(h - z, 0), t = R - z and F(u) = u^2 (z/2 + u/3), the field (C - F) / rho^2 (x, y)
 // has the divergence u for any C, so that by Gauss's theorem G is a sum over the edges of the square:
 //     G = sum of +-a [ integral of (C - F) / rho^2 along what of the edge is in the sphere ] + C (angle of the rest),
@@ -13,7 +13,7 @@ const AXIS = 4.0;
 // Radii below which h ends as a root within a cell.
 const SMALL = 3.0;
 const TINY = 1e-30;
-// A share that is all rounding.
+// A solid fraction that is all rounding.
 const BALL_EMPTY = 1e-6;
 
 // The square of a cell at one height over the sphere's equator; its edges are right, left, upper, lower.
@@ -32,14 +32,14 @@ struct Square {
 
 const SIDES = vec4(1.0, -1.0, 1.0, -1.0);
 
-fn ball_share(part: Part, cell: vec3<i32>) -> f32 {
+fn ball_fraction(part: Part, cell: vec3<i32>) -> f32 {
     // By symmetry in the octant where all are positive.
     let far = abs(centre_from(cell, part.base, part.fraction));
     let at = turned(far, main_axis(far));
     let power = ball_power(part, cell);
-    // The cell about the centre of the sphere goes both ways from the equator.
+    // The cell about the centre of the sphere reaches both sides of the equator.
     let middle = at.z < 0.5;
-    var share = 0.0;
+    var fraction = 0.0;
     for (var level = 0u; level < select(2u, 3u, middle); level++) {
         var z = at.z - 0.5;
         var middle_power = power + (at.z - 0.25);
@@ -56,9 +56,9 @@ fn ball_share(part: Part, cell: vec3<i32>) -> f32 {
             middle_power = power + at.z * at.z;
             weight = 2.0;
         }
-        share += weight * volume_above(at.xy, z, middle_power, part.radius);
+        fraction += weight * volume_above(at.xy, z, middle_power, part.radius);
     }
-    return select(NEAR, min(share, 1.0), share > BALL_EMPTY);
+    return select(NEAR, min(fraction, 1.0), fraction > BALL_EMPTY);
 }
 
 // at: the middle of the square from the axis; power: its power.

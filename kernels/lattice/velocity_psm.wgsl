@@ -11,23 +11,23 @@ override BRICK_Z: u32;
 // Their number, and those that blocks reach.
 @group(0) @binding(40) var<storage, read> bricks: array<u32>;
 // See psm_planes.wgsl.
-@group(0) @binding(35) var<storage, read> saturation_planes: array<f32>;
+@group(0) @binding(35) var<storage, read> psm_planes: array<f32>;
 @group(0) @binding(50) var<storage, read> density: array<f32>;
 @group(0) @binding(51) var<storage, read_write> velocity_x_out: array<f32>;
 @group(0) @binding(52) var<storage, read_write> velocity_y_out: array<f32>;
 @group(0) @binding(53) var<storage, read_write> velocity_z_out: array<f32>;
 
 @compute @workgroup_size(64)
-fn inside_solids(
+fn velocity_psm(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = invocation(group, groups, local);
+    let index = invocation(group, groups, local);
     let elements = BRICK_X * BRICK_Y * BRICK_Z;
-    let lane = turn % LANES_OF_ELEMENT;
-    let element = (turn / LANES_OF_ELEMENT) % elements;
-    let slot = turn / (LANES_OF_ELEMENT * elements);
+    let lane = index % LANES_OF_ELEMENT;
+    let element = (index / LANES_OF_ELEMENT) % elements;
+    let slot = index / (LANES_OF_ELEMENT * elements);
     if (slot >= bricks[0u]) {
         return;
     }
@@ -37,22 +37,22 @@ fn inside_solids(
     }
     let first = plane_element(slot, 0u, elements, element) * LANES_OF_ELEMENT + lane;
     let stride = elements * LANES_OF_ELEMENT;
-    let sum = decode_sum(saturation_planes[first + PLANE_SUM * stride]);
-    let beta = saturation_planes[first + PLANE_BETA * stride];
+    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
+    let beta = psm_planes[first + PLANE_BETA * stride];
     if (!(sum.fraction > 0.0) || !(beta > 0.0)) {
         return;
     }
     let v = vec3(
-        saturation_planes[first + PLANE_VELOCITY * stride],
-        saturation_planes[first + (PLANE_VELOCITY + 1u) * stride],
-        saturation_planes[first + (PLANE_VELOCITY + 2u) * stride],
+        psm_planes[first + PLANE_VELOCITY * stride],
+        psm_planes[first + (PLANE_VELOCITY + 1u) * stride],
+        psm_planes[first + (PLANE_VELOCITY + 2u) * stride],
     );
     let n = cell.x + CELLS_X * (cell.y + CELLS_Y * cell.z);
     let rho = 1.0 + density[n];
     let force = cell_force(cell) / rho;
     let before = vec3(velocity_x_out[n], velocity_y_out[n], velocity_z_out[n]) - 0.5 * force;
-    let pull = sum.fraction * saturation_planes[first + PLANE_A * stride] / rho;
-    let u = before + 0.5 * (1.0 - sum.fraction * beta) * force + 0.5 * pull * (v - before);
+    let coupling = sum.fraction * psm_planes[first + PLANE_A * stride] / rho;
+    let u = before + 0.5 * (1.0 - sum.fraction * beta) * force + 0.5 * coupling * (v - before);
     velocity_x_out[n] = u.x;
     velocity_y_out[n] = u.y;
     velocity_z_out[n] = u.z;

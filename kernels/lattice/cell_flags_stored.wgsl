@@ -1,5 +1,5 @@
-// Cells beside others that are not fluid, and those.
-// A byte a cell: bits 0-5 the neighbour at x-, x+, y-, y+, z-, z+ is not fluid; 6 beside a wall; 7 solid.
+// Cells that are not fluid, and their neighbours.
+// A byte a cell: bits 0-5 the neighbour at x-, x+, y-, y+, z-, z+ is not fluid; 6 next to a wall; 7 solid.
 // needs $lanes, velocity, grid
 
 @group(0) @binding(32) var<storage, read> flags: array<u32>;
@@ -18,11 +18,11 @@ fn solid(cell: u32) -> Mask {
     return flag(cell, 7u);
 }
 
-fn beside_wall(cell: u32) -> Mask {
+fn next_to_wall(cell: u32) -> Mask {
     return flag(cell, 6u);
 }
 
-// Whether a wall at rest or a solid is beside a cell: face 0 to 5 is x-, x+, y-, y+, z-, z+.
+// Whether a wall at rest or a solid is next to a cell: face 0 to 5 is x-, x+, y-, y+, z-, z+.
 fn wall_at(p: Place, cell: u32, face: u32) -> Mask {
     let at = p.coordinates;
     var end: Mask;

@@ -1,8 +1,8 @@
-// Share of a convex polyhedron in a cell that several of its faces cut.
+// Solid fraction of a convex polyhedron in a cell that several of its faces cut.
 // needs tables, faces, several_planes, columns
 
 // r: the centre of the cell from the part's centroid.
-fn hull_share(part: Part, r: vec3<f32>) -> f32 {
+fn hull_fraction(part: Part, r: vec3<f32>) -> f32 {
     var cuts = 0u;
     var planes = NO_CUTS;
     for (var k = 0u; k < part.faces; k++) {
@@ -13,13 +13,13 @@ fn hull_share(part: Part, r: vec3<f32>) -> f32 {
             cuts++;
         }
     }
-    var share: f32;
+    var fraction: f32;
     if (cuts <= CUTS) {
-        share = several_planes_volume(planes, cuts);
+        fraction = several_planes_volume(planes, cuts);
     } else {
-        share = many_planes_volume(part, r);
+        fraction = many_planes_volume(part, r);
     }
-    return select(NEAR, share, share > EMPTY);
+    return select(NEAR, fraction, fraction > EMPTY);
 }
 
 // By columns through all faces of the part.

@@ -1,6 +1,6 @@
-// Gardner & Sitar 2018, eq. 10: how much of each cell is solid, and how that solid moves, over all parts that share the
-// cell, where one of them can reach. A workgroup is a lane of a saturated brick; its invocations share the cells.
-// needs tables, psm_planes, brick, tightness
+// Gardner & Sitar 2018, eq. 10: the solid fraction of each cell, and how that solid moves, over all parts that share the
+// cell, where one of them can reach. A workgroup is a lane of a brick with blocks; its invocations share the cells.
+// needs tables, psm_planes, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
 
@@ -8,37 +8,37 @@ override LANES_OF_ELEMENT: u32;
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> motions: array<Motion>;
-// Tiles of each lane of a saturated brick in ascending order, and where they begin.
+// Tiles of each lane of a brick with blocks in ascending order, and where they begin.
 @group(0) @binding(3) var<storage, read> lane_first: array<u32>;
 @group(0) @binding(4) var<storage, read> lane_tiles: array<u32>;
-@group(0) @binding(5) var<storage, read> shares: array<f32>;
-@group(0) @binding(6) var<storage, read_write> saturation: array<f32>;
+@group(0) @binding(5) var<storage, read> solid_fractions: array<f32>;
+@group(0) @binding(6) var<storage, read_write> psm_planes: array<f32>;
 
-// What the parts are to one cell.
+// Sums over the parts in one cell.
 struct Sums {
-    // Velocity weighed by the shares, and their sum.
+    // Velocity weighed by the solid fractions, and their sum.
     solid: vec4<f32>,
     // The same of parts that touch only, each as one.
-    beside: vec4<f32>,
-    // Whether a part is deep, or near.
-    deep: bool,
+    touching: vec4<f32>,
+    // Whether a part is interior, or near.
+    interior: bool,
     near: bool,
-    // One more than the number of a block that has a share or touches, 0 where there is none; whether another one does.
+    // One more than the number of a block that is in the cell or touches it, 0 where there is none; whether another one does.
     first_block: u32,
     several: bool,
 }
 
 @compute @workgroup_size(INVOCATIONS)
-fn saturate_cells(
+fn combine_parts(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = turn_of(group, groups);
-    if (turn >= arrayLength(&work)) {
+    let index = workgroup_index(group, groups);
+    if (index >= arrayLength(&work)) {
         return;
     }
-    let job = work[turn];
+    let job = work[index];
     if (job == NOTHING) {
         return;
     }
@@ -53,11 +53,11 @@ fn saturate_cells(
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
         var sums: Sums;
         if (begin < end) {
-            sums = with_part(sums, shares[first * WORKGROUP + place], tile, motion, place);
+            sums = with_part(sums, solid_fractions[first * WORKGROUP + place], tile, motion, place);
         }
         for (var k = begin + 1u; k < end; k++) {
             let number = lane_tiles[k];
-            let mark = shares[number * WORKGROUP + place];
+            let mark = solid_fractions[number * WORKGROUP + place];
             if (mark != 0.0) {
                 let other = tiles[number];
                 sums = with_part(sums, mark, other, motions[other.block], place);
@@ -83,8 +83,8 @@ fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) ->
     let another = before.first_block != 0u && before.first_block != tile.block + 1u;
     return Sums(
         before.solid + clamp(mark, 0.0, 1.0) * u,
-        before.beside + select(0.0, 1.0, mark == TOUCHES) * u,
-        before.deep || mark == DEEP,
+        before.touching + select(0.0, 1.0, mark == TOUCHES) * u,
+        before.interior || mark == INTERIOR,
         before.near || mark < 0.0,
         select(before.first_block, tile.block + 1u, met),
         before.several || (met && another),
@@ -92,17 +92,17 @@ fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) ->
 }
 
 fn write(lane: u32, place: u32, sums: Sums) {
-    let share = sums.solid.w;
-    let some = share > 0.0;
-    let tight = select(0.0, tightness(share), sums.several && !sums.deep);
-    let joint = tight > 0.0;
+    let fraction = sums.solid.w;
+    let some = fraction > 0.0;
+    let closure = select(0.0, joint_closure(fraction), sums.several && !sums.interior);
+    let joint = closure > 0.0;
     let slot = lane / LANES_OF_ELEMENT;
     let first = plane_element(slot, 0u, WORKGROUP, place) * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
-    let all = sums.solid + tight * sums.beside;
+    let all = sums.solid + closure * sums.touching;
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    saturation[first + PLANE_SUM * stride] = encode_sum(share, sums.near, sums.deep, joint);
-    saturation[first + PLANE_VELOCITY * stride] = u.x;
-    saturation[first + (PLANE_VELOCITY + 1u) * stride] = u.y;
-    saturation[first + (PLANE_VELOCITY + 2u) * stride] = u.z;
+    psm_planes[first + PLANE_SUM * stride] = encode_sum(fraction, sums.near, sums.interior, joint);
+    psm_planes[first + PLANE_VELOCITY * stride] = u.x;
+    psm_planes[first + (PLANE_VELOCITY + 1u) * stride] = u.y;
+    psm_planes[first + (PLANE_VELOCITY + 2u) * stride] = u.z;
 }

@@ -1,29 +1,29 @@
 // No block is in the fluid.
 // needs velocity, grid, $lanes
 
-struct Saturation {
+struct PsmCell {
     unused: u32,
 }
 
-fn saturation_of(slot: u32, local: u32) -> Saturation {
-    return Saturation(0u);
+fn psm_cell(slot: u32, local: u32) -> PsmCell {
+    return PsmCell(0u);
 }
 
-fn mean_velocity(saturation: Saturation, u: Vector) -> Vector {
+fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
     return u;
 }
 
-fn outside_solids(saturation: Saturation, nu_t: Real) -> Real {
+fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t;
 }
 
-fn saturate(
+fn apply_solid(
     p: Place,
     slot: u32,
     local: u32,
     cell: u32,
-    saturation: Saturation,
-    excess: Real,
+    psm: PsmCell,
+    tau_minus_half: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,

@@ -9,7 +9,7 @@ fn solid(cell: u32) -> Mask {
     return Mask(false);
 }
 
-fn beside_wall(cell: u32) -> Mask {
+fn next_to_wall(cell: u32) -> Mask {
     return Mask(false);
 }
 

@@ -1,5 +1,5 @@
 // Suga et al. 2015, section 3: away from walls and blocks the odd moments relax at the published rates.
-// needs $lanes, $saturation
+// needs $lanes, $psm
 
 override S10: f32;
 override S13: f32;
@@ -13,6 +13,6 @@ struct OddRates {
     s26: f32,
 }
 
-fn odd_rates(cell: u32, saturation: Saturation) -> OddRates {
+fn odd_rates(cell: u32, psm: PsmCell) -> OddRates {
     return OddRates(S10, S13, S23, S26);
 }

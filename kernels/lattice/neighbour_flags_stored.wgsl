@@ -1,4 +1,4 @@
-// The flags of a cell, as cells_flagged.wgsl explains them.
+// The flags of a cell, as cell_flags_stored.wgsl explains them.
 // needs scalar_grid
 
 @group(0) @binding(32) var<storage, read> flags: array<u32>;

@@ -1,7 +1,7 @@
-// The layer of cells beside one face of a convex polyhedron.
+// The layer of cells along one face of a convex polyhedron.
 // needs tables, faces
 
-struct BesideFace {
+struct LayerCell {
     // Its foot on the plane of the face lies in the face, and the cell in the layer.
     here: bool,
     normal: vec3<f32>,
@@ -11,7 +11,7 @@ struct BesideFace {
 
 // r: the centre of the cell from the part's centroid. The layer begins where cells no longer reach through the plane
 // and is one cell thick, so that it holds one cell for each unit of the face's area.
-fn beside_face(part: Part, number: u32, r: vec3<f32>) -> BesideFace {
+fn layer_cell(part: Part, number: u32, r: vec3<f32>) -> LayerCell {
     let own = faces[part.first_face + number];
     let height = dot(own.xyz, r) - own.w;
     let first = half_width(own.xyz) - TOUCH;
@@ -21,5 +21,5 @@ fn beside_face(part: Part, number: u32, r: vec3<f32>) -> BesideFace {
         let face = faces[part.first_face + k];
         here = k == number || dot(face.xyz, foot) <= face.w;
     }
-    return BesideFace(here, own.xyz, height);
+    return LayerCell(here, own.xyz, height);
 }

@@ -1,4 +1,14 @@
 //! Every way in which the library can refuse or fail, made once where it is known.
+//!
+//! Misuse of a function or a setup is an [`Error::Argument`], which names the argument or field; what is wrong with a scene is an
+//! [`Error::Scene`], which names the key and, for scenes from text, the line.
+//!
+//! ```
+//! use riprap::{Error, lattice::{Grid, Setup}};
+//!
+//! let error = Grid::new(&Setup::periodic([0, 16, 16], 0.01)).unwrap_err();
+//! assert!(matches!(error, Error::Argument { ref what, .. } if what == "cells"));
+//! ```
 
 use std::{fmt, path::PathBuf};
 

@@ -16,7 +16,7 @@
 //! | factors of safety of blocks | [`safety`] |
 //! | VTK, CSV and sampled fields | [`output`] |
 //!
-//! [`gpu`] is below all of them: [`gpu::link`] makes one shader from the files in `kernels/`, and [`gpu::kernel`] binds and
+//! [`prelude`] has the types that most programs use. [`gpu`] is below all of them: [`gpu::link`] makes one shader from the files in `kernels/`, and [`gpu::kernel`] binds and
 //! records it. [`guide`] has the equations, with sources and limits.
 //!
 //! # Features
@@ -83,6 +83,7 @@ pub mod gpu;
 pub mod guide;
 pub mod lattice;
 pub mod output;
+pub mod prelude;
 pub mod psm;
 #[cfg(feature = "rock")]
 pub mod rock;

@@ -287,9 +287,14 @@ fn cycle(uses: &Uses) -> Option<Vec<String>> {
         .find_map(|module| visit(module, uses, &mut Vec::new(), &mut done))
 }
 
+/// The sources of the library.
+fn library() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src")
+}
+
 #[test]
 fn top_modules_have_no_cycle() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let src = library();
     let uses = uses(&src);
     assert!(uses["simulation"].contains_key("lattice"), "{uses:#?}");
     let cycle = cycle(&uses).map(|cycle| {
@@ -305,7 +310,7 @@ fn top_modules_have_no_cycle() {
 /// The adapters from scenes to the setups of engines are in one place.
 #[test]
 fn scenes_use_engines_in_build_only() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let src = library();
     let mut files = Vec::new();
     sources(&src.join("scene"), &mut files);
     let engines = ["lattice", "psm", "rock", "sph", "coupling"];

@@ -4,6 +4,7 @@ pub mod adapters;
 pub mod bench;
 pub mod check;
 pub mod fingerprint;
+pub mod migrate;
 pub mod picture;
 pub mod print;
 pub mod records;

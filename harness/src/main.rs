@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check, fingerprint, records, report,
+    adapters, bench, check, fingerprint, migrate, records, report,
     run::{self, Unfinished},
     schema, stress, threshold, validate,
 };
@@ -25,6 +25,7 @@ enum Command {
     Check(check::Args),
     Adapters(adapters::Args),
     Schema(schema::Args),
+    Migrate(migrate::Args),
     Threshold(threshold::Args),
     Validate(validate::Args),
     Stress(stress::Args),
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Adapters(args) => adapters::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Migrate(args) => migrate::run(&args).map(passed),
         Command::Threshold(args) => bisected(&args),
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Stress(args) => stress::run(&args).map(passed),

@@ -24,7 +24,7 @@ pub fn adapter(
 ) -> Result<Option<wgpu::Adapter>> {
     let blocks = blocks.setup.blocks.iter();
     let parts: usize = blocks.map(|block| block.shape.parts().len()).sum();
-    match scene.rock.search {
+    match scene.rock.broadphase {
         Search::Device => gpu::pick(name).map(Some),
         Search::Auto if parts >= AutoBroadphase::GPU_CROSSOVER => {
             let found = gpu::pick(name).ok();

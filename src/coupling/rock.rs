@@ -85,7 +85,7 @@ impl Rock {
             // Without free blocks no contact limits the step.
             setup.setup.time_step = Some(params.time_step);
         }
-        let mut broadphase = broadphase(device, scene.rock.search)?;
+        let mut broadphase = broadphase(device, scene.rock.broadphase)?;
         let blocks = begin(scene, &setup, &mut broadphase).await?;
         let inside = params.and_then(|params| params.inside);
         let coupled = if params.is_some() { blocks.len() } else { 0 };

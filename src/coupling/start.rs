@@ -29,8 +29,8 @@ pub(super) fn broadphase(
             AutoBroadphase::new(device, queue)
         }
         (None, Search::Device) => {
-            let message = "pairs are to be searched on a device, and none was given; give one, or use search = \"host\"";
-            return Err(Error::scene("rock.search", message));
+            let message = "pairs are to be searched on a device, and none was given; give one, or use broadphase = \"host\"";
+            return Err(Error::scene("rock.broadphase", message));
         }
         (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),
     };

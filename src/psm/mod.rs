@@ -12,6 +12,49 @@
 //! 5. where loads on single faces are requested, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
 //!    cells along them. The force on cells inside the solid belongs to no face: full ones reflect what was in them
 //!    when they were covered, and only over the whole block that cancels.
+//!
+//! ```
+//! use glam::{DQuat, DVec3};
+//! use riprap::{
+//!     geometry::{Pose, Shape},
+//!     lattice::{Lattice, Setup, SolidOperator},
+//!     psm::{Frame, SolidBlock, SolidCells},
+//!     units::Units,
+//!     wgpu,
+//! };
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Any device; this one does nothing, so that the example runs everywhere.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//! let mut setup = Setup::periodic([16; 3], 0.01);
+//! setup.solid_operator = Some(SolidOperator::Holdych);
+//! let mut lattice = Lattice::new(&device, setup)?;
+//!
+//! // A ball of 6 cm in a fluid whose cells are 1 cm wide.
+//! let units = Units { cell: 0.01, time_step: 0.001, density: 1000.0 };
+//! let frame = Frame { origin: DVec3::ZERO, units };
+//! let ball = SolidBlock { shape: Shape::sphere(0.03)?.into(), loaded: true, faces: false };
+//! let mut cells = SolidCells::new(&device, &lattice, frame, vec![ball])?;
+//!
+//! // A step: where the ball is, its cells, the bricks with them, the load, all other bricks.
+//! let pose = Pose::rigid(DVec3::splat(0.08), DQuat::IDENTITY, DVec3::X * 0.1, DVec3::ZERO);
+//! cells.place(&device, &queue, &mut lattice, &[pose])?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! {
+//!     let mut pass = encoder.begin_compute_pass(&Default::default());
+//!     cells.record_cells(&mut pass);
+//!     lattice.record_saturated(&mut pass);
+//!     cells.record_loads(&mut pass);
+//!     lattice.record_rest(&mut pass);
+//! }
+//! queue.submit([encoder.finish()]);
+//!
+//! // What was read of `cells.wrenches()`, as forces and moments in SI.
+//! let wrenches = vec![0.0; cells.wrench_count()];
+//! assert_eq!(cells.loads(&wrenches)?[0].force, DVec3::ZERO);
+//! # Ok(())
+//! # }
+//! ```
 
 mod face_load;
 mod face_sums;
@@ -29,11 +72,13 @@ mod tiles;
 pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
+#[doc(hidden)]
 pub use program::{
     Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, Walk, combine_parts, constants, reduce_blocks,
     reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
 };
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
+#[doc(hidden)]
 pub use tables::{
     FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
     Tile, WRENCH,

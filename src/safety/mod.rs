@@ -25,6 +25,25 @@
 //!
 //! Which planes a block slides on follows from the direction of R alone: it may move into no neighbour that it touches (Goodman &
 //! Shi 1985, chapter 9).
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::safety::{Mode, Plane, sliding, uplift};
+//!
+//! // 100 kN on a joint of 2 m² that dips by 30° along x, with a friction angle of 40° and no cohesion.
+//! let weight = DVec3::Z * -1e5;
+//! let (sin, cos) = 30f64.to_radians().sin_cos();
+//! let joint = Plane {
+//!     normal: DVec3::new(sin, 0.0, cos),
+//!     area: 2.0,
+//!     cohesion: 0.0,
+//!     friction_angle: 40f64.to_radians(),
+//! };
+//! let found = sliding(weight, &[joint]);
+//! assert!((found.factor - 40f64.to_radians().tan() / 30f64.to_radians().tan()).abs() < 1e-12);
+//! // Water that carries a quarter of the weight.
+//! assert_eq!(uplift(weight, -0.25 * weight), 4.0);
+//! ```
 
 mod patch;
 mod sliding;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Scene;
+use super::{Scene, renamed::renamed_keys};
 use crate::error::{Error, Place, Result};
 
 /// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
@@ -49,6 +49,17 @@ impl Scene {
 
 /// The error of a text that does not follow the format.
 fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
+    // A text that is no TOML has no keys; its own error follows.
+    if let Some(first) = renamed_keys(text, place).unwrap_or_default().first() {
+        return Error::Scene {
+            place: Some(Place {
+                file: place.to_owned(),
+                position: Some([first.line, first.column]),
+            }),
+            key: first.key.old.to_owned(),
+            message: format!("{first}; `riprap migrate {place}` rewrites all old keys"),
+        };
+    }
     let span = error.span();
     let at = span.clone().map(|span| position(text, span.start));
     let message = match (error.message(), span.and_then(|span| text.get(span))) {
@@ -153,7 +164,7 @@ fn find_block(text: &str, name: &str) -> Option<[usize; 2]> {
 }
 
 /// Line and column of the byte `offset`, counted from 1.
-fn position(text: &str, offset: usize) -> [usize; 2] {
+pub(super) fn position(text: &str, offset: usize) -> [usize; 2] {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     [

@@ -5,6 +5,33 @@
 //! kernel reaches, the first layer Δx/2 below the surface (Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057). The
 //! support of a fluid particle near a wall is therefore as full as in the interior of the fluid. The device then
 //! advances the particles ([`SphSolver`]).
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::{sph::{Setup, SphSolver}, wgpu};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Any device; this one does nothing, so that the example runs everywhere.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//!
+//! // Water 0.4 m deep in a tank of 1 m, with particles every 0.1 m and a speed of sound of 28 m/s.
+//! let setup = Setup::tank(DVec3::ONE, 0.1, 28.0);
+//! let at = |i: u32, j: u32, k: u32| (DVec3::new(i.into(), j.into(), k.into()) + 0.5) * 0.1;
+//! let layer = |k: u32| (0..100).map(move |n| at(n % 10, n / 10, k));
+//! let positions: Vec<DVec3> = (0..4).flat_map(layer).collect();
+//! let pressures: Vec<f64> = positions.iter().map(|x| 9810.0 * (0.4 - x.z)).collect();
+//! let still = vec![DVec3::ZERO; positions.len()];
+//! let mut water = SphSolver::new(&device, &queue, setup, &positions, &still, &pressures)?;
+//!
+//! // A hundredth of a second, of which one step is recorded.
+//! water.begin(&queue, &[], 0.01)?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! water.record(&mut encoder);
+//! queue.submit([encoder.finish()]);
+//! assert_eq!(water.counts().fluid, 400);
+//! # Ok(())
+//! # }
+//! ```
 
 mod bodies;
 mod body_history;
@@ -37,6 +64,7 @@ pub use bodies::bodies;
 pub use boundary_particles::boundary_particles;
 pub use cell_grid::CellGrid;
 pub(crate) use convex_part::ConvexPart;
+#[doc(hidden)]
 pub use counting_sort::{CountingSort, SortedParticles};
 pub use equation_of_state::EquationOfState;
 pub use fill::{Start, WaterBody, fill, water_volume};
@@ -44,6 +72,7 @@ pub use gauges::Gauges;
 pub use kernels::Counts;
 pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork};
 pub use particle_lattice::ParticleLattice;
+#[doc(hidden)]
 pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
 pub use setup::{Body, NeighbourSearch, Scheme, Setup, Side};
 pub use solid::{Faces, Solid};

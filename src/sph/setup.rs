@@ -65,7 +65,8 @@ pub struct Body {
     pub free_slip: bool,
 }
 
-/// Domain, fluid properties and numerical parameters, SI.
+/// Domain, fluid properties and numerical parameters, SI. Made by [`Setup::tank`]; then fields are changed.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// Lower corner of the domain, m.

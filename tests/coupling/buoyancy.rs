@@ -1,6 +1,6 @@
 //! Blocks in water that stands still.
 
-use crate::world::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, World, fluid, material};
 use glam::DVec3;
 
 /// A closed box with a fixed block of 8 × 6 × 7 m, 16 cells across at its widest, turned and off the grid.

@@ -1,6 +1,6 @@
 //! Blocks lighter and heavier than the fluid.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 
 /// Four blocks of half to eight times the density of the fluid that start with a velocity and a spin, a few cells
 /// across: where added masses are largest.

@@ -1,6 +1,6 @@
 //! Loads on the faces of blocks.
 
-use crate::world::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, World, fluid, material};
 use glam::DVec3;
 use riprap::psm::FaceLoad;
 

@@ -1,19 +1,18 @@
 //! What cannot be is said, and why.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use glam::{DQuat, DVec3};
-use kit::Rig;
+use kit::{Rig, scene::read};
 use riprap::{
     Error,
     geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator, State},
     psm::{Frame, SolidBlock, SolidCells},
-    scene::Scene,
     simulation::{Needs, Simulation},
     units::Units,
     wgpu,
 };
-use std::{path::Path, sync::Arc};
+use std::sync::Arc;
 
 const UNITS: Units = Units {
     cell: 1.0,
@@ -135,7 +134,7 @@ fn a_device_with_what_a_scene_needs_runs_it() {
         fluid([8, 8, 8], 0.05),
         material("rock", 2000.0)
     );
-    let scene = Scene::from_toml(&text, Path::new(""), "scene.toml").unwrap();
+    let scene = read(&text).unwrap();
     let adapter = kit::gpu::selected().unwrap();
     let needs = Needs::of(&scene, &adapter).unwrap();
     let (device, queue) = kit::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
@@ -231,15 +230,14 @@ fn single_loads_for_free_blocks_in_cells_that_reflect_are_refused() {
         fluid([8, 8, 8], 0.05),
         material("rock", 2000.0)
     );
-    let scene = |text: &str| Scene::from_toml(text, Path::new(""), "scene.toml");
-    let error = scene(&text).unwrap_err().to_string();
+    let error = read(&text).unwrap_err().to_string();
     assert!(
         error.contains("average") && error.contains("noble"),
         "{error}"
     );
-    scene(&format!("{text}\nmotion = \"fixed\"")).unwrap();
+    read(&format!("{text}\nmotion = \"fixed\"")).unwrap();
     let noble = text.replace("[numerics]", "[numerics]\nsolid_operator = \"noble\"");
-    scene(&noble).unwrap();
+    read(&noble).unwrap();
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Blocks that lie where fluid enters: said before the run, and when it ends.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use riprap::{Error, scene::Warning};
 
 /// A duct with a box of 2 m at `x`, and this velocity at its inlet.

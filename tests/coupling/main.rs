@@ -1,19 +1,19 @@
 //! Blocks and fluid together: what must be conserved, repeated, left alone and refused.
 
-mod around;
-mod balance;
 mod buoyancy;
-mod closed;
-mod crowd;
+mod conservation;
 mod density;
+mod external_load;
 mod faces;
 mod faults;
-mod flux;
-mod images;
+mod fixture;
 mod inlets;
+mod joint_seal;
+mod many_blocks;
+mod mass_flux;
+mod periodic_images;
 mod places;
-mod repeat;
-mod rest;
+mod reproducibility;
 mod rocking;
+mod skipped_work;
 mod sliding;
-mod world;

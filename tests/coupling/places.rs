@@ -1,6 +1,6 @@
-//! Blocks in places where something may go wrong.
+//! Blocks at periodic faces, at walls and in corners.
 
-use crate::world::{STEP, World, fluid, material};
+use crate::fixture::{STEP, World, fluid, material};
 
 const DRIVEN: &str = r#"
     motion = "driven"

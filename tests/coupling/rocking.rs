@@ -1,7 +1,7 @@
 //! A light block that is pushed until its base lifts a little off what it stands on, in still water: what is in a gap of a few
 //! thousandths of a cell must not shake it.
 
-use crate::world::World;
+use crate::fixture::World;
 
 /// A slab of 8 × 8 × 5 cells on a floor, or on a block so high, pushed at half its height with three quarters of what topples
 /// it; a cell is 1 m, a step 1 s and the fluid has 1 kg/m³.

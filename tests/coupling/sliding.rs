@@ -1,6 +1,6 @@
 //! Blocks that slide on what they lie on, under water: nothing but friction holds them.
 
-use crate::world::{DENSITY, World, fluid};
+use crate::fixture::{DENSITY, World, fluid};
 use glam::DVec3;
 
 /// Of the block, m: 8 × 6 × 5 cells.

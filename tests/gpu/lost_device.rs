@@ -6,7 +6,7 @@ use riprap::{
     scene::Scene,
     simulation::{Simulation, checkpoint::Checkpoint},
 };
-use std::{path::Path, time::Duration};
+use std::time::Duration;
 
 const FLOW: &str = r#"
 domain = { size = [12, 8, 8], cell = 1 }
@@ -33,7 +33,7 @@ z_max = { kind = "open" }
 "#;
 
 fn scene(text: &str) -> Scene {
-    Scene::from_toml(text, Path::new(""), "scene.toml").unwrap()
+    kit::scene::read(text).unwrap()
 }
 
 /// The message of a device that is gone.

@@ -2,7 +2,7 @@
 
 use kit::{Rig, gpu};
 use riprap::{Error, Result, scene::Scene, simulation::Simulation, wgpu};
-use std::{path::Path, time::Duration};
+use std::time::Duration;
 
 /// 16 × 16 × 16 cells, with a block if `blocks` is one.
 fn flow(blocks: &str) -> Scene {
@@ -40,7 +40,7 @@ fn water() -> Scene {
 }
 
 fn scene(text: &str) -> Scene {
-    Scene::from_toml(text, Path::new(""), "scene.toml").unwrap()
+    kit::scene::read(text).unwrap()
 }
 
 /// A device whose buffers and bindings hold so many bytes.

@@ -4,6 +4,6 @@ mod divergence_guard;
 mod golden;
 mod kernels;
 mod limits;
-mod repeat;
+mod reproducibility;
 mod twin;
 mod walls;

@@ -3,13 +3,13 @@
 mod combine_solids;
 mod exact;
 mod faces;
+mod fixture;
 mod layout;
 mod null_model;
 mod operators;
 mod programs;
 mod reduce;
 mod shapes;
-mod subject;
 mod tile_search;
 mod tiling;
 mod twin_step;

@@ -1,6 +1,6 @@
 //! What must change no bit.
 
-use crate::subject::Subject;
+use crate::fixture::Subject;
 use kit::{
     twin::lattice::W,
     twin::of_setup::{limit, noise, walled},
@@ -41,10 +41,9 @@ fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
         let mut alone = Subject::new(&plain);
         alone.rig.run(&mut alone.lattice, 7);
         let expected = alone.rig.populations(&mut alone.lattice).values;
-        let mut with = Subject::new(&Setup {
-            solid_operator: Some(SolidOperator::Holdych),
-            ..plain
-        });
+        let mut plain = plain;
+        plain.solid_operator = Some(SolidOperator::Holdych);
+        let mut with = Subject::new(&plain);
         let listed = with.some_bricks();
         // None listed at first, then some, then none again.
         for (bricks, steps) in [(&[][..], 2), (&listed[..], 3), (&[], 2)] {
@@ -107,10 +106,9 @@ fn lists_of_bricks_that_cannot_be_are_refused() {
     let error = refusal(&mut subject, &list);
     assert!(error.contains("solid operator"), "{error}");
 
-    let mut subject = Subject::new(&Setup {
-        solid_operator: Some(SolidOperator::Holdych),
-        ..busy(Storage::F32, 1)
-    });
+    let mut setup = busy(Storage::F32, 1);
+    setup.solid_operator = Some(SolidOperator::Holdych);
+    let mut subject = Subject::new(&setup);
     let error = refusal(&mut subject, &[list[0], 1000]);
     assert!(error.contains("brick 1000"), "{error}");
     let error = refusal(&mut subject, &[list[0], list[1], list[0]]);

@@ -1,6 +1,6 @@
 //! Blocks that [`SolidCells`] puts into the fluid, against the twin with exact solid fractions.
 
-use crate::subject::Subject;
+use crate::fixture::Subject;
 use glam::{DMat3, DQuat, DVec3};
 use kit::{
     twin::of_setup::{limit, walled},

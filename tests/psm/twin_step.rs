@@ -1,6 +1,6 @@
 //! Collision and streaming with given solid fractions.
 
-use crate::subject::Subject;
+use crate::fixture::Subject;
 use kit::twin::of_setup::{limit, noise, walled};
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, Storage};
 

@@ -9,8 +9,8 @@ mod parsing;
 mod particles;
 mod refusals;
 mod sampling;
-mod slips;
 mod solids;
+mod suspicious_keys;
 mod units;
 mod views;
 

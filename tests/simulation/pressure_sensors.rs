@@ -2,8 +2,7 @@
 //! over its face as it pushes the block.
 
 use kit::Rig;
-use riprap::{scene::Scene, simulation::Simulation};
-use std::path::Path;
+use riprap::simulation::Simulation;
 
 const TANK: &str = r#"
     [fluid]
@@ -20,7 +19,7 @@ const TANK: &str = r#"
 "#;
 
 fn pool(rig: &Rig, rest: &str) -> Simulation {
-    let scene = Scene::from_toml(&format!("{TANK}{rest}"), Path::new(""), "scene.toml").unwrap();
+    let scene = kit::scene::read(&format!("{TANK}{rest}")).unwrap();
     rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
         .unwrap()
 }

@@ -3,7 +3,6 @@
 use riprap::output::{Array, Image};
 use riprap::scene::{Axis, Scene};
 use riprap::simulation::probe::{Gauge, Layer};
-use std::path::Path;
 
 /// 8 × 6 × 4 cells of 0.5 m, walls in y, with a block in a corner; z is periodic.
 fn scene(probe: &str) -> Scene {
@@ -31,7 +30,7 @@ fn scene(probe: &str) -> Scene {
         {probe}
         "#
     );
-    Scene::from_toml(&text, Path::new(""), "scene.toml").unwrap()
+    kit::scene::read(&text).unwrap()
 }
 
 fn solid(scene: &Scene) -> Vec<bool> {

@@ -1,11 +1,7 @@
 //! Free water with blocks that fall, rest in closed joints and float goes on from a file to the same bits.
 
 use kit::Rig;
-use riprap::{
-    scene::Scene,
-    simulation::{Simulation, checkpoint::Checkpoint},
-};
-use std::path::Path;
+use riprap::simulation::{Simulation, checkpoint::Checkpoint};
 
 /// A slab on the floor, whose joint carries the pressure of the water at its rim; a stone on it; one that falls, and a
 /// driven one; an obstacle.
@@ -70,7 +66,7 @@ const STEPS: u64 = 17;
 const CUT: u64 = 6;
 
 fn pool(rig: &Rig) -> Simulation {
-    let scene = Scene::from_toml(SCENE, Path::new(""), "scene.toml").unwrap();
+    let scene = kit::scene::read(SCENE).unwrap();
     rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
         .unwrap()
 }

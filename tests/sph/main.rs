@@ -1,5 +1,6 @@
 //! SPH: initial particles, kernels against their twins, and small flows.
 
+mod advice;
 mod boundary_particles;
 mod containment;
 mod energy;

@@ -11,6 +11,7 @@ pub mod flow;
 pub mod gpu;
 pub mod pile;
 mod rig;
+pub mod scene;
 pub mod stream_only;
 pub mod subject;
 pub mod tank;

@@ -1,6 +1,6 @@
 //! Where blocks and fluid meet, before a run.
 
-use super::BlockFacts;
+use super::{BlockFacts, lines::Lines};
 use crate::{print::bytes, run::Coupling};
 use riprap::{
     coupling::{Coupled, Gap},
@@ -71,23 +71,23 @@ impl Immersion {
     }
 
     /// Lines of a name and what there is of it.
-    pub fn lines(&self, line: &mut impl FnMut(&str, String)) {
-        self.facts.lines(line);
-        line(
+    pub fn lines(&self, lines: &mut Lines) {
+        self.facts.lines(lines);
+        lines.add(
             "in the fluid",
-            format!("{} blocks: {}", self.cells.in_fluid, self.cells.kinds()),
+            format_args!("{} blocks: {}", self.cells.in_fluid, self.cells.kinds()),
         );
-        line(
+        lines.add(
             "",
-            format!(
+            format_args!(
                 "{} on the device; they meet the fluid every {} steps",
                 bytes(self.cells.bytes),
                 self.interval
             ),
         );
-        line(
+        lines.add(
             "gaps",
-            format!(
+            format_args!(
                 "{} pairs closer than a cell, {} of them touch; {} lubrication",
                 self.narrow_gaps,
                 self.closed_gaps,
@@ -97,7 +97,10 @@ impl Immersion {
         for gap in &self.narrowest {
             let [a, b] = &gap.blocks;
             let Narrow { width, cells, .. } = gap;
-            line("", format!("{a} and {b}: {width:.3e} m, {cells:.2} cells"));
+            lines.add(
+                "",
+                format_args!("{a} and {b}: {width:.3e} m, {cells:.2} cells"),
+            );
         }
     }
 }

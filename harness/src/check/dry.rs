@@ -1,13 +1,10 @@
 //! What a scene of blocks alone will run.
 
-use super::BlockFacts;
+use super::{BlockFacts, lines::Lines};
 use crate::{print::duration, run::SceneRun};
 use anyhow::{Context, Result};
 use serde::Serialize;
-use std::{
-    fmt::Write,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// Length of the trial.
 const TRIAL: Duration = Duration::from_millis(400);
@@ -88,39 +85,33 @@ fn try_out(run: &mut SceneRun, most: u64) -> Result<(u64, f64)> {
 impl RockReport {
     /// The report in lines of a name and what there is of it.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
-        let mut line = |name: &str, what: String| {
-            // A String takes all that is written to it.
-            let _ = writeln!(text, "{name:12} {what}");
-        };
-        self.facts.lines(&mut line);
-        line("search", self.search.clone());
-        line(
+        let mut lines = Lines::titled(&self.title);
+        self.facts.lines(&mut lines);
+        lines.add("search", &self.search);
+        lines.add(
             "time",
-            format!(
+            format_args!(
                 "{} steps of {:.4e} s = {:.4} s",
                 self.steps, self.time_step, self.duration
             ),
         );
-        line(
+        lines.add(
             "stability",
             match self.given {
-                true => "the time step is the scene's; one too long is refused".into(),
-                false => "sub-steps take half of the longest stable one".into(),
+                true => "the time step is the scene's; one too long is refused",
+                false => "sub-steps take half of the longest stable one",
             },
         );
-        line(
+        lines.add(
             "run",
-            format!(
+            format_args!(
                 "about {} without output: {:.3e} s a step ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
                 self.trial_steps
             ),
         );
-        for warning in &self.warnings {
-            line("warning", warning.clone());
-        }
-        text
+        lines.warnings(&self.warnings);
+        lines.text()
     }
 }

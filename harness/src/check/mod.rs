@@ -5,6 +5,7 @@ mod blocks;
 mod coupling;
 mod dry;
 mod kernels;
+mod lines;
 mod report;
 mod text;
 mod trial;

@@ -1,6 +1,6 @@
 //! What a scene of particles will run.
 
-use super::BlockFacts;
+use super::{BlockFacts, lines::Lines};
 use crate::{
     adapters::Adapter,
     print::{bytes, duration},
@@ -8,10 +8,7 @@ use crate::{
 };
 use riprap::sph::{Particle, ReferencePosition};
 use serde::Serialize;
-use std::{
-    fmt::Write,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// Length of the trial.
 const TRIAL: Duration = Duration::from_millis(400);
@@ -131,47 +128,40 @@ fn try_out(run: &mut SceneRun, most: u64) -> (u64, Duration, riprap::Result<()>)
 impl WaterReport {
     /// The report in lines of a name and what there is of it.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
-        let mut line = |name: &str, what: String| {
-            // A String takes all that is written to it.
-            let _ = writeln!(text, "{name:12} {what}");
-        };
-        let adapter = &self.adapter;
-        line(
-            "adapter",
-            format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver),
-        );
-        line(
+        let mut lines = Lines::titled(&self.title);
+        lines.adapter(&self.adapter);
+        lines.add(
             "water",
-            format!(
+            format_args!(
                 "{} particles of {:.4e} m, {:.4e} kg each, {:.4e} kg in all; {} boundary particles",
                 self.particles, self.spacing, self.particle_mass, self.mass, self.shell
             ),
         );
-        line("memory", format!("{} of particles", bytes(self.memory)));
-        line(
+        lines.add(
+            "memory",
+            format_args!("{} of particles", bytes(self.memory)),
+        );
+        lines.add(
             "sound",
-            format!(
+            format_args!(
                 "{:.3} m/s, Mach {:.2} at the largest speed expected, {:.3} m/s",
                 self.sound_speed, self.mach, self.largest_speed
             ),
         );
         if let Some(blocks) = &self.blocks {
-            blocks.lines(&mut line);
+            blocks.lines(&mut lines);
         }
-        line(
+        lines.add(
             "time",
-            format!(
+            format_args!(
                 "{} steps of {:.4e} s = {:.4} s; acoustic steps of at most {:.4e} s",
                 self.steps, self.time_step, self.duration, self.acoustic_step
             ),
         );
-        for warning in &self.warnings {
-            line("warning", warning.clone());
-        }
-        line(
+        lines.warnings(&self.warnings);
+        lines.add(
             "run",
-            format!(
+            format_args!(
                 "about {} without output: {:.3e} s a step, {:.2} million particle updates a second, boundary particles included ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
@@ -179,6 +169,6 @@ impl WaterReport {
                 self.trial_steps
             ),
         );
-        text
+        lines.text()
     }
 }

@@ -1,5 +1,6 @@
 //! What `check`, `adapters` and `schema` say.
 
+use kit::scene::STILL_WATER;
 use serde_json::Value;
 use std::process::Command;
 
@@ -93,25 +94,7 @@ fn the_report_for_people_has_the_same_facts() {
 /// Its speed of sound is √5 of the largest speed.
 #[test]
 fn the_published_scheme_of_particles_has_its_own_sound() {
-    let text = r#"
-    [domain]
-    size = [1.2, 1, 1.2]
-    [fluid]
-    acceleration = [0, 0, -9.81]
-    [particles]
-    spacing = 0.1
-    plane = true
-    scheme = "mueller"
-    [[water]]
-    kind = "box"
-    size = [1.2, 1, 0.8]
-    position = [0.6, 0.5, 0.4]
-    [boundaries]
-    z_min = { kind = "wall" }
-    z_max = { kind = "open" }
-    [run]
-    steps = 1
-"#;
+    let text = STILL_WATER.replace("plane = true", "plane = true\nscheme = \"mueller\"");
     let file = format!("{}/check_mueller.toml", env!("CARGO_TARGET_TMPDIR"));
     std::fs::write(&file, text).unwrap();
     let report = json(&["check", &file, "--json"]);

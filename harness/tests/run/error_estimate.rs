@@ -1,6 +1,7 @@
 //! `riprap run --error-estimate`: what it compares, and what it refuses.
 
 use crate::fixture::{args, folder, go};
+use kit::scene::STILL_WATER;
 use riprap_harness::run::{Args, Estimate, Headline, run};
 use std::{path::Path, sync::atomic::AtomicBool};
 
@@ -38,28 +39,11 @@ const CHANNEL: &str = r#"
 "#;
 
 /// A tank of water, 24 × 16 particles.
-const WATER: &str = r#"
-    [domain]
-    size = [1.2, 1, 1.2]
-    [fluid]
-    acceleration = [0, 0, -9.81]
-    [particles]
-    spacing = 0.05
-    plane = true
-    [boundaries]
-    x_min = { kind = "wall" }
-    x_max = { kind = "wall" }
-    z_min = { kind = "wall" }
-    z_max = { kind = "open" }
-    [[water]]
-    kind = "box"
-    size = [1.2, 1, 0.8]
-    position = [0.6, 0.5, 0.4]
-    [run]
-    steps = 8
-    [[output.histories]]
-    quantities = ["mass", "potential_energy"]
-"#;
+fn water() -> String {
+    let fine = STILL_WATER.replace("spacing = 0.1", "spacing = 0.05");
+    let short = fine.replace("steps = 12", "steps = 8");
+    format!("{short}[[output.histories]]\nquantities = [\"mass\", \"potential_energy\"]\n")
+}
 
 fn estimated(folder: &Path, text: &str) -> Estimate {
     let args = Args {
@@ -162,7 +146,7 @@ fn dry_blocks_are_compared_with_steps_twice_as_long() {
 
 #[test]
 fn water_is_compared_with_particles_twice_as_far_apart() {
-    let estimate = estimated(&folder("estimate_water"), WATER);
+    let estimate = estimated(&folder("estimate_water"), &water());
     assert_eq!(estimate.resolution, "particles 0.1 m apart");
     assert!(find(&estimate, "history", "mass").relative.unwrap() < 1e-6);
 }
@@ -171,7 +155,7 @@ fn water_is_compared_with_particles_twice_as_far_apart() {
 #[test]
 fn both_runs_of_water_end_together() {
     let folder = folder("estimate_end");
-    let text = WATER.replace(
+    let text = water().replace(
         "\"potential_energy\"]",
         "\"potential_energy\"]\n        every = 0.05",
     );

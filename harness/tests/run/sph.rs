@@ -1,35 +1,13 @@
 //! Runs of free water: what they write, and whether it is what the water does.
 
 use crate::fixture::{args, folder, go};
+use kit::scene::STILL_WATER;
 use riprap::output::Table;
 use riprap_harness::{
     render::Picture,
     run::{Args, run},
 };
 use std::{fs, sync::atomic::AtomicBool};
-
-/// A tank of 12 × 8 particles of still water; nothing varies along y.
-const STILL: &str = r#"
-    title = "still"
-    [domain]
-    size = [1.2, 1, 1.2]
-    [fluid]
-    acceleration = [0, 0, -9.81]
-    [particles]
-    spacing = 0.1
-    plane = true
-    [boundaries]
-    x_min = { kind = "wall" }
-    x_max = { kind = "wall" }
-    z_min = { kind = "wall" }
-    z_max = { kind = "open" }
-    [[water]]
-    kind = "box"
-    size = [1.2, 1, 0.8]
-    position = [0.6, 0.5, 0.4]
-    [run]
-    steps = 12
-"#;
 
 const MEASURED: &str = r#"
     [output]
@@ -86,7 +64,7 @@ fn last(folder: &std::path::Path, table: &str, column: &str) -> f64 {
 #[test]
 fn still_water_is_measured_where_it_is() {
     let folder = folder("water_still");
-    let args = args(&folder, &format!("{STILL}{MEASURED}"), "out");
+    let args = args(&folder, &format!("{STILL_WATER}{MEASURED}"), "out");
     let summary = go(&args);
     let out = folder.join("out");
     assert!(summary.complete && summary.rocks.is_none());
@@ -143,7 +121,7 @@ fn still_water_is_measured_where_it_is() {
 fn levels_and_run_up_are_drawn_over_time() {
     let folder = folder("water_curves");
     let text = format!(
-        "{STILL}
+        "{STILL_WATER}
     [[probes]]
     name = \"level\"
     kind = \"gauge\"
@@ -194,7 +172,7 @@ fn levels_and_run_up_are_drawn_over_time() {
 #[test]
 fn a_restart_goes_on_to_the_same_bits() {
     let folder = folder("water_restart");
-    let whole = args(&folder, &format!("{STILL}{MEASURED}"), "whole");
+    let whole = args(&folder, &format!("{STILL_WATER}{MEASURED}"), "whole");
     let energies = go(&whole).water_energies.unwrap();
     // At rest nothing works, to a thousandth of what its weight could do.
     let scale = 1e-3 * 960.0 * 9.81 * 0.4;
@@ -219,7 +197,7 @@ fn a_restart_goes_on_to_the_same_bits() {
         assert_eq!(tail(&a), tail(&b), "{file}");
     }
     // The same water in a longer tank is another scene.
-    let longer = STILL.replace("size = [1.2, 1, 1.2]", "size = [1.3, 1, 1.2]");
+    let longer = STILL_WATER.replace("size = [1.2, 1, 1.2]", "size = [1.3, 1, 1.2]");
     let other = Args {
         restart: Some(checkpoint),
         ..args(&folder, &longer, "other")
@@ -235,7 +213,7 @@ fn a_restart_goes_on_to_the_same_bits() {
 fn what_leaves_through_an_open_face_is_counted() {
     let folder = folder("water_open");
     // A sheet that flies out at the side.
-    let text = STILL
+    let text = STILL_WATER
         .replace("x_max = { kind = \"wall\" }", "x_max = { kind = \"open\" }")
         .replace(
             "size = [1.2, 1, 0.8]",
@@ -261,7 +239,7 @@ fn what_leaves_through_an_open_face_is_counted() {
 fn a_block_falls_into_water_and_its_books_close() {
     let folder = folder("water_block");
     let text = format!(
-        "{STILL}
+        "{STILL_WATER}
     [output]
     every = 0.02
     [[output.histories]]
@@ -393,7 +371,7 @@ fn energies_of_water_and_blocks_close_together() {
 fn a_block_of_cork_floats() {
     let folder = folder("water_cork");
     let text = format!(
-        "{STILL}
+        "{STILL_WATER}
     [[materials]]
     name = \"cork\"
     density = 100
@@ -429,7 +407,7 @@ fn a_block_of_cork_floats() {
 #[test]
 fn water_that_is_too_fast_or_lost_is_told() {
     let folder = folder("water_fast");
-    let text = STILL
+    let text = STILL_WATER
         .replace("plane = true", "plane = true\n    largest_speed = 1")
         .replace(
             "position = [0.6, 0.5, 0.4]",

@@ -10,3 +10,4 @@ mod lines;
 mod refusals;
 mod sequences;
 mod shading;
+mod traces;

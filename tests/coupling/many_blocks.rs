@@ -1,6 +1,6 @@
 //! Many blocks.
 
-use crate::world::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, World, fluid, material};
 use glam::DVec3;
 
 /// 100 blocks of 4 cells an edge fill three tenths of a periodic box, driven together by their first velocities.

@@ -1,6 +1,6 @@
-//! What need not be done is not done.
+//! Work that a step does not need is left out.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use riprap::coupling::Exchanges;
 
 fn exchanges(world: &World) -> Exchanges {

@@ -1,6 +1,6 @@
 //! Nothing is lost between blocks and fluid.
 
-use crate::world::{DENSITY, STEP, World, fluid, material};
+use crate::fixture::{DENSITY, STEP, World, fluid, material};
 use glam::DVec3;
 use std::f64::consts::PI;
 

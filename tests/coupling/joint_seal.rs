@@ -1,6 +1,6 @@
-//! SealedJoints joints: what a block feels there is the water of their rim, once what the lattice held inside has seeped out.
+//! Closed joints: the load of a block there is the pressure at the rim, once the fluid of the cells inside has seeped out.
 
-use crate::world::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, World, fluid, material};
 use glam::DVec3;
 
 /// The factors of safety of a block called stone.

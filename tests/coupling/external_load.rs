@@ -1,6 +1,6 @@
 //! What the fluid around a block does to it, apart from the inertia of the fluid inside its cells.
 
-use crate::world::{DENSITY, STEP, World, fluid, material};
+use crate::fixture::{DENSITY, STEP, World, fluid, material};
 use glam::DVec3;
 use riprap::coupling::FluidLoad;
 use std::f64::consts::PI;

@@ -93,10 +93,8 @@ fn words_of_64_bits_change_no_bit() {
     for storage in [Storage::F32, Storage::F16] {
         let mut narrow = setup();
         (narrow.storage, narrow.lanes, narrow.force) = (storage, 4, field.clone());
-        let wide = Setup {
-            wide: true,
-            ..narrow.clone()
-        };
+        let mut wide = narrow.clone();
+        wide.wide = true;
         let expected = bits(&run(&rig, narrow, 51).1);
         assert!(bits(&run(&rig, wide, 51).1) == expected, "{storage:?}");
     }

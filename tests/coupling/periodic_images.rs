@@ -1,6 +1,6 @@
 //! Blocks that meet across a periodic face, and films of fluid between blocks.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use glam::DVec3;
 
 /// Two boxes that go towards each other along x, 16 cells and 8 m long, the middle of the gap at `x` (m).

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use kit::Rig;
-use riprap::{Result, coupling::FluidLoad, scene::Scene, simulation::Simulation};
-use std::path::Path;
+use riprap::{Result, coupling::FluidLoad, simulation::Simulation};
 
 /// Length of a step, s.
 pub const STEP: f64 = 0.25;
@@ -40,7 +39,7 @@ impl World {
     }
 
     pub fn try_new(text: &str) -> Result<Self> {
-        let scene = Scene::from_toml(text, Path::new(""), "scene.toml")?;
+        let scene = kit::scene::read(text)?;
         let rig = Rig::new();
         let sim = rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))?;
         Ok(Self { rig, sim })

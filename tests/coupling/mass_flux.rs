@@ -1,6 +1,6 @@
 //! The velocity in cells with solid: what crosses a plane is the same everywhere.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use riprap::scene::Field;
 
 /// Water driven by a body force past a turned block that is cut into cells, until it is steady.

@@ -1,6 +1,6 @@
 //! The same bits twice, and from wherever a run was cut.
 
-use crate::world::{World, fluid, material};
+use crate::fixture::{World, fluid, material};
 use riprap::{
     scene::Field,
     simulation::checkpoint::{Checkpoint, FluidState, LatticeState},

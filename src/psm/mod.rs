@@ -43,7 +43,7 @@
 //! {
 //!     let mut pass = encoder.begin_compute_pass(&Default::default());
 //!     cells.record_cells(&mut pass);
-//!     lattice.record_saturated(&mut pass);
+//!     lattice.record_psm(&mut pass);
 //!     cells.record_loads(&mut pass);
 //!     lattice.record_rest(&mut pass);
 //! }

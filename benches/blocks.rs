@@ -24,7 +24,7 @@ fn main() -> Result<(), Error> {
         .measurement_time(Duration::from_millis(600))
         .configure_from_args();
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let one = one.map_err(|e| Error::scene("threads", e.to_string()))?;
+    let one = one.map_err(|e| Error::argument("threads", e.to_string()))?;
     let mut table = Vec::new();
     let mut group = criterion.benchmark_group("blocks/step");
     for count in COUNTS {
@@ -32,7 +32,7 @@ fn main() -> Result<(), Error> {
         println!(
             "{} free blocks, {} candidates, {} contacts, {:.1e} m/s after {} steps",
             pile.free,
-            pile.blocks.candidates(),
+            pile.blocks.candidate_pair_count(),
             pile.blocks.contacts().count(),
             pile.blocks.largest_speed(),
             pile.steps

@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{broadphase::scattered, gpu};
 use riprap::{
     Error,
-    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase},
     wgpu,
 };
 use std::time::{Duration, Instant};
@@ -80,7 +80,7 @@ fn main() -> Result<(), Error> {
 }
 
 /// Scenes to take in turn: branch predictors learn a short one by heart.
-fn different(count: u32, ratio: f64) -> Vec<Vec<Item>> {
+fn different(count: u32, ratio: f64) -> Vec<Vec<Aabb>> {
     let seeds = 0..(30_000 / count).max(1);
     let scenes = seeds.map(|seed| scattered(count, ratio, seed.into()));
     scenes.collect()
@@ -97,9 +97,9 @@ fn measure(
     criterion: &mut Criterion,
     name: &str,
     cost: Cost,
-    scenes: &[[Vec<Vec<Item>>; COUNTS.len()]],
+    scenes: &[[Vec<Vec<Aabb>>; COUNTS.len()]],
     table: &mut Vec<Row>,
-    mut find: impl FnMut(&[Item]) -> Result<Vec<[u32; 2]>, Error>,
+    mut find: impl FnMut(&[Aabb]) -> Result<Vec<[u32; 2]>, Error>,
 ) {
     let mut group = criterion.benchmark_group(format!("broadphase/{name}"));
     for (scenes, ratio) in scenes.iter().zip(RATIOS) {

@@ -9,11 +9,12 @@ use kit::{
     clock::Clock,
     copy::{Copy, METHODS},
     flow, gpu,
+    stream_only::StreamOnly,
     subject::Subject,
 };
 use riprap::{
     Error,
-    lattice::{Collision, Force, Lattice, Setup, Storage, StreamOnly},
+    lattice::{Collision, Force, Lattice, Setup, Storage},
     wgpu,
 };
 use std::{collections::BTreeMap, time::Duration};

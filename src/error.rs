@@ -1,16 +1,36 @@
 //! Every way in which the library can refuse or fail, made once where it is known.
+//!
+//! Misuse of a function or a setup is an [`Error::Argument`], which names the argument or field; what is wrong with a scene is an
+//! [`Error::Scene`], which names the key and, for scenes from text, the line.
+//!
+//! ```
+//! use riprap::{Error, lattice::{Grid, Setup}};
+//!
+//! let error = Grid::new(&Setup::periodic([0, 16, 16], 0.01)).unwrap_err();
+//! assert!(matches!(error, Error::Argument { ref what, .. } if what == "cells"));
+//! ```
 
-use std::path::PathBuf;
+use std::{fmt, path::PathBuf};
 
 /// What went wrong, where, and what to change.
 #[non_exhaustive]
 #[derive(thiserror::Error, Debug)]
 pub enum Error {
     /// A scene, or a value in it, cannot be used.
-    #[error("{place}: {message}")]
+    #[error("{}{message}", Place::prefix(place.as_ref(), key))]
     Scene {
-        /// Where in the scene: a file with line, or a key such as `boundaries.x_min`.
-        place: String,
+        /// Where the scene was read, if that is known.
+        place: Option<Place>,
+        /// Key such as `boundaries.x_min`; empty if the text as a whole cannot be read.
+        key: String,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// An argument, or a field of a setup, cannot be used.
+    #[error("{what}: {message}")]
+    Argument {
+        /// Name of the argument or field, such as `faces.x_min`.
+        what: String,
         /// What is wrong and what would be right.
         message: String,
     },
@@ -173,6 +193,34 @@ pub enum Error {
     Device(String),
 }
 
+/// A place in the text of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Name of the text, which is its file where it has one.
+    pub file: String,
+    /// Line and column, from 1, if the key is known to stand there.
+    pub position: Option<[usize; 2]>,
+}
+
+impl Place {
+    /// What precedes the message of an error.
+    fn prefix(place: Option<&Self>, key: &str) -> String {
+        let place = place.map(|place| format!("{place}: "));
+        let key = (!key.is_empty()).then(|| format!("{key}: "));
+        place.into_iter().chain(key).collect()
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        match self.position {
+            Some([line, column]) => write!(f, ":{line}:{column}"),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Two blocks that overlap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
@@ -210,22 +258,40 @@ fn unlike(a: f64, b: f64) -> [String; 2] {
 }
 
 impl Error {
-    /// An error of a scene at `place`.
-    pub fn scene(place: impl Into<String>, message: impl Into<String>) -> Self {
+    /// An error of the value at `key` of a scene.
+    pub fn scene(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self::Scene {
-            place: place.into(),
+            place: None,
+            key: key.into(),
             message: message.into(),
         }
     }
 
-    /// The same error, its place being inside `outer`: `faces[2]` becomes `blocks[3] (wedge).faces[2]`.
-    /// Errors that have no place stay as they are.
+    /// An error of an argument or field.
+    pub fn argument(what: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::Argument {
+            what: what.into(),
+            message: message.into(),
+        }
+    }
+
+    /// The same error of an argument that is part of `outer`: `faces[2]` becomes `volumes[0].faces[2]`. Other errors stay
+    /// as they are.
     pub fn within(self, outer: &str) -> Self {
         match self {
-            Self::Scene { place, message } => Self::Scene {
-                place: format!("{outer}.{place}"),
+            Self::Argument { what, message } => Self::Argument {
+                what: format!("{outer}.{what}"),
                 message,
             },
+            other => other,
+        }
+    }
+
+    /// The error of a scene for an argument that was made from it; `key` says from which key. Other errors stay as they
+    /// are.
+    pub(crate) fn at_key(self, key: impl FnOnce(&str) -> String) -> Self {
+        match self {
+            Self::Argument { what, message } => Self::scene(key(&what), message),
             other => other,
         }
     }

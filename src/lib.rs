@@ -16,8 +16,25 @@
 //! | factors of safety of blocks | [`safety`] |
 //! | VTK, CSV and sampled fields | [`output`] |
 //!
-//! [`gpu`] is below all of them: [`gpu::link`] makes one shader from the files in `kernels/`, and [`gpu::kernel`] binds and
+//! [`prelude`] has the types that most programs use. [`gpu`] is below all of them: [`gpu::link`] makes one shader from the files in `kernels/`, and [`gpu::kernel`] binds and
 //! records it. [`guide`] has the equations, with sources and limits.
+//!
+//! # Features
+//!
+//! All of them are on by default.
+//!
+//! | feature | modules that it compiles | crates that it adds |
+//! |---|---|---|
+//! | none | `lattice`, `psm`, `geometry`, `gpu`, `units`, `formula`, `output` | wgpu, naga, glam, bytemuck, thiserror |
+//! | `rock` | `rock`, `safety`, rock masses in `geometry` | clarabel, rayon |
+//! | `sph` | `sph`; implies `rock` | |
+//! | `scene` | `scene`; `scene::build` to the setups of the other features | serde, toml, schemars, strsim |
+//! | `rock`, `sph` and `scene` | `coupling`, `simulation` | |
+//! | `checkpoint` | files of `simulation::checkpoint`; implies `rock`, `sph` and `scene` | crc32fast |
+//! | `mesh` | STL and OBJ files in `geometry` | stl_io, tobj |
+//! | `backends` | the backends of wgpu: Vulkan, OpenGL ES, Metal, DirectX 12 | those of wgpu |
+//!
+//! # Devices
 //!
 //! The caller owns device, queue and encoder; the library owns pipelines and buffers. It chooses no
 //! adapter, reads no environment, does not block, and does not panic on input.
@@ -51,7 +68,13 @@
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+// Modules share helpers with those that a feature leaves out; the build with all of them says which are unused.
+#![cfg_attr(
+    not(all(feature = "checkpoint", feature = "mesh")),
+    allow(dead_code, unused_imports)
+)]
 
+#[cfg(all(feature = "rock", feature = "sph", feature = "scene"))]
 pub mod coupling;
 pub mod error;
 pub mod formula;
@@ -60,11 +83,17 @@ pub mod gpu;
 pub mod guide;
 pub mod lattice;
 pub mod output;
+pub mod prelude;
 pub mod psm;
+#[cfg(feature = "rock")]
 pub mod rock;
+#[cfg(feature = "rock")]
 pub mod safety;
+#[cfg(feature = "scene")]
 pub mod scene;
+#[cfg(all(feature = "rock", feature = "sph", feature = "scene"))]
 pub mod simulation;
+#[cfg(feature = "sph")]
 pub mod sph;
 pub mod units;
 
@@ -79,6 +108,6 @@ pub use wgpu;
 pub struct Readme;
 
 /// The examples of the book, compiled.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "rock"))]
 #[doc = include_str!("../docs/src/embedding.md")]
 pub struct Embedding;

@@ -4,7 +4,6 @@
 //! kernels is in SI; what crosses the border passes through a function of [`Units`].
 
 use crate::error::{Error, Result};
-use crate::scene::{Numerics, Scene};
 
 /// Squared speed of sound of the lattice, lattice units.
 pub const SOUND_SPEED_SQUARED: f64 = 1.0 / 3.0;
@@ -26,37 +25,10 @@ pub struct Units {
 }
 
 impl Units {
-    /// The units of `scene`: its `time_step`, or Δt = Ma Δx/(√3 U) from its Mach number and
-    /// velocity scale.
-    ///
-    /// # Errors
-    /// If the scene gives neither a time step nor any velocity from which one follows.
-    pub fn of(scene: &Scene) -> Result<Self> {
-        if scene.has_particles() {
-            return Err(Error::scene(
-                "particles",
-                "a fluid of particles has no lattice; run it as one of particles",
-            ));
-        }
-        let cell = scene.domain.cell;
-        let time_step = match scene.numerics.time_step {
-            Some(time_step) => time_step,
-            None => {
-                let mach = scene.numerics.mach.unwrap_or(Numerics::DEFAULT_MACH);
-                mach * cell * SOUND_SPEED_SQUARED.sqrt() / scene.velocity_scale()?
-            }
-        };
-        Ok(Self {
-            cell,
-            time_step,
-            density: scene.fluid.density,
-        })
-    }
-
     /// Whether all of them are positive numbers.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the first that is not.
+    /// [`Error::Argument`] naming the first that is not.
     pub fn check(&self) -> Result<()> {
         let all = [
             ("cell", self.cell),
@@ -70,7 +42,7 @@ impl Units {
             None => Ok(()),
             Some((name, unit)) => {
                 let message = format!("is {unit}; give a number greater than 0");
-                Err(Error::scene(format!("units.{name}"), message))
+                Err(Error::argument(format!("units.{name}"), message))
             }
         }
     }

@@ -156,7 +156,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             cells.record_cells(&mut pass);
-            lattice.record_saturated(&mut pass);
+            lattice.record_psm(&mut pass);
             cells.record_loads(&mut pass);
             lattice.record_rest(&mut pass);
         }

@@ -11,7 +11,7 @@ use riprap::{
     geometry::{Polyhedron, Shape},
     rock::{
         Block, Blocks, Material, Setup,
-        broadphase::{Broadphase, HostBroadphase, Item},
+        broadphase::{Aabb, Broadphase, HostBroadphase},
     },
 };
 use std::{error::Error, sync::Arc};
@@ -25,7 +25,7 @@ struct Sweep {
 
 impl Broadphase for Sweep {
     // Nothing here waits; a finder on a device would.
-    async fn pairs(&mut self, items: &[Item]) -> riprap::Result<Vec<[u32; 2]>> {
+    async fn pairs(&mut self, items: &[Aabb]) -> riprap::Result<Vec<[u32; 2]>> {
         self.calls += 1;
         let mut order: Vec<usize> = (0..items.len()).collect();
         order.sort_by(|&a, &b| items[a].min[0].total_cmp(&items[b].min[0]));
@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "{} blocks, {} candidate pairs, {} lists in {:.1} s",
         ours.len(),
-        ours.candidates(),
+        ours.candidate_pair_count(),
         own.calls,
         ours.time()
     );

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use riprap::Error;
 use riprap_harness::{
-    adapters, bench, check, fingerprint, report,
+    adapters, bench, check, fingerprint, migrate, records, report,
     run::{self, Unfinished},
     schema, stress, threshold, validate,
 };
@@ -25,11 +25,13 @@ enum Command {
     Check(check::Args),
     Adapters(adapters::Args),
     Schema(schema::Args),
+    Migrate(migrate::Args),
     Threshold(threshold::Args),
     Validate(validate::Args),
     Stress(stress::Args),
     Bench(bench::Args),
     Fingerprint(fingerprint::Args),
+    Records(records::Args),
     Report(report::Args),
 }
 
@@ -44,11 +46,13 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Adapters(args) => adapters::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Schema(args) => schema::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Migrate(args) => migrate::run(&args).map(passed),
         Command::Threshold(args) => bisected(&args),
         Command::Validate(args) => validate::run(args).map(passed),
         Command::Stress(args) => stress::run(&args).map(passed),
         Command::Bench(args) => bench::run(args).map(|()| ExitCode::SUCCESS),
         Command::Fingerprint(args) => fingerprinted(&args),
+        Command::Records(args) => recorded(&args),
         Command::Report(args) => report::run(&args).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|error| {
@@ -99,6 +103,11 @@ fn bisected(args: &threshold::Args) -> anyhow::Result<ExitCode> {
 fn fingerprinted(args: &fingerprint::Args) -> anyhow::Result<ExitCode> {
     listen()?;
     fingerprint::run(args, &STOP).map(passed)
+}
+
+fn recorded(args: &records::Args) -> anyhow::Result<ExitCode> {
+    listen()?;
+    records::run(args, &STOP).map(passed)
 }
 
 fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {

@@ -1,7 +1,7 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
 // One step of the fluid, fused: load, moments, collide, back, store. In moments h the step adds
 // R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
-// needs moments, stream, velocity, $where, $cells, $saturation, $equilibrium, $eddy, $force, $relax, $keep, $guard, workgroup
+// needs moments, stream, velocity, $bricks, $cell_flags, $psm, $equilibrium, $eddy, $force, $relax, $store_velocity, $guard, workgroup
 
 @compute @workgroup_size(WORKGROUP)
 fn collide_stream(
@@ -9,42 +9,42 @@ fn collide_stream(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = group.x + group.y * groups.x;
-    if (turn >= brick_count()) {
+    let index = group.x + group.y * groups.x;
+    if (index >= brick_count()) {
         return;
     }
-    let p = place(brick_of(turn), local);
+    let p = place(brick_of(index), local);
     if (p.outside) {
         return;
     }
     let cell = cell_class(p);
     // First, while few values are held.
-    let saturation = saturation_of(turn, local);
-    let excess = relaxation_excess(p, cell, saturation);
-    let shear_rate = 1.0 / (0.5 + excess);
+    let psm = psm_cell(index, local);
+    let tau_excess = tau_minus_half(p, cell, psm);
+    let shear_rate = 1.0 / (0.5 + tau_excess);
     var f = load(p);
     var h = f;
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
     let bad = out_of_range(cell, rho, u);
-    keep_velocity(p, cell, mean_velocity(saturation, u));
+    store_velocity(p, cell, mean_velocity(psm, u));
     var d = equilibrium(rho, u);
     for (var k = 1u; k < 27u; k++) { // unroll
         d[k] -= h[k];
     }
     take_half_source(p, u, &d);
-    // Only the change goes back from moments: its round-off is a share of the change, not of f, and
-    // weak forces are not lost beside it.
+    // Only the change goes back from moments: its round-off is relative to the change, not to f, and
+    // weak forces are not lost in that of f.
     var change: array<Real, 27>;
-    relax(cell, saturation, shear_rate, &d, &change);
+    relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);
-    saturate(p, turn, local, cell, saturation, excess, rho, u, &h, &change);
+    apply_solid(p, index, local, cell, psm, tau_excess, rho, u, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];
     }
     clear_solid(cell, &f);
     store(p, &f);
-    guard(p, bad, turn == 0u && local == 0u);
+    guard(p, bad, index == 0u && local == 0u);
 }

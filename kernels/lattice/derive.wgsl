@@ -14,10 +14,10 @@ fn derive(
         return;
     }
     let cell = domain_cell(n);
-    let around = flags_of(cell);
-    if ((around & 128u) != 0u) {
+    let cell_flags = flags_of(cell);
+    if ((cell_flags & 128u) != 0u) {
         derived[n] = 0.0;
         return;
     }
-    derived[n] = quantity(cell_gradient(cell, around));
+    derived[n] = quantity(cell_gradient(cell, cell_flags));
 }

@@ -1,9 +1,9 @@
 // Laminar: one relaxation time, nu = (tau - 1/2) / 3.
-// needs grid, $saturation
+// needs grid, $psm
 
 // tau - 1/2, which tau itself would round away at low viscosity.
-override EXCESS: f32;
+override TAU_MINUS_HALF: f32;
 
-fn relaxation_excess(p: Place, cell: u32, saturation: Saturation) -> Real {
-    return Real(EXCESS);
+fn tau_minus_half(p: Place, cell: u32, psm: PsmCell) -> Real {
+    return Real(TAU_MINUS_HALF);
 }

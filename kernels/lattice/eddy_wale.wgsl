@@ -1,22 +1,22 @@
 // Gardner & Sitar 2018, eq. 7: tau = 1/2 + 3 (nu + nu_t), nu_t by WALE from central differences of the
 // velocity of the previous step.
-// needs grid, velocity, wale, $cells, $saturation, $reals
+// needs grid, velocity, wale, $cell_flags, $psm, $reals
 
 @group(0) @binding(30) var<storage, read> velocity_before: array<Reals>;
 
 // tau - 1/2, which tau itself would round away at low viscosity.
-override EXCESS: f32;
+override TAU_MINUS_HALF: f32;
 override C_WALE: f32;
 
-fn relaxation_excess(p: Place, cell: u32, saturation: Saturation) -> Real {
+fn tau_minus_half(p: Place, cell: u32, psm: PsmCell) -> Real {
     let elements = NX * NY * SLICES;
     let g = Gradient(
         component_gradient(p, cell, 0u),
         component_gradient(p, cell, elements),
         component_gradient(p, cell, 2u * elements),
     );
-    let nu_t = outside_solids(saturation, wale(g, C_WALE));
-    return select(EXCESS + 3.0 * nu_t, Real(EXCESS), solid(cell));
+    let nu_t = outside_solids(psm, wale(g, C_WALE));
+    return select(TAU_MINUS_HALF + 3.0 * nu_t, Real(TAU_MINUS_HALF), solid(cell));
 }
 
 fn component_gradient(p: Place, cell: u32, start: u32) -> Vector {

@@ -14,7 +14,7 @@ fn take_out(
 ) {
     let n = invocation(group, groups, local);
     if (n < CELLS_X * CELLS_Y * CELLS_Z) {
-        canonical[n] = read_incoming(domain_cell(n), direction);
+        canonical[n] = read_incoming(neighbourhood(domain_cell(n)), direction);
     }
 }
 
@@ -26,6 +26,6 @@ fn bring_in(
 ) {
     let n = invocation(group, groups, local);
     if (n < CELLS_X * CELLS_Y * CELLS_Z) {
-        write_incoming(domain_cell(n), direction, canonical[n]);
+        write_incoming(neighbourhood(domain_cell(n)), direction, canonical[n]);
     }
 }

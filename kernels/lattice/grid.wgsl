@@ -22,7 +22,7 @@ struct Place {
     outside: bool,
 }
 
-fn around(i: u32, n: u32, stride: u32) -> vec3<u32> {
+fn axis_neighbours(i: u32, n: u32, stride: u32) -> vec3<u32> {
     return stride * vec3(select(i - 1u, n - 1u, i == 0u), i, select(i + 1u, 0u, i + 1u == n));
 }
 
@@ -37,9 +37,9 @@ fn place(brick: u32, local: u32) -> Place {
 
 fn place_at(at: vec3<u32>) -> Place {
     var p: Place;
-    p.x = around(at.x, NX, 1u);
-    p.y = around(at.y, NY, NX);
-    p.z = around(at.z, SLICES, NX * NY);
+    p.x = axis_neighbours(at.x, NX, 1u);
+    p.y = axis_neighbours(at.y, NY, NX);
+    p.z = axis_neighbours(at.z, SLICES, NX * NY);
     p.element = p.x.y + p.y.y + p.z.y;
     p.coordinates = at;
     p.lowest = at.z == 0u;

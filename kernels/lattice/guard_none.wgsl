@@ -1,4 +1,4 @@
-// Nobody watches: for measuring what the guard costs.
+// No guard: for measuring its cost.
 // needs $lanes, velocity, grid
 
 fn out_of_range(cell: u32, rho: Real, u: Vector) -> Mask {

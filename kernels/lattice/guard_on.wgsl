@@ -2,7 +2,7 @@
 // where it happens the cell of the lowest index. Bits are compared as integers, because a compiler
 // may assume that there is no NaN: for a square they order as the numbers do, NaN above all.
 // A CPU adapter runs both sides of every branch, so that what is done only once is kept short.
-// needs $lanes, velocity, grid, $cells
+// needs $lanes, velocity, grid, $cell_flags
 
 struct Guard {
     // Steps done after an even one, after an odd one: each is written only while the other is read.

@@ -7,22 +7,54 @@ struct Word {
     scalar: u32,
 }
 
-fn incoming(cell: vec3<u32>, q: u32) -> Word {
-    if (q == 0u) {
-        return Word(0u, scalar_of(cell));
-    }
-    if ((q & 1u) == 1u) {
-        return Word(q + 1u - cell_pass.odd, scalar_of(cell));
-    }
-    return Word(q - 1u + cell_pass.odd, scalar_of(neighbour_cell(cell, C[q - 1u])));
+// A cell with its neighbours on the torus: the scalar of (x + a, y + b, z + c) is x[1 + a] + y[1 + b] + z[1 + c].
+struct Neighbourhood {
+    x: vec3<u32>,
+    y: vec3<u32>,
+    z: vec3<u32>,
 }
 
-fn read_incoming(cell: vec3<u32>, q: u32) -> f32 {
-    let word = incoming(cell, q);
+fn neighbourhood(cell: vec3<u32>) -> Neighbourhood {
+    let z = on_torus(cell.z, SLICES * LANES_OF_ELEMENT);
+    return Neighbourhood(
+        LANES_OF_ELEMENT * on_torus(cell.x, NX),
+        LANES_OF_ELEMENT * NX * on_torus(cell.y, NY),
+        LANES_OF_ELEMENT * NX * NY * (z % vec3(SLICES)) + z / vec3(SLICES),
+    );
+}
+
+fn on_torus(i: u32, n: u32) -> vec3<u32> {
+    return vec3(select(i - 1u, n - 1u, i == 0u), i, select(i + 1u, 0u, i + 1u == n));
+}
+
+fn scalar_at(at: Neighbourhood, c: vec3<i32>) -> u32 {
+    return at.x[1 + c.x] + at.y[1 + c.y] + at.z[1 + c.z];
+}
+
+fn incoming(at: Neighbourhood, q: u32) -> Word {
+    if (q == 0u) {
+        return Word(0u, scalar_at(at, vec3(0)));
+    }
+    if ((q & 1u) == 1u) {
+        return Word(q + 1u - cell_pass.odd, scalar_at(at, vec3(0)));
+    }
+    return Word(q - 1u + cell_pass.odd, scalar_at(at, C[q - 1u]));
+}
+
+fn read_incoming(at: Neighbourhood, q: u32) -> f32 {
+    let word = incoming(at, q);
     return read_scalar(word.direction, word.scalar);
 }
 
-fn write_incoming(cell: vec3<u32>, q: u32, value: f32) {
-    let word = incoming(cell, q);
+fn write_incoming(at: Neighbourhood, q: u32, value: f32) {
+    let word = incoming(at, q);
     write_scalar(word.direction, word.scalar, value);
+}
+
+// The word that the neighbour in direction q (not 0) loads next in that direction.
+fn outgoing(at: Neighbourhood, q: u32) -> Word {
+    if ((q & 1u) == 1u) {
+        return Word(q + 1u - cell_pass.odd, scalar_at(at, C[q]));
+    }
+    return Word(q - 1u + cell_pass.odd, scalar_at(at, vec3(0)));
 }

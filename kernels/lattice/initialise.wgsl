@@ -21,9 +21,9 @@ fn initialise(
         return;
     }
     let cell = domain_cell(n);
-    let around = flags_of(cell);
+    let cell_flags = flags_of(cell);
     var h: array<Real, 27>;
-    if ((around & 128u) == 0u) {
+    if ((cell_flags & 128u) == 0u) {
         let u = cell_velocity(cell);
         let rho = 1.0 + density[n];
         h = equilibrium(rho, Vector(u.x, u.y, u.z));
@@ -32,7 +32,7 @@ fn initialise(
         h[1u] -= 0.5 * force.x;
         h[3u] -= 0.5 * force.y;
         h[9u] -= 0.5 * force.z;
-        let g = cell_gradient(cell, around);
+        let g = cell_gradient(cell, cell_flags);
         let factor = -NON_EQUILIBRIUM * rho * TAU / 3.0;
         h[2u] += 2.0 * factor * g.x.x;
         h[6u] += 2.0 * factor * g.y.y;
@@ -42,7 +42,8 @@ fn initialise(
         h[12u] += factor * (g.y.z + g.z.y);
         from_moments(&h);
     }
+    let at = neighbourhood(cell);
     for (var q = 0u; q < 27u; q++) { // unroll
-        write_incoming(cell, q, h[T[q]]);
+        write_incoming(at, q, h[T[q]]);
     }
 }

@@ -1,5 +1,5 @@
 // Guo, Zheng & Shi 2002: density and velocity of each domain cell, rho = 1 + sum f, rho u = sum c f + F/2.
-// needs scalar_grid, incoming, $cell_force, $beside
+// needs scalar_grid, incoming, $cell_force, $neighbour_flags
 
 // Density minus one.
 @group(0) @binding(50) var<storage, read_write> density_out: array<f32>;
@@ -21,9 +21,10 @@ fn macroscopic(
     var excess = 0.0;
     var u = vec3(0.0);
     if ((flags_of(cell) & 128u) == 0u) {
-        excess = read_incoming(cell, 0u);
+        let at = neighbourhood(cell);
+        excess = read_incoming(at, 0u);
         for (var q = 1u; q < 27u; q++) { // unroll
-            let f = read_incoming(cell, q);
+            let f = read_incoming(at, q);
             excess += f;
             u += f * vec3<f32>(C[q]);
         }

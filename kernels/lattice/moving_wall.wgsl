@@ -26,31 +26,39 @@ fn move_wall(
         return;
     }
     let here = moving_cells[n];
-    let cell = padded_cell(here.cell);
+    let cell = neighbourhood(padded_cell(here.cell));
     let moving = here.through_x | here.through_y | here.through_z;
+    let u_x = face_velocity(n, 0u);
+    let u_y = face_velocity(n, 1u);
+    let u_z = face_velocity(n, 2u);
+    // What comes back in direction q or is known of it, and 6 w (c.u_w) of the face that q leads through.
+    var f: array<f32, 27>;
+    var push: array<f32, 27>;
     var sum = 1.0 + read_incoming(cell, 0u);
     var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
-        if ((moving & (1u << q)) != 0u) {
-            sum += read_incoming(neighbour_cell(cell, C[q]), q);
-            flux += push(here, n, q);
-        } else {
-            sum += read_incoming(cell, opposite(q));
-        }
+        let known = incoming(cell, opposite(q));
+        let reflected = outgoing(cell, q);
+        let through = (moving & (1u << q)) != 0u;
+        f[q] = read_scalar(
+            select(known.direction, reflected.direction, through),
+            select(known.scalar, reflected.scalar, through),
+        );
+        let u = select(select(u_z, u_y, (here.through_y & (1u << q)) != 0u), u_x, (here.through_x & (1u << q)) != 0u);
+        push[q] = 6.0 * weight(q) * dot(vec3<f32>(C[q]), u);
+        sum += f[q];
+        flux += select(0.0, push[q], through);
     }
     let rho = sum / (1.0 + flux);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((moving & (1u << q)) != 0u) {
-            let reflected = read_incoming(neighbour_cell(cell, C[q]), q);
-            write_incoming(cell, opposite(q), reflected - rho * push(here, n, q));
+            write_incoming(cell, opposite(q), f[q] - rho * push[q]);
         }
     }
 }
 
-// 6 w (c.u_w) of the face that direction q leads through.
-fn push(here: MovingCell, n: u32, q: u32) -> f32 {
-    let axis = select(select(2u, 1u, (here.through_y & (1u << q)) != 0u), 0u, (here.through_x & (1u << q)) != 0u);
+// Of the face normal to an axis.
+fn face_velocity(n: u32, axis: u32) -> vec3<f32> {
     let at = 9u * n + 3u * axis;
-    let u = vec3(wall_velocity[at], wall_velocity[at + 1u], wall_velocity[at + 2u]);
-    return 6.0 * weight(q) * dot(vec3<f32>(C[q]), u);
+    return vec3(wall_velocity[at], wall_velocity[at + 1u], wall_velocity[at + 2u]);
 }

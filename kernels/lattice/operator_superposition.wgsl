@@ -2,19 +2,19 @@
 // needs velocity, $equilibrium
 
 // Makes the moments of the operator of those of f_eq(rho, u_s) - f; returns how often rho u_s is in its momentum.
-// Deep in a block the equilibrium replaces all.
+// In the interior of a block the equilibrium replaces all.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
-    deep: Mask,
+    interior: Mask,
     s: ptr<function, array<Real, 27>>,
 ) -> Real {
     let q = equilibrium(rho, u);
-    let share = select(1.0 - shear_rate, Real(0.0), deep);
+    let factor = select(1.0 - shear_rate, Real(0.0), interior);
     for (var k = 1u; k < 27u; k++) { // unroll
-        (*s)[k] -= share * (q[k] - (*h)[k]);
+        (*s)[k] -= factor * (q[k] - (*h)[k]);
     }
     return Real(1.0);
 }

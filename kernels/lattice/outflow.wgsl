@@ -1,7 +1,7 @@
 // Orlanski 1976, J. Comput. Phys. 21:251, on populations: those that enter through the face follow
 // df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. Towards the
-// given density they get the share hold of the difference and, so that none is left in the mean, the
-// share integral of its sum over time.
+// given density they get hold times the difference and, so that none is left in the mean,
+// integral times its sum over time.
 // needs scalar_grid, incoming, weights, face_cells
 
 // For each face cell its populations as the face will want them in the next step; in place of the
@@ -13,11 +13,11 @@ struct Inside {
     outward_speed: f32,
 }
 
-fn inside(cell: vec3<u32>) -> Inside {
-    var excess = read_incoming(cell, 0u);
+fn inside(at: Neighbourhood) -> Inside {
+    var excess = read_incoming(at, 0u);
     var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
-        let f = read_incoming(cell, q);
+        let f = read_incoming(at, q);
         excess += f;
         flux += f * dot(vec3<f32>(C[q]), open_face.normal);
     }
@@ -26,8 +26,8 @@ fn inside(cell: vec3<u32>) -> Inside {
 
 fn remember_cell(n: u32, inner_state: Inside) {
     let here = face_cells[n];
-    let cell = padded_cell(here.cell);
-    let inner = padded_cell(here.inner);
+    let cell = neighbourhood(padded_cell(here.cell));
+    let inner = neighbourhood(padded_cell(here.inner));
     let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
@@ -48,7 +48,7 @@ fn remember(
 ) {
     let n = cell_pass.first + invocation(group, groups, local);
     if (n < cell_pass.end) {
-        remember_cell(n, inside(padded_cell(face_cells[n].inner)));
+        remember_cell(n, inside(neighbourhood(padded_cell(face_cells[n].inner))));
     }
 }
 
@@ -63,8 +63,8 @@ fn flow_out(
         return;
     }
     let here = face_cells[n];
-    let cell = padded_cell(here.cell);
-    let difference = open_face.density - 1.0 - inside(padded_cell(here.inner)).excess;
+    let cell = neighbourhood(padded_cell(here.cell));
+    let difference = open_face.density - 1.0 - inside(neighbourhood(padded_cell(here.inner))).excess;
     let anchor = open_face.hold * difference + carried[27u * n];
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {

@@ -15,8 +15,8 @@ fn hold_pressure(
         return;
     }
     let here = face_cells[n];
-    let cell = padded_cell(here.cell);
-    let inner = padded_cell(here.inner);
+    let cell = neighbourhood(padded_cell(here.cell));
+    let inner = neighbourhood(padded_cell(here.inner));
     var excess = read_incoming(inner, 0u);
     var j = vec3(0.0);
     var diagonal = vec3(-excess / 3.0);

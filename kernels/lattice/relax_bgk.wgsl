@@ -1,7 +1,7 @@
 // Bhatnagar, Gross & Krook 1954: every moment relaxes at the one rate 1/tau.
-// needs $cells, $saturation
+// needs $cell_flags, $psm
 
-fn relax(cell: u32, saturation: Saturation, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
+fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
     for (var k = 2u; k < 27u; k++) { // unroll
         if (k != 3u && k != 9u) {
             (*h)[k] += shear_rate * (*d)[k];

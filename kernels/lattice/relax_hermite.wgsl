@@ -1,6 +1,6 @@
 // Suga et al. 2015, eq. 6-10: their moments made orthogonal with the lattice weights, which makes them
 // the tensor Hermite moments up to sums and differences.
-// needs $cells, $odd
+// needs $cell_flags, $odd_rates
 
 override S4: f32;
 override S16: f32;
@@ -8,8 +8,8 @@ override S17: f32;
 override S18: f32;
 override S20: f32;
 
-fn relax(cell: u32, saturation: Saturation, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
-    let odd = odd_rates(cell, saturation);
+fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
+    let odd = odd_rates(cell, psm);
 
     // 200, 020, 002: trace at S4, deviators at the shear rate; 110, 101, 011 too.
     let trace2 = ((*d)[2u] + (*d)[6u] + (*d)[18u]) * (1.0 / 3.0);

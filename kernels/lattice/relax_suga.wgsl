@@ -2,7 +2,7 @@
 // delta f = sum_k s_k / |M_k|^2 M_k (M_k . d). The rows are polynomials in c: with Hermite moments made
 // raw ones the products are short sums, block by parity; transposed they give delta f as a polynomial,
 // whose Hermite moments follow axis by axis. No 27 x 27 matrix.
-// needs $cells, $odd
+// needs $cell_flags, $odd_rates
 
 override S4: f32;
 override S16: f32;
@@ -10,8 +10,8 @@ override S17: f32;
 override S18: f32;
 override S20: f32;
 
-fn relax(cell: u32, saturation: Saturation, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
-    let odd = odd_rates(cell, saturation);
+fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
+    let odd = odd_rates(cell, psm);
     // Raw moments of d, whose density and momentum are 0: second = h2 + h0 / 3.
     (*d)[0u] = Real(0.0);
     (*d)[1u] = Real(0.0);

@@ -43,12 +43,6 @@ fn scalar_of(cell: vec3<u32>) -> u32 {
     return element * LANES_OF_ELEMENT + cell.z / SLICES;
 }
 
-// The neighbour on the torus.
-fn neighbour_cell(cell: vec3<u32>, c: vec3<i32>) -> vec3<u32> {
-    let n = vec3(NX, NY, SLICES * LANES_OF_ELEMENT);
-    return (cell + n + vec3<u32>(c)) % n;
-}
-
 fn opposite(q: u32) -> u32 {
     return select(((q - 1u) ^ 1u) + 1u, 0u, q == 0u);
 }

@@ -29,24 +29,24 @@ fn sum_cells(
 ) {
     let total = CELLS_X * CELLS_Y * CELLS_Z;
     let first = invocation(group, groups, local);
-    let turns = (total + RUN - 1u) / RUN;
-    if (first >= turns) {
+    let runs = (total + RUN - 1u) / RUN;
+    if (first >= runs) {
         return;
     }
     var sums = Sums();
     for (var k = 0u; k < RUN; k++) {
         // Cells that are neighbours in memory go to invocations that are.
-        let n = first + k * turns;
+        let n = first + k * runs;
         if (n >= total) {
             break;
         }
         let cell = domain_cell(n);
-        let around = flags_of(cell);
-        if ((around & 128u) != 0u) {
+        let cell_flags = flags_of(cell);
+        if ((cell_flags & 128u) != 0u) {
             continue;
         }
         let u = cell_velocity(cell);
-        let g = cell_gradient(cell, around);
+        let g = cell_gradient(cell, cell_flags);
         let curl = vec3(g.z.y - g.y.z, g.x.z - g.z.x, g.y.x - g.x.y);
         let rho = 1.0 + density[n];
         sums.excess += density[n];

@@ -1,6 +1,6 @@
-// Ginzburg & d'Humieres 2003, Phys. Rev. E 68:066614: beside walls the odd moments relax at the rate
+// Ginzburg & d'Humieres 2003, Phys. Rev. E 68:066614: next to walls the odd moments relax at the rate
 // that puts half-way bounce-back exactly half a cell away, (1/s - 1/2)(tau - 1/2) = 3/16, floored.
-// needs $lanes, $cells
+// needs $lanes, $cell_flags
 
 override S10: f32;
 override S13: f32;
@@ -19,7 +19,7 @@ struct OddRates {
 }
 
 fn wall_rates(cell: u32) -> OddRates {
-    let wall = beside_wall(cell);
+    let wall = next_to_wall(cell);
     return OddRates(
         select(Real(S10), Real(W10), wall),
         select(Real(S13), Real(W13), wall),

@@ -2,7 +2,7 @@
 // needs tables
 
 // Larger radii, cells, overflow squares of whole numbers.
-const MOST_WHOLE = 16384.0;
+const MAX_WHOLE_RADIUS = 16384.0;
 
 // Whole cells and fractions of one are multiplied apart: the squares that cancel are exact, so that the error is
 // 1e-7 R, not 1e-7 R^2.
@@ -12,7 +12,7 @@ fn ball_power(part: Part, cell: vec3<i32>) -> f32 {
     let f = 0.5 - part.fraction;
     let whole_radius = floor(part.radius);
     let rest = part.radius - whole_radius;
-    if (part.radius > MOST_WHOLE) {
+    if (part.radius > MAX_WHOLE_RADIUS) {
         let distance = length(n + f);
         return (part.radius - distance) * (part.radius + distance);
     }

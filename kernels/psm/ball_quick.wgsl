@@ -1,4 +1,4 @@
-// Whether a cell is in a sphere, beside it, or on its surface.
+// Whether a cell is in a sphere, next to it, or on its surface.
 // needs tables, ball_power
 
 fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
@@ -11,7 +11,7 @@ fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
         return NEAR;
     }
     if (farthest_power(power, far, 0.5) >= 0.0) {
-        return select(1.0, DEEP, farthest_power(power, far, 2.5) >= 0.0);
+        return select(1.0, INTERIOR, farthest_power(power, far, 2.5) >= 0.0);
     }
     return UNDECIDED;
 }

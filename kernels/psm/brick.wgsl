@@ -1,5 +1,5 @@
 // Bricks of elements, and lists of jobs for their workgroups.
-// needs turn, workgroup
+// needs workgroup_index, workgroup
 
 override BRICK_X: u32;
 override BRICK_Y: u32;

@@ -1,28 +1,28 @@
-// Gardner & Sitar 2018, eqs. 11-12: force f and moment f (x) r of one cell, the fluid that the solid holds there,
-// B = e beta, and the fluid that it does not, e - B.
+// Gardner & Sitar 2018, eqs. 11-12: force f and moment f (x) r of one cell, the fluid that the solid entrains there,
+// B = e beta, and the fluid that it displaces, e - B.
 // needs solid_cell, wrench
 
 // Tiles before each block, and all.
 @group(0) @binding(4) var<storage, read> block_first: array<u32>;
 
 fn add_cell(tile: Tile, motion: Motion, number: u32, local: u32) {
-    let share = shares[number * WORKGROUP + local];
-    if (share <= 0.0) {
+    let fraction = solid_fractions[number * WORKGROUP + local];
+    if (fraction <= 0.0) {
         return;
     }
-    let cell = solid_cell(tile, motion, share, local);
-    let held = cell.e * cell.beta;
-    let freed = select(0.0, cell.e - held, cell.beta > 0.0);
+    let cell = solid_cell(tile, motion, fraction, local);
+    let entrained = cell.e * cell.beta;
+    let displaced = select(0.0, cell.e - entrained, cell.beta > 0.0);
     for (var i = 0u; i < 3u; i++) { // unroll
         wrench[i] += cell.f[i];
         for (var j = 0u; j < 3u; j++) { // unroll
             wrench[3u + 3u * i + j] += cell.f[i] * cell.r[j];
         }
-        wrench[14u + i] += held * cell.r[i];
-        wrench[17u + i] += freed * cell.r[i];
+        wrench[14u + i] += entrained * cell.r[i];
+        wrench[17u + i] += displaced * cell.r[i];
     }
-    wrench[12] += held;
-    wrench[13] += freed;
+    wrench[12] += entrained;
+    wrench[13] += displaced;
 }
 
 fn tile_count() -> u32 {

@@ -6,7 +6,7 @@
 // Height over a cell's corner within which a face does not cut it, cells: the rounding of heights some 100 cells from
 // the centroid. Faces that lie along the grid then cost nothing.
 const TOUCH = 1e-5;
-// A share that is all rounding.
+// A solid fraction that is all rounding.
 const EMPTY = 1e-6;
 
 // How far the corners of a cell are from its centre along n.

@@ -1,4 +1,4 @@
-// Share of a convex polyhedron in a cell that at most one of its faces cuts.
+// Solid fraction of a convex polyhedron in a cell that at most one of its faces cuts.
 // needs tables, faces, one_plane
 
 // Gap between a cell and a face, cells, below which a joint is closed.
@@ -10,7 +10,7 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         return 0.0;
     }
     var reached = all(r + 0.5 > part.low) && all(r - 0.5 < part.high);
-    var deep = true;
+    var interior = true;
     var cuts = 0u;
     var outside = 0u;
     var last: vec4<f32>;
@@ -18,12 +18,12 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         let face = faces[part.first_face + k];
         let s = dot(face.xyz, r) - face.w;
         let w = half_width(face.xyz);
-        // A cell beside this one is at most 2 w lower, one two layers away at most 4 w higher.
+        // A cell next to this one is at most 2 w lower, one two layers away at most 4 w higher.
         if (s >= 3.0 * w) {
             return 0.0;
         }
         outside += select(0u, 1u, s >= w - TOUCH);
-        deep = deep && s <= -5.0 * w;
+        interior = interior && s <= -5.0 * w;
         if (s > TOUCH - w) {
             if (outside == 0u || s >= w - TOUCH) {
                 last = vec4(face.xyz, s);
@@ -36,14 +36,14 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         return select(NEAR, TOUCHES, outside == 1u && touches(part, r, last));
     }
     if (cuts == 0u) {
-        return select(1.0, DEEP, deep);
+        return select(1.0, INTERIOR, interior);
     }
     if (cuts > 1u) {
         return UNDECIDED;
     }
-    let share = one_plane_volume(last.xyz, last.w, half_width(last.xyz));
-    if (share > EMPTY) {
-        return share;
+    let fraction = one_plane_volume(last.xyz, last.w, half_width(last.xyz));
+    if (fraction > EMPTY) {
+        return fraction;
     }
     return select(NEAR, TOUCHES, touches(part, r, last));
 }

@@ -12,8 +12,8 @@ const PLANE_BETA = 4u;
 const PLANE_A = 5u;
 const PLANE_G = 6u;
 
-// Added to the sum in a cell that is deep in one of the blocks.
-const DEEP_SUM = 8.0;
+// Added to the sum in a cell that is in the interior of one of the blocks.
+const INTERIOR_SUM = 8.0;
 // Added to the sum in a cell of a closed joint, in which several blocks meet.
 const JOINT_SUM = 16.0;
 // The sum of an empty cell next to one that is not.
@@ -25,8 +25,8 @@ struct SolidSum {
     // Next to a block, or in one.
     near: Mask,
     // Next to a block and empty.
-    beside: Mask,
-    deep: Mask,
+    adjacent: Mask,
+    interior: Mask,
     joint: Mask,
 }
 
@@ -35,15 +35,15 @@ fn plane_element(slot: u32, n: u32, elements: u32, local: u32) -> u32 {
     return (slot * PLANES + n) * elements + local;
 }
 
-fn encode_sum(fraction: Real, near: Mask, deep: Mask, joint: Mask) -> Real {
-    let code = select(Real(0.0), Real(DEEP_SUM), deep) + select(Real(0.0), Real(JOINT_SUM), joint);
+fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask) -> Real {
+    let code = select(Real(0.0), Real(INTERIOR_SUM), interior) + select(Real(0.0), Real(JOINT_SUM), joint);
     let empty = select(Real(0.0), Real(NEAR_SUM), near);
     return select(empty, fraction + code, fraction > Real(0.0));
 }
 
 fn decode_sum(kept: Real) -> SolidSum {
     let joint = kept >= Real(JOINT_SUM);
-    let deep = (kept >= Real(DEEP_SUM)) & !joint;
-    let sum = kept - select(select(Real(0.0), Real(DEEP_SUM), deep), Real(JOINT_SUM), joint);
-    return SolidSum(max(sum, Real(0.0)), kept != Real(0.0), kept < Real(0.0), deep, joint);
+    let interior = (kept >= Real(INTERIOR_SUM)) & !joint;
+    let sum = kept - select(select(Real(0.0), Real(INTERIOR_SUM), interior), Real(JOINT_SUM), joint);
+    return SolidSum(max(sum, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, joint);
 }

@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, eqs. 11-12: the sum over the tiles of each block, in a fixed order. A workgroup is a block.
-// needs turn, sum_of_all
+// needs workgroup_index, sum_of_all
 
 // Tiles before each block, and all.
 @group(0) @binding(0) var<storage, read> block_first: array<u32>;
@@ -14,7 +14,7 @@ fn reduce_blocks(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let block = turn_of(group, groups);
+    let block = workgroup_index(group, groups);
     let here = block + 1u < arrayLength(&block_first);
     if (here) {
         for (var tile = block_first[block] + local; tile < block_first[block + 1u]; tile += 64u) {

@@ -1,7 +1,7 @@
 // Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
-// layer of cells beside it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
+// layer of cells along it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
 // no force belongs to one face: full cells reflect what was in them when they were covered. A workgroup is a job.
-// needs solid_cell, psm_planes, beside_face, beside_siblings
+// needs solid_cell, psm_planes, face_layer, face_siblings
 
 // Of the fluid, lattice units.
 override VISCOSITY: f32;
@@ -21,22 +21,22 @@ struct FaceJob {
 var<private> sums: array<f32, FACE_LOAD>;
 var<workgroup> sums_of_all: array<f32, 64 * FACE_LOAD>;
 
-fn add_beside(job: FaceJob, tile: Tile, local: u32) {
+fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     let part = parts[tile.part];
     let cell = tile.cell + vec3<i32>(place_in_brick(local));
-    let beside = beside_face(part, job.face, centre_from(cell, part.base, part.fraction));
-    if (!beside.here) {
+    let layer = layer_cell(part, job.face, centre_from(cell, part.base, part.fraction));
+    if (!layer.here) {
         return;
     }
-    let hidden = beside_siblings(tile, cell, beside);
+    let hidden = sibling_over_face(tile, cell, layer);
     if (hidden == SEAM) {
         return;
     }
     let first = plane_element(tile.slot, 0u, WORKGROUP, local) * LANES_OF_ELEMENT + tile.lane;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
     // Another block may be in the cell, or a wall.
-    let sum = decode_sum(saturation[first + PLANE_SUM * stride]);
-    let fluid = sum.beside && saturation[first + PLANE_BETA * stride] != 0.0;
+    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
+    let fluid = sum.adjacent && psm_planes[first + PLANE_BETA * stride] != 0.0;
     if (!fluid && hidden == CUT) {
         return;
     }
@@ -45,15 +45,15 @@ fn add_beside(job: FaceJob, tile: Tile, local: u32) {
         return;
     }
     let motion = motions[tile.block];
-    let foot = centre_from(cell, motion.base, motion.fraction) - beside.height * beside.normal;
+    let foot = centre_from(cell, motion.base, motion.fraction) - layer.height * layer.normal;
     let u = vec3(
-        saturation[first + PLANE_G * stride],
-        saturation[first + (PLANE_G + 1u) * stride],
-        saturation[first + (PLANE_G + 2u) * stride],
+        psm_planes[first + PLANE_G * stride],
+        psm_planes[first + (PLANE_G + 1u) * stride],
+        psm_planes[first + (PLANE_G + 2u) * stride],
     ) - velocity_at(motion, foot);
-    let along = u - dot(u, beside.normal) * beside.normal;
-    let p = saturation[first + PLANE_A * stride] / 3.0;
-    let traction = VISCOSITY / beside.height * along - p * beside.normal;
+    let along = u - dot(u, layer.normal) * layer.normal;
+    let p = psm_planes[first + PLANE_A * stride] / 3.0;
+    let traction = VISCOSITY / layer.height * along - p * layer.normal;
     let moment = cross(foot, traction);
     for (var i = 0u; i < 3u; i++) { // unroll
         sums[i] += traction[i];
@@ -62,7 +62,7 @@ fn add_beside(job: FaceJob, tile: Tile, local: u32) {
         sums[10u + i] += foot[i] * foot[i];
         sums[13u + i] += foot[(i + 1u) % 3u] * foot[(i + 2u) % 3u];
     }
-    sums[6] += beside.height;
+    sums[6] += layer.height;
     sums[FACE_LOAD - 2u] += 1.0;
 }
 
@@ -72,14 +72,14 @@ fn reduce_faces(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = turn_of(group, groups);
-    let here = turn < arrayLength(&jobs);
+    let index = workgroup_index(group, groups);
+    let here = index < arrayLength(&jobs);
     if (here) {
-        let job = jobs[turn];
+        let job = jobs[index];
         let tile = tiles[job.tile];
         for (var l = local; l < WORKGROUP; l += 64u) {
-            if (shares[job.tile * WORKGROUP + l] < 0.0) {
-                add_beside(job, tile, l);
+            if (solid_fractions[job.tile * WORKGROUP + l] < 0.0) {
+                add_layer_cell(job, tile, l);
             }
         }
     }
@@ -94,5 +94,5 @@ fn reduce_faces(
     for (var n = 0u; n < 64u; n++) {
         sum += sums_of_all[local * 64u + n];
     }
-    face_partials[turn * FACE_LOAD + local] = sum;
+    face_partials[index * FACE_LOAD + local] = sum;
 }

@@ -11,5 +11,5 @@ fn reduce_tiles(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    sum_tile(turn_of(group, groups), local);
+    sum_tile(workgroup_index(group, groups), local);
 }

@@ -122,7 +122,7 @@ fn twice_area(low: Lines, high: Lines, count: u32) -> f32 {
         let k = e & 3u;
         let line = select(vec3(low.x[k], low.y[k], low.d[k]), vec3(high.x[k], high.y[k], high.d[k]), e > 3u);
         // No line is longer in the square, from wherever its foot is.
-        let inside = stretch_beside(vec2(-2.0, 2.0), SQUARE, line, vec4(true), vec4(false));
+        let inside = stretch_within(vec2(-2.0, 2.0), SQUARE, line, vec4(true), vec4(false));
         let side = stretch_between(inside, low, high, line, e);
         sum += line.z * (side.y - side.x);
     }
@@ -133,13 +133,13 @@ fn twice_area(low: Lines, high: Lines, count: u32) -> f32 {
 fn stretch_between(stretch: vec2<f32>, low: Lines, high: Lines, line: vec3<f32>, e: u32) -> vec2<f32> {
     let number = vec4(e);
     let first = vec4(e < 8u);
-    let left = stretch_beside(stretch, low, line, (LOW < number) & first, LOW == number);
-    return stretch_beside(left, high, line, (HIGH < number) & first, HIGH == number);
+    let left = stretch_within(stretch, low, line, (LOW < number) & first, LOW == number);
+    return stretch_within(left, high, line, (HIGH < number) & first, HIGH == number);
 }
 
 // What lines that are not `skipped` leave of a stretch of line x X + y Y = d. A parallel one may hide all of it; of two
 // that are the same the first one counts, and of two with nothing between them none.
-fn stretch_beside(
+fn stretch_within(
     stretch: vec2<f32>,
     l: Lines,
     line: vec3<f32>,

@@ -1,13 +1,13 @@
 // Gardner & Sitar 2018, eqs. 11-12, with the minus that their text has and the equations lack: what the fluid does to
 // one part in one cell, f = -e (a u_p + G), e being the solid fraction; a and G come from the fluid kernel.
-// needs workgroup, tables, psm_planes, brick, tightness
+// needs workgroup, tables, psm_planes, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
 
 @group(0) @binding(0) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(1) var<storage, read> motions: array<Motion>;
-@group(0) @binding(2) var<storage, read> shares: array<f32>;
-@group(0) @binding(3) var<storage, read> saturation: array<f32>;
+@group(0) @binding(2) var<storage, read> solid_fractions: array<f32>;
+@group(0) @binding(3) var<storage, read> psm_planes: array<f32>;
 
 struct SolidCell {
     // Its centre from that of the block.
@@ -20,27 +20,27 @@ struct SolidCell {
     beta: f32,
 }
 
-// For shares above zero: what other cells hold need not be a number.
+// For solid fractions above zero; other cells may hold any bits.
 // `motion` is that of the tile's block.
-fn solid_cell(tile: Tile, motion: Motion, share: f32, local: u32) -> SolidCell {
+fn solid_cell(tile: Tile, motion: Motion, fraction: f32, local: u32) -> SolidCell {
     let r = centre_from(tile.cell + vec3<i32>(place_in_brick(local)), motion.base, motion.fraction);
     let first = plane_element(tile.slot, 0u, WORKGROUP, local) * LANES_OF_ELEMENT + tile.lane;
     let stride = WORKGROUP * LANES_OF_ELEMENT;
-    let a = saturation[first + PLANE_A * stride];
+    let a = psm_planes[first + PLANE_A * stride];
     let g = vec3(
-        saturation[first + PLANE_G * stride],
-        saturation[first + (PLANE_G + 1u) * stride],
-        saturation[first + (PLANE_G + 2u) * stride],
+        psm_planes[first + PLANE_G * stride],
+        psm_planes[first + (PLANE_G + 1u) * stride],
+        psm_planes[first + (PLANE_G + 2u) * stride],
     );
-    let e = min(share, 1.0);
+    let e = min(fraction, 1.0);
     // Blocks that meet slide on what is between them: none of it is due to how they differ.
     let mean = vec3(
-        saturation[first + PLANE_VELOCITY * stride],
-        saturation[first + (PLANE_VELOCITY + 1u) * stride],
-        saturation[first + (PLANE_VELOCITY + 2u) * stride],
+        psm_planes[first + PLANE_VELOCITY * stride],
+        psm_planes[first + (PLANE_VELOCITY + 1u) * stride],
+        psm_planes[first + (PLANE_VELOCITY + 2u) * stride],
     );
     let own = velocity_at(motion, r);
-    let sum = decode_sum(saturation[first + PLANE_SUM * stride]);
-    let u = select(own, mix(own, mean, tightness(sum.fraction)), sum.joint);
-    return SolidCell(r, e, -e * (a * u + g), saturation[first + PLANE_BETA * stride]);
+    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
+    let u = select(own, mix(own, mean, joint_closure(sum.fraction)), sum.joint);
+    return SolidCell(r, e, -e * (a * u + g), psm_planes[first + PLANE_BETA * stride]);
 }

@@ -1,6 +1,6 @@
 // Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums: the load on each face from its jobs, one after the
 // other. An invocation adds one number of one face.
-// needs tables, turn
+// needs tables, workgroup_index
 
 // Jobs before each face, and all.
 @group(0) @binding(0) var<storage, read> face_first: array<u32>;
@@ -15,7 +15,7 @@ fn sum_faces(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let number = turn_of(group, groups) * 64u + local;
+    let number = workgroup_index(group, groups) * 64u + local;
     let face = number / FACE_LOAD;
     if (face + 1u >= arrayLength(&face_first)) {
         return;

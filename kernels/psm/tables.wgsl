@@ -1,13 +1,13 @@
-// Blocks in the lattice as partially saturated cells: what the host tells the device. Lattice units: a cell and a
+// Blocks in the lattice as partially saturated cells: what the host passes to the device. Lattice units: a cell and a
 // step are one.
 
-// The part of one convex part of a block in one lane of one saturated brick.
+// The part of one convex part of a block in one lane of one brick with blocks.
 struct Tile {
     // Its lowest cell, shifted by whole periods to be next to the part.
     cell: vec3<i32>,
     part: u32,
     block: u32,
-    // Number of the brick among the saturated ones.
+    // Number of the brick among the bricks with blocks.
     slot: u32,
     lane: u32,
     // Cells an axis, from the lowest, that lie in the domain: x, y and z in 8 bits each, x lowest. Above them the eighths
@@ -46,15 +46,15 @@ struct Motion {
     pad5: u32,
 }
 
-// Share of a part in a cell that is inside it with two layers of cells around.
-const DEEP = 2.0;
-// Share of a part in a cell that it leaves empty, beside a cell that it does not.
+// Solid fraction of a part in a cell that is inside it with two layers of cells around.
+const INTERIOR = 2.0;
+// Solid fraction of a part in a cell that it leaves empty, next to a cell that it does not.
 const NEAR = -1.0;
 // The same of a cell whose side lies on a face of the part.
 const TOUCHES = -2.0;
-// Share of a cell that is left to voxelise_edges.
+// Solid fraction of a cell that is left to voxelise_edges.
 const UNDECIDED = 4.0;
-// Numbers that a block has: force (3), moment (9), held fluid, freed fluid, first moments of both (3 + 3).
+// Numbers that a block has: force (3), moment (9), entrained fluid, displaced fluid, first moments of both (3 + 3).
 const WRENCH = 20u;
 // Numbers that a face has: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
 const FACE_LOAD = 18u;

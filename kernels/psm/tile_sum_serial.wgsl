@@ -1,8 +1,8 @@
 // An invocation a tile: no barriers, which cost a CPU more than the sum.
 // needs cell_load
 
-fn sum_tile(turn: u32, local: u32) {
-    let number = turn * 64u + local;
+fn sum_tile(index: u32, local: u32) {
+    let number = index * 64u + local;
     if (number >= tile_count()) {
         return;
     }

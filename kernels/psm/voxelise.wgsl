@@ -2,17 +2,17 @@
 // in each cell of the listed tiles that it can reach. A workgroup is a tile; its invocations share the cells. Cells at
 // edges, and on spheres, are few and dear: they are put on a list for voxelise_edges, in any order, since neighbours in a
 // workgroup would wait for them.
-// needs tables, brick, ball_quick, hull_quick
+// needs tables, brick, $ball_quick, $hull_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
 // WORKGROUP a tile.
-@group(0) @binding(4) var<storage, read_write> shares: array<f32>;
+@group(0) @binding(4) var<storage, read_write> solid_fractions: array<f32>;
 
 struct Edges {
     count: atomic<u32>,
-    // Places in `shares`.
+    // Places in `solid_fractions`.
     cells: array<u32>,
 }
 
@@ -24,11 +24,11 @@ fn voxelise(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let turn = turn_of(group, groups);
-    if (turn >= arrayLength(&work)) {
+    let index = workgroup_index(group, groups);
+    if (index >= arrayLength(&work)) {
         return;
     }
-    let job = work[turn];
+    let job = work[index];
     if (job == NOTHING) {
         return;
     }
@@ -37,15 +37,15 @@ fn voxelise(
     let part = parts[tile.part];
     let reach = select(reach_of(tile.inside), vec2(0u, WORKGROUP), job >= WHOLE);
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
-        let share = quick_share(tile, part, place_in_brick(place));
-        shares[number * WORKGROUP + place] = share;
-        if (share == UNDECIDED) {
+        let fraction = quick_fraction(tile, part, place_in_brick(place));
+        solid_fractions[number * WORKGROUP + place] = fraction;
+        if (fraction == UNDECIDED) {
             edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + place;
         }
     }
 }
 
-fn quick_share(tile: Tile, part: Part, place: vec3<u32>) -> f32 {
+fn quick_fraction(tile: Tile, part: Part, place: vec3<u32>) -> f32 {
     if (!in_domain(place, tile.inside)) {
         return 0.0;
     }

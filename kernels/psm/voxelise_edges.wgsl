@@ -1,13 +1,13 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction of one part in each cell that voxelise has left over.
-// needs workgroup, tables, brick, ball_share, hull_share
+// needs workgroup, tables, brick, $ball_fraction, $hull_fraction
 
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
-@group(0) @binding(4) var<storage, read_write> shares: array<f32>;
+@group(0) @binding(4) var<storage, read_write> solid_fractions: array<f32>;
 
 struct Edges {
     count: u32,
-    // Places in `shares`.
+    // Places in `solid_fractions`.
     cells: array<u32>,
 }
 
@@ -21,15 +21,15 @@ fn voxelise_edges(
     @builtin(local_invocation_index) local: u32,
 ) {
     let stride = 64u * groups.x * groups.y;
-    for (var n = 64u * turn_of(group, groups) + local; n < edges.count; n += stride) {
+    for (var n = 64u * workgroup_index(group, groups) + local; n < edges.count; n += stride) {
         let place = edges.cells[n];
         let tile = tiles[place / WORKGROUP];
         let part = parts[tile.part];
         let cell = tile.cell + vec3<i32>(place_in_brick(place % WORKGROUP));
         if (part.faces == 0u) {
-            shares[place] = ball_share(part, cell);
+            solid_fractions[place] = ball_fraction(part, cell);
         } else {
-            shares[place] = hull_share(part, centre_from(cell, part.base, part.fraction));
+            solid_fractions[place] = hull_fraction(part, centre_from(cell, part.base, part.fraction));
         }
     }
 }

@@ -72,6 +72,7 @@ pub struct MassProperties {
 /// (m + m_v) a = F + m_f dv/dt + m g + m_v a_before. That is stable for m_a < m + 2 m_v, which determines m_v, and
 /// has no effect on a steady acceleration. Contact forces are not part of a; they act on the rock alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct InteriorInertia {
     /// Velocity and spin at the last exchange, m/s and rad/s; `None` before the first one.
     velocity: Option<[DVec3; 2]>,
@@ -161,27 +162,6 @@ impl InteriorInertia {
             force: flow.force + displaced * linear,
             moment: flow.moment + 0.5 * skew(torque),
             ..flow
-        }
-    }
-
-    /// The state as numbers, for a checkpoint.
-    pub fn to_numbers(self) -> [f64; 13] {
-        let [velocity, spin] = self.velocity.unwrap_or_default();
-        let mut all = [0.0; 13];
-        all[0] = f64::from(u8::from(self.velocity.is_some()));
-        let vectors = [velocity, spin, self.response[0], self.response[1]];
-        for (place, vector) in all[1..].chunks_exact_mut(3).zip(vectors) {
-            place.copy_from_slice(&vector.to_array());
-        }
-        all
-    }
-
-    /// The inverse of [`InteriorInertia::to_numbers`].
-    pub fn from_numbers(numbers: &[f64; 13]) -> Self {
-        let vector = |n: usize| DVec3::new(numbers[n], numbers[n + 1], numbers[n + 2]);
-        Self {
-            velocity: (numbers[0] != 0.0).then(|| [vector(1), vector(4)]),
-            response: [vector(7), vector(10)],
         }
     }
 }
@@ -290,27 +270,6 @@ mod tests {
         assert!(
             (rate - force / (properties.mass + added)).length() < 1e-9,
             "{rate}"
-        );
-    }
-
-    #[test]
-    fn numbers_restore_the_state() {
-        let (properties, load) = block(0.5);
-        let mut interior = InteriorInertia::default();
-        assert_eq!(
-            InteriorInertia::from_numbers(&interior.to_numbers()),
-            interior
-        );
-        interior.load(
-            &flow(load),
-            &pose(DVec3::X, DVec3::Y),
-            &properties,
-            1000.0,
-            0.1,
-        );
-        assert_eq!(
-            InteriorInertia::from_numbers(&interior.to_numbers()),
-            interior
         );
     }
 }

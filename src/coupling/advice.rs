@@ -34,7 +34,7 @@ impl Ranked {
     }
 }
 
-impl Coupled {
+impl Coupled<'_> {
     /// Warnings about unresolved blocks and gaps, blocks lighter than the fluid, and blocks in inflow cells.
     pub fn advise(&self, scene: &Scene) -> Advice {
         let mut advice = Advice::new();

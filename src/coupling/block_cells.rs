@@ -15,7 +15,7 @@ pub struct BlockCell {
     pub cell: NearCell,
 }
 
-impl Coupled {
+impl Coupled<'_> {
     /// The cells whose centres lie at most `reach` cells from a block in the fluid, in the order of the
     /// cells, each with its nearest block.
     pub fn cells_near_blocks(&self, reach: f64) -> Vec<BlockCell> {

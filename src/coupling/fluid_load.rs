@@ -9,6 +9,7 @@ use glam::DVec3;
 
 /// Load of the fluid on a block, the mean since the previous exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FluidLoad {
     /// Load of the flow; zero at rest where buoyancy is separate.
     pub flow: Load,
@@ -49,7 +50,7 @@ impl Ambient {
     pub fn body_force(&self, place: DVec3) -> DVec3 {
         let place = self
             .period
-            .map_or(place, |period| period.within(place))
+            .map_or(place, |period| period.wrapped(place))
             .to_array();
         let b = [0, 1, 2].map(|k| self.acceleration[k].eval_at(place, 0.0));
         self.density * DVec3::from_array(b)

@@ -5,7 +5,7 @@ use crate::{
     geometry::HalfSpace,
     rock::{
         Blocks, Period, Setup,
-        broadphase::{Broadphase, Item},
+        broadphase::{Aabb, Broadphase},
         contact::Placed,
     },
 };
@@ -57,13 +57,13 @@ pub(crate) async fn gaps(
             ..at.clone()
         });
     }
-    let grown = |(item, &block): (Item, &usize)| Item {
+    let grown = |(item, &block): (Aabb, &usize)| Aabb {
         min: item.min.map(|x| x - 0.5 * cell),
         max: item.max.map(|x| x + 0.5 * cell),
         // Solids and walls form one group: gaps between them do not count.
         group: block.min(in_fluid) as u32,
     };
-    let items: Vec<Item> = blocks.items().into_iter().zip(&owners).map(grown).collect();
+    let items: Vec<Aabb> = blocks.aabbs().into_iter().zip(&owners).map(grown).collect();
     let mut narrowest = BTreeMap::new();
     for pair in broadphase.pairs(&items).await? {
         let [a, b] = pair.map(|part| part as usize);

@@ -17,7 +17,7 @@ pub(crate) struct BlockAtInlet {
     pub speed: f64,
 }
 
-impl Coupled {
+impl Coupled<'_> {
     /// The blocks in cells of velocity faces with a velocity other than zero; `through` has the velocity of each cell
     /// of such a face along its normal, lower axis fastest.
     pub(crate) fn at_inlets(&self, through: &[(Face, Vec<f64>)]) -> Vec<BlockAtInlet> {
@@ -115,7 +115,7 @@ impl Coupled {
 
     /// Adds warnings about blocks in inflow cells.
     pub(super) fn warn_of_inlets(&self, advice: &mut Advice) {
-        for found in &self.initial_inlet_blocks {
+        for found in &self.coupling.initial_inlet_blocks {
             let [cause, remedy] = self.inlet_message(found, found.speed);
             advice.push(Warning {
                 place: format!("boundaries.{}", found.face.name()),
@@ -126,7 +126,7 @@ impl Coupled {
 
     /// Cause and remedy of the first block in inflow cells at the start.
     pub(crate) fn initial_inlet_message(&self) -> Option<[String; 2]> {
-        let found = self.initial_inlet_blocks.first()?;
+        let found = self.coupling.initial_inlet_blocks.first()?;
         let [cause, remedy] = self.inlet_message(found, found.speed);
         Some([format!("at the start {cause}"), remedy])
     }

@@ -15,7 +15,7 @@ const JOINT_HEIGHTS: [f64; 4] = [0.25, 1.0, 2.0, 3.0];
 /// with this one.
 const MIN_COVERED: f64 = 0.01;
 
-impl Coupled {
+impl Coupled<'_> {
     /// Whether each plane face of a block, part by part, is in a joint: another block, a solid or a wall of the domain
     /// lies within three cells over at least 1 % of the face.
     pub fn faces_in_joints(&self, block: usize) -> Vec<bool> {
@@ -89,7 +89,7 @@ pub(super) fn neighbour_parts<'a>(
         let limit = reach + shape(other).radius();
         let apart = pose.centre - centre;
         let offsets = match period {
-            Some(period) => period.ways(apart, limit),
+            Some(period) => period.image_shifts(apart, limit),
             None => vec![DVec3::ZERO],
         };
         for offset in offsets {

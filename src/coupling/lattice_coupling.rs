@@ -1,12 +1,13 @@
 //! Blocks coupled to a lattice: their cells in it, and the loads that it returns.
 
 use super::{
-    Ambient, AsyncReadback, Copied, Coupled, ExchangeInterval, FluidLoad, LoadAverage,
-    fluid_load::add_loads,
+    Ambient, AsyncReadback, Copied, Coupled, ExchangeInterval, FluidLoad, Gap, LoadAverage,
+    fluid_load::add_loads, inlets::BlockAtInlet,
 };
 use crate::{
     Error, Result,
     geometry::{Load, Pose},
+    gpu::timer::{Phases, begin_pass},
     lattice::Lattice,
     psm::{FaceLoad, Frame, SolidBlock, SolidCells},
     rock::Period,
@@ -28,9 +29,15 @@ pub(crate) struct LatticeCoupling {
     /// Whether each load is averaged with that of the step before.
     average: bool,
     /// Number of blocks in the fluid, the first ones.
-    in_fluid: usize,
+    pub(super) in_fluid: usize,
     /// Poses of all blocks for which the cells have been computed.
     pub(super) placed: Option<Vec<Pose>>,
+    /// Pairs of blocks closer than a cell at the start.
+    pub(super) gaps: Vec<Gap>,
+    /// Whether a probe requests the loads on the faces of each block in the fluid.
+    pub(super) face_probes: Vec<bool>,
+    /// Blocks in inflow cells at the start.
+    pub(super) initial_inlet_blocks: Vec<BlockAtInlet>,
 }
 
 impl LatticeCoupling {
@@ -60,6 +67,9 @@ impl LatticeCoupling {
             load_average: LoadAverage::default(),
             average: scene.coupling.average,
             placed: None,
+            gaps: Vec::new(),
+            face_probes: Vec::new(),
+            initial_inlet_blocks: Vec::new(),
         })
     }
 
@@ -72,7 +82,7 @@ impl LatticeCoupling {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         poses: &[Pose],
     ) -> Result<()> {
         if self.placed.as_deref() == Some(poses) {
@@ -94,7 +104,7 @@ impl LatticeCoupling {
             )));
         }
         self.cells
-            .record_cells(&mut encoder.begin_compute_pass(&Default::default()));
+            .record_cells(&mut begin_pass(phases, encoder, "voxelise"));
         self.placed = Some(poses.to_vec());
         Ok(())
     }
@@ -123,10 +133,10 @@ impl LatticeCoupling {
     pub fn record_loads(
         &mut self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         step: u64,
     ) {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let mut pass = begin_pass(phases, encoder, "reduce");
         self.cells.record_loads(&mut pass);
         drop(pass);
         let sums = Copied {
@@ -168,13 +178,13 @@ impl LatticeCoupling {
     pub fn record_faces(
         &mut self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, phases): (&mut wgpu::CommandEncoder, &mut Option<Phases>),
         step: u64,
     ) {
         let Some(buffer) = self.cells.face_sums() else {
             return;
         };
-        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let mut pass = begin_pass(phases, encoder, "reduce faces");
         self.cells.record_faces(&mut pass);
         drop(pass);
         let sums = Copied {
@@ -202,11 +212,11 @@ impl LatticeCoupling {
     }
 }
 
-impl Coupled {
+impl<'a> Coupled<'a> {
     /// The loads of the fluid on the faces of a block at the last exchange, part by part; empty unless a probe requests
     /// them, and before the first exchange.
-    pub fn face_loads(&self, block: usize) -> &[FaceLoad] {
-        if self.face_probes.get(block) != Some(&true) {
+    pub fn face_loads(&self, block: usize) -> &'a [FaceLoad] {
+        if self.coupling.face_probes.get(block) != Some(&true) {
             return &[];
         }
         let loads = self.coupling.face_loads.get(block);

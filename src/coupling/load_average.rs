@@ -9,6 +9,7 @@ use crate::geometry::Load;
 /// steps. The mean of each load and the previous one removes the oscillation (Owen, Leonardi & Feng 2011); over many
 /// steps it is the trapezoidal rule.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoadAverage {
     /// The last loads, with their step.
     pub(super) last: Option<(u64, Vec<Load>)>,

@@ -9,6 +9,25 @@
 //! faces at their rims. In SPH water, `joint_seal` does so: `joint_rim` samples the rims, `rim_pressure` fits the pressure
 //! field and propagates it to blocks without a rim, and `kernel_deficit` is the part of the pressure that the particles
 //! miss. `joint_faces` serves both fluids: neighbours over a face, and the area that they cover.
+//!
+//! For blocks of another program the parts serve alone: [`Ambient`] has the buoyancy of a block and the weight of the fluid that moves
+//! with it, [`AddedMass`] bounds the added mass, and [`InteriorInertia`] gives back the inertia of the fluid inside the block.
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::{coupling::Ambient, formula::Formula, geometry::Load};
+//!
+//! // Water at rest in which pressure is counted from the hydrostatic one, and a cubic metre of block in it.
+//! let gravity = DVec3::new(0.0, 0.0, -9.81);
+//! let ambient = Ambient {
+//!     density: 1000.0,
+//!     acceleration: std::array::from_fn(|_| Formula::number(0.0)),
+//!     gravity,
+//!     period: None,
+//! };
+//! let load = Load { missing: 1.0, ..Load::default() };
+//! assert_eq!(ambient.buoyancy(&load).force, -1000.0 * gravity);
+//! ```
 
 mod added_mass;
 mod advice;
@@ -26,14 +45,17 @@ mod kernel_deficit;
 mod lattice_coupling;
 mod load_average;
 mod lubrication;
+mod particle_advice;
 mod rim_pressure;
 mod rock;
+mod start;
 mod state;
 mod uplift;
 
 pub use added_mass::{AddedMass, InteriorInertia, MassProperties};
 pub use async_readback::{AsyncReadback, Copied};
 pub use block_cells::BlockCell;
+pub(crate) use coupled::couple;
 pub use coupled::{Coupled, Exchanges};
 pub(crate) use exchange::longest_exchange;
 pub use exchange::{ExchangeInterval, Fluid, run};
@@ -43,6 +65,7 @@ pub(crate) use gaps::gaps;
 pub(crate) use joint_seal::JointSeal;
 pub(crate) use lattice_coupling::LatticeCoupling;
 pub use load_average::LoadAverage;
+pub use particle_advice::particle_advice;
 pub use rock::{CouplingParams, InteriorFluid, Rock};
-pub use state::CoupledState;
+pub use state::{CouplingState, RockState};
 pub use uplift::JointLoad;

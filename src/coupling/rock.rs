@@ -1,14 +1,15 @@
-//! The blocks of a scene, coupled to any fluid.
+//! The blocks of a scene, alone or coupled to any fluid.
 
 use super::{
-    AddedMass, ExchangeInterval, FluidLoad, InteriorInertia, MassProperties, fluid_load::add_loads,
+    AddedMass, ExchangeInterval, FluidLoad, InteriorInertia, MassProperties,
+    fluid_load::add_loads,
+    start::{begin, broadphase},
 };
 use crate::{
     Result,
     geometry::{Load, Pose, Shape, skew},
     rock::{Block, Blocks, Motion, Snapshot, broadphase::AutoBroadphase},
     scene::{Scene, build::BlockSetup},
-    simulation,
 };
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -40,17 +41,18 @@ pub struct InteriorFluid {
     pub layer: f64,
 }
 
-/// Blocks coupled to a fluid.
+/// The blocks of a scene, alone or coupled to a fluid.
 #[derive(Debug)]
 pub struct Rock {
     pub(super) setup: BlockSetup,
     pub(super) blocks: Blocks,
-    pub(super) finder: AutoBroadphase,
+    pub(super) broadphase: AutoBroadphase,
     interval: u64,
     hold: f64,
     inside: Option<InteriorFluid>,
     /// Upper bounds of the added mass of each block.
     added_mass: Vec<AddedMass>,
+    /// Empty without a fluid.
     pub(super) cell_load: Vec<FluidLoad>,
     external_load: Vec<FluidLoad>,
     pub(super) interior: Vec<InteriorInertia>,
@@ -62,45 +64,51 @@ pub struct Rock {
 }
 
 impl Rock {
-    /// The blocks of a scene, as `setup` has them.
+    /// The blocks of a scene, as `setup` has them, pushed apart if the scene says so; `params` are those of its fluid, if it
+    /// has one. Pairs are searched on the host without a `device`.
     ///
     /// # Errors
-    /// Those of [`Blocks`] for an invalid setup.
+    /// Those of [`Blocks`] for an invalid setup; [`crate::Error::Overlaps`] if blocks overlap, or cannot be pushed apart;
+    /// [`crate::Error::TimeStep`] if the step is too long for the contacts at the start.
     pub async fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        device: Option<(&wgpu::Device, &wgpu::Queue)>,
         scene: &Scene,
         setup: BlockSetup,
-        params: CouplingParams,
+        params: Option<CouplingParams>,
     ) -> Result<Self> {
         let mut setup = setup;
         let free = |block: &Block| block.motion == Motion::Free;
-        if setup.setup.time_step.is_none() && !setup.setup.blocks.iter().any(free) {
+        if let Some(params) = &params
+            && setup.setup.time_step.is_none()
+            && !setup.setup.blocks.iter().any(free)
+        {
             // Without free blocks no contact limits the step.
             setup.setup.time_step = Some(params.time_step);
         }
-        let mut finder = simulation::finder(device, queue, scene.rock.search);
-        let blocks = simulation::begin(scene, &setup, &mut finder).await?;
+        let mut broadphase = broadphase(device, scene.rock.broadphase)?;
+        let blocks = begin(scene, &setup, &mut broadphase).await?;
+        let inside = params.and_then(|params| params.inside);
+        let coupled = if params.is_some() { blocks.len() } else { 0 };
         Ok(Self {
             interval: scene.coupling.interval.into(),
-            hold: params.hold,
-            inside: params.inside,
-            added_mass: params.inside.map_or_else(Vec::new, |inside| {
+            hold: params.map_or(0.0, |params| params.hold),
+            inside,
+            added_mass: inside.map_or_else(Vec::new, |inside| {
                 let shapes = setup.setup.blocks.iter().map(|block| &block.shape);
                 let bound = |shape: &Arc<Shape>| {
                     AddedMass::bound(shape.volume(), shape.inertia(), inside.layer)
                 };
                 shapes.map(bound).collect()
             }),
-            cell_load: vec![FluidLoad::default(); blocks.len()],
-            external_load: vec![FluidLoad::default(); blocks.len()],
-            interior: vec![InteriorInertia::default(); blocks.len()],
+            cell_load: vec![FluidLoad::default(); coupled],
+            external_load: vec![FluidLoad::default(); coupled],
+            interior: vec![InteriorInertia::default(); coupled],
             backup: (Snapshot::default(), Vec::new()),
             exchanges: 0,
             work_on_fluid: 0.0,
             setup,
             blocks,
-            finder,
+            broadphase,
         })
     }
 
@@ -163,7 +171,7 @@ impl Rock {
             .collect();
         self.keep_sleeping_loads(&mut loads);
         let moved = match self.blocks.load(&loads) {
-            Ok(()) => self.blocks.advance(&mut self.finder, until).await,
+            Ok(()) => self.blocks.advance(&mut self.broadphase, until).await,
             refused => refused,
         };
         if moved.is_err() {
@@ -174,6 +182,23 @@ impl Rock {
             let work = |(load, (from, to)): (&Load, (&Pose, Pose))| load.work(from, &to);
             self.work_on_fluid -= loads.iter().zip(moves).map(work).sum::<f64>();
             self.update_external_load();
+        }
+        moved
+    }
+
+    /// Advances blocks without a fluid to the time `until` (s).
+    ///
+    /// # Errors
+    /// Those of [`Blocks::advance`]. The blocks then keep their state.
+    pub async fn advance(&mut self, until: f64) -> Result<()> {
+        // A sub-step that fails leaves the blocks where they were: one alone needs no copy of them.
+        let several = self.blocks.steps_to(until) > 1.0;
+        if several {
+            self.blocks.save(&mut self.backup.0);
+        }
+        let moved = self.blocks.advance(&mut self.broadphase, until).await;
+        if moved.is_err() && several {
+            self.blocks.restore(&self.backup.0)?;
         }
         moved
     }
@@ -245,6 +270,7 @@ impl Rock {
 
     /// The load of the exterior fluid on each block at the last exchange: the load that moves it besides weight and
     /// contacts. It excludes the inertia of the fluid inside the cells of the block, which [`Rock::cell_load`] includes.
+    /// Empty without a fluid.
     pub fn external_load(&self) -> &[FluidLoad] {
         &self.external_load
     }
@@ -253,6 +279,11 @@ impl Rock {
     /// fluid inside them.
     pub fn cell_load(&self) -> &[FluidLoad] {
         &self.cell_load
+    }
+
+    /// Times the phases of the steps of the blocks from now on.
+    pub fn time_phases(&mut self) {
+        self.blocks.time_phases();
     }
 
     /// The blocks in their present state.
@@ -268,16 +299,6 @@ impl Rock {
     /// Number of exchanges since the start or the last restart.
     pub fn exchange_count(&self) -> u64 {
         self.exchanges
-    }
-
-    /// Sets the state of the blocks to a snapshot of the same blocks.
-    ///
-    /// # Errors
-    /// [`crate::Error::Scene`] if it is of other blocks.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
-        self.blocks
-            .restore(snapshot)
-            .map_err(|error| crate::Error::scene("restart", error.to_string()))
     }
 }
 

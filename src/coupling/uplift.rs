@@ -263,7 +263,7 @@ pub struct JointLoad {
     pub moment: DVec3,
 }
 
-impl Coupled {
+impl Coupled<'_> {
     /// The loads of the water in closed joints on the faces of a block, in the order of [`Coupled::face_loads`]; empty
     /// where [`Coupled::wrench_with_uplift`] is `None`.
     pub fn joint_loads(&self, block: usize) -> Vec<JointLoad> {

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use super::{TriangleMesh, mesh::named};
 
 impl TriangleMesh {
-    /// Whether every edge is passed as often one way as the other: then the surface has no
+    /// Whether every edge is passed as often in one direction as in the other: then the surface has no
     /// boundary, and the winding number of every point off it is whole.
     ///
     /// # Errors
     /// Says how many edges offend, near which point, and how to mend the mesh, or which vertex is not there.
     pub fn closed(&self) -> Result<(), String> {
         named(&self.triangles, self.vertices.len())?;
-        // How often an edge is used at all, and by how much one way prevails. Sorted, so that the
+        // How often an edge is used at all, and by how much one direction prevails. Sorted, so that the
         // message is the same every time.
         let mut edges: BTreeMap<(u32, u32), (u32, i32)> = BTreeMap::new();
         for [a, b, c] in &self.triangles {

@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use glam::DVec3;
 
-/// Which ways are up and north.
+/// Directions of up and north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compass {
     /// Against gravity, of any length.
@@ -54,17 +54,17 @@ impl Compass {
                 "up {} and north {} must be two finite directions that are not parallel",
                 self.up, self.north
             );
-            return Err(Error::scene("compass", message));
+            return Err(Error::argument("compass", message));
         };
         if !(0.0..=90.0).contains(&dip) {
             let message = format!(
                 "{dip}° is not between 0 (level) and 90 (upright); turn the dip direction by 180° instead"
             );
-            return Err(Error::scene("dip", message));
+            return Err(Error::argument("dip", message));
         }
         if !dip_direction.is_finite() {
             let message = format!("{dip_direction}° is no direction; give degrees from north");
-            return Err(Error::scene("dip_direction", message));
+            return Err(Error::argument("dip_direction", message));
         }
         let east = north.cross(up);
         let (sin_dip, cos_dip) = sin_cos(dip);

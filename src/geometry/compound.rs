@@ -16,10 +16,10 @@ impl Shape {
     pub fn compound(parts: Vec<Part>) -> Result<(Self, DVec3)> {
         if parts.is_empty() {
             let message = "a compound needs a part; give at least one";
-            return Err(Error::scene("parts", message));
+            return Err(Error::argument("parts", message));
         }
         if let Some(bad) = parts.iter().position(|p| !p.offset.is_finite()) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 format!("parts[{bad}].offset"),
                 format!("{} is not finite; give numbers in m", parts[bad].offset),
             ));
@@ -33,7 +33,7 @@ impl Shape {
                     "it overlaps parts[{other}], and mass would count twice there; move or cut one \
                      of them, or give the outline of both as a mesh"
                 );
-                return Err(Error::scene(format!("parts[{index}]"), message));
+                return Err(Error::argument(format!("parts[{index}]"), message));
             }
         }
         let volume: f64 = parts.iter().map(|p| p.form.volume()).sum();

@@ -12,7 +12,7 @@ use glam::DVec3;
 /// Most parts: a compound of more is slow in contact.
 pub(super) const PARTS: usize = 64;
 
-/// Faces that are asked whether a mesh is concave, before its hull is made to find out.
+/// Faces that are tested for concavity of a mesh, before its hull is made to find out.
 const SAMPLE: usize = 200;
 
 /// A mesh about its centroid.

@@ -29,7 +29,7 @@ pub(super) fn unit(faces: &[HalfSpace]) -> Result<Vec<HalfSpace>> {
         let distance = face.distance / length;
         if !(length > 0.0 && length.is_finite() && distance.is_finite()) {
             let (n, d) = (face.normal, face.distance);
-            return Err(Error::scene(
+            return Err(Error::argument(
                 format!("faces[{index}]"),
                 format!("normal {n} and distance {d} m are no plane; give finite numbers and a normal that is not zero"),
             ));
@@ -74,7 +74,7 @@ fn clip_box(faces: &[HalfSpace], centre: DVec3, half: f64) -> Result<Cell> {
     let mut cell = Cell::cuboid(DVec3::splat(-half), DVec3::splat(half));
     for (index, face) in faces.iter().enumerate() {
         if cell.clip(face.seen_from(centre), index as u32, ON * half) == Clip::Nothing {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 format!("faces[{index}]"),
                 "nothing is left inside it of what the faces before it bound; check the signs of its \
                  normal (outwards) and its distance",
@@ -82,7 +82,7 @@ fn clip_box(faces: &[HalfSpace], centre: DVec3, half: f64) -> Result<Cell> {
         }
     }
     if cell.facets.iter().any(|f| f.source == START) {
-        return Err(Error::scene(
+        return Err(Error::argument(
             "faces",
             "they meet in a point and enclose no volume; check the distances",
         ));
@@ -105,7 +105,7 @@ fn reach(faces: &[HalfSpace]) -> Result<f64> {
     let far = cell.live().fold(DVec3::ZERO, longest);
     if cell.facets.iter().any(|f| f.source == START) {
         let d = far.normalize();
-        return Err(Error::scene(
+        return Err(Error::argument(
             "faces",
             format!(
                 "{} faces leave the block unbounded towards ({:.3}, {:.3}, {:.3}); add a face there",

@@ -34,7 +34,7 @@ impl Shape {
         positive("scale", scale)?;
         let mesh = TriangleMesh::read(path, scale, [0.0; 3])?;
         Self::from_mesh(&mesh).map_err(|e| match e {
-            Error::Scene { message, .. } => Error::file(path, message),
+            Error::Argument { message, .. } => Error::file(path, message),
             other => other,
         })
     }
@@ -49,7 +49,7 @@ impl Shape {
     /// # Errors
     /// If the mesh is open, inverted, flat, or no solid, or convex parts do not come near enough to it.
     pub fn from_mesh(mesh: &TriangleMesh) -> Result<(Self, DVec3)> {
-        let refuse = |message: String| Error::scene("mesh", message);
+        let refuse = |message: String| Error::argument("mesh", message);
         let count = mesh.vertices.len();
         let whole = |corners: &[u32; 3]| corners.iter().all(|c| (*c as usize) < count);
         if !mesh.vertices.iter().all(|v| v.is_finite()) || !mesh.triangles.iter().all(whole) {

@@ -31,14 +31,14 @@ impl Polyhedron {
     /// The hull, points within `coplanar` of the size being on one plane.
     pub(super) fn hull(points: &[DVec3], coplanar: f64) -> Result<(Self, DVec3)> {
         if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 format!("vertices[{bad}]"),
                 format!("{} is not finite; give numbers in m", points[bad]),
             ));
         }
         let corners = simplex(points).ok_or_else(|| {
             let message = "all points lie on one plane, line or point; a block needs a thickness";
-            Error::scene("vertices", message)
+            Error::argument("vertices", message)
         })?;
         let centre = corners.iter().sum::<DVec3>() / 4.0;
         let local: Vec<DVec3> = points.iter().map(|p| *p - centre).collect();
@@ -46,7 +46,7 @@ impl Polyhedron {
             hull_planes(&local, corners.map(|c| c - centre), coplanar).ok_or_else(|| {
                 let message =
                     "the points are too near to each other to compute with; check their unit, m";
-                Error::scene("vertices", message)
+                Error::argument("vertices", message)
             })?;
         let size = local.iter().map(|p| p.abs().max_element());
         let half = 2.0 * size.fold(0.0, f64::max);

@@ -128,7 +128,7 @@ impl JointSet {
             "the rock reaches more than {MOST} joints away from the origin of the set; move the \
              origin into the rock or widen the spacing"
         );
-        Err(Error::scene("spacing", message))
+        Err(Error::argument("spacing", message))
     }
 
     /// Distance from joint k to joint k + 1, m.
@@ -158,7 +158,7 @@ impl JointSet {
         positive("spacing", self.spacing)?;
         if !self.origin.is_finite() {
             let message = format!("{} is not finite; give a point in m", self.origin);
-            return Err(Error::scene("origin", message));
+            return Err(Error::argument("origin", message));
         }
         let (least, most, width) = match self.scatter {
             Scatter::Uniform { range } => (0.0, self.spacing.next_down(), range),
@@ -169,7 +169,7 @@ impl JointSet {
         if !(least..=most).contains(&width) {
             let message =
                 format!("{width} m is not between 0 and {most:.6} m; change it or the spacing");
-            return Err(Error::scene("scatter", message));
+            return Err(Error::argument("scatter", message));
         }
         let Some(Persistence { fraction, length }) = self.persistence else {
             return Ok(());
@@ -177,7 +177,7 @@ impl JointSet {
         positive("persistence.length", length)?;
         if !(0.0..=1.0).contains(&fraction) {
             let message = format!("{fraction} is no share; give a number from 0 to 1");
-            return Err(Error::scene("persistence.fraction", message));
+            return Err(Error::argument("persistence.fraction", message));
         }
         Ok(())
     }

@@ -1,11 +1,12 @@
 //! Triangle meshes from STL and OBJ files.
 
 use std::collections::HashMap;
-use std::io::Cursor;
 use std::path::Path;
 
 use glam::DVec3;
 
+#[cfg(feature = "mesh")]
+use super::mesh_file;
 use crate::error::{Error, Result};
 
 /// Vertices nearer than this part of the mesh's diagonal are one: STL repeats each vertex in
@@ -29,7 +30,8 @@ impl TriangleMesh {
     /// # Errors
     /// If a triangle names a vertex that is not there.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Self> {
-        named(triangles, vertices.len()).map_err(|message| Error::scene("triangles", message))?;
+        named(triangles, vertices.len())
+            .map_err(|message| Error::argument("triangles", message))?;
         let (kept, of) = weld(vertices);
         let triangles = triangles
             .iter()
@@ -51,8 +53,12 @@ impl TriangleMesh {
         let bytes = std::fs::read(path)
             .map_err(|e| Error::file(path, format!("cannot read the mesh: {e}; check the path")))?;
         let (vertices, triangles) = match extension.as_deref() {
-            Some("stl") => read_stl(bytes),
-            Some("obj") => read_obj(bytes),
+            #[cfg(feature = "mesh")]
+            Some("stl") => mesh_file::read_stl(bytes),
+            #[cfg(feature = "mesh")]
+            Some("obj") => mesh_file::read_obj(bytes),
+            #[cfg(not(feature = "mesh"))]
+            Some("stl" | "obj") => no_files(bytes),
             _ => Err("a mesh is an .stl or an .obj file; convert it".into()),
         }
         .map_err(|message| Error::file(path, message))?;
@@ -98,55 +104,12 @@ pub(super) fn named(triangles: &[[u32; 3]], vertices: usize) -> Result<(), Strin
     }
 }
 
-type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
+/// Vertices and triangles of a file.
+pub(super) type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
 
-fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
-    if is_binary_stl(&bytes) {
-        // Some programs begin binary headers with the word that marks text.
-        bytes[..HEADER].fill(0);
-    }
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
-        .map_err(|e| format!("not a valid STL file: {e}; export it again"))?;
-    let vertex = |v: &stl_io::Vertex| DVec3::from(v.0.map(f64::from));
-    Ok((
-        mesh.vertices.iter().map(vertex).collect(),
-        mesh.faces
-            .iter()
-            .map(|f| f.vertices.map(|v| v as u32))
-            .collect(),
-    ))
-}
-
-/// Bytes of free text before the number of triangles in binary STL.
-const HEADER: usize = 80;
-
-/// Whether the length is that of as many triangles (50 bytes each) as binary STL announces.
-fn is_binary_stl(bytes: &[u8]) -> bool {
-    match bytes.get(HEADER..).and_then(|rest| rest.first_chunk::<4>()) {
-        Some(count) => bytes.len() as u64 == 84 + 50 * u64::from(u32::from_le_bytes(*count)),
-        None => false,
-    }
-}
-
-fn read_obj(bytes: Vec<u8>) -> Result<Soup, String> {
-    let options = tobj::LoadOptions {
-        triangulate: true,
-        ..Default::default()
-    };
-    // Materials say nothing about the shape.
-    let no_materials = |_: &Path| Ok((Vec::new(), HashMap::default()));
-    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials)
-        .map_err(|e| format!("not a valid OBJ file: {e}; export it again"))?;
-    let mut vertices = Vec::new();
-    let mut triangles = Vec::new();
-    for model in models {
-        let first = vertices.len() as u32;
-        let (points, _) = model.mesh.positions.as_chunks::<3>();
-        vertices.extend(points.iter().map(|p| DVec3::from(p.map(f64::from))));
-        let (faces, _) = model.mesh.indices.as_chunks::<3>();
-        triangles.extend(faces.iter().map(|f| f.map(|v| v + first)));
-    }
-    Ok((vertices, triangles))
+#[cfg(not(feature = "mesh"))]
+fn no_files(_: Vec<u8>) -> Result<Soup, String> {
+    Err("this program reads no meshes; build it with the feature `mesh` of riprap".into())
 }
 
 fn around(points: &[DVec3]) -> (DVec3, DVec3) {

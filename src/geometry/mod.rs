@@ -1,8 +1,8 @@
-//! Shapes of blocks: convex polyhedra, compounds, spheres, and rock masses cut by joints.
+//! Shapes of blocks: convex polyhedra, compounds, spheres, and, with the feature `rock`, rock masses cut by joints.
 //!
 //! ```
 //! use glam::DVec3;
-//! use riprap::geometry::{JointSet, Polyhedron, RockMass, Scatter};
+//! use riprap::geometry::Polyhedron;
 //!
 //! # fn main() -> riprap::Result<()> {
 //! // A wedge from its corners; its centroid becomes the origin.
@@ -14,23 +14,6 @@
 //! ])?;
 //! assert!((wedge.volume() - 1.0 / 3.0).abs() < 1e-15);
 //! assert!(centre.distance(DVec3::new(0.5, 0.25, 0.25)) < 1e-15);
-//!
-//! // A cube of 4 m cut every 1 m by joints that fall by 60° to the east.
-//! let cube = Polyhedron::cuboid(DVec3::splat(4.0))?;
-//! let mass = RockMass {
-//!     joints: vec![JointSet {
-//!         dip: 60.0,
-//!         dip_direction: 90.0,
-//!         spacing: 1.0,
-//!         scatter: Scatter::None,
-//!         origin: DVec3::ZERO,
-//!         seed: 0,
-//!         persistence: None,
-//!     }],
-//!     ..RockMass::new(vec![cube.faces().to_vec()])
-//! };
-//! let cut = mass.cut()?;
-//! assert_eq!(cut.blocks.len(), 6);
 //! # Ok(())
 //! # }
 //! ```
@@ -46,12 +29,16 @@ mod from_vertices;
 mod half_space;
 mod joint_set;
 mod mesh;
+#[cfg(feature = "mesh")]
+mod mesh_file;
 mod moments;
 mod overlap;
+mod placed;
 mod polygons;
 mod polyhedron;
 mod pose;
 mod random;
+#[cfg(feature = "rock")]
 mod rock_mass;
 mod settle;
 mod shape;
@@ -62,10 +49,13 @@ pub use compass::Compass;
 pub use half_space::HalfSpace;
 pub use joint_set::{JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
+pub use placed::Placed;
+pub(crate) use placed::clip;
 pub use polyhedron::Polyhedron;
-pub(crate) use pose::outer;
 pub use pose::{Load, Pose, skew};
+pub(crate) use pose::{axial, inner, outer};
 pub(crate) use random::uniform;
+#[cfg(feature = "rock")]
 pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
 pub use shape::{Form, Part, Shape};
 pub use winding::WindingTree;

@@ -70,7 +70,7 @@ impl Polyhedron {
         cell.compact();
         cell.settle();
         let Some(centroid) = cell.centroid() else {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "faces",
                 "they enclose no volume; check the signs and the unit of the distances",
             ));
@@ -86,7 +86,7 @@ impl Polyhedron {
         let thick = |f: &HalfSpace| f.distance >= SLIVER * 2.0 * block.radius;
         match block.faces.iter().position(|f| !thick(f)) {
             None => Ok(block),
-            Some(thin) => Err(Error::scene(
+            Some(thin) => Err(Error::argument(
                 format!("faces[{}]", sources[thin]),
                 format!(
                     "its face is {:.3e} m from the centroid of a block {:.3e} m across: thinner \

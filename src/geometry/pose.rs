@@ -1,14 +1,12 @@
 //! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
-use crate::{
-    Error, Result,
-    rock::{integrate::axial, law::inner},
-};
+use crate::{Error, Result};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
 /// one any matrix, so that the velocity of a point is the same formula for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Centroid, m.
     pub centre: DVec3,
@@ -44,7 +42,7 @@ impl Pose {
     /// Whether a block keeps a volume in it, and is not turned inside out.
     ///
     /// # Errors
-    /// [`Error::Scene`] at `place` if not.
+    /// [`Error::Argument`] at `place` if not.
     pub(crate) fn check_volume(&self, place: impl FnOnce() -> String) -> Result<()> {
         let determinant = self.deformation.determinant();
         if determinant > 0.0 {
@@ -54,7 +52,7 @@ impl Pose {
             "the determinant of its deformation F is {determinant}, which leaves no volume; give a matrix whose \
              determinant is greater than 0, for a rigid block a rotation"
         );
-        Err(Error::scene(place(), message))
+        Err(Error::argument(place(), message))
     }
 
     /// Place of the point X of the block, m.
@@ -110,8 +108,23 @@ pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
+/// Σ r × f of the moment Σ f ⊗ r.
+pub(crate) fn axial(m: DMat3) -> DVec3 {
+    DVec3::new(
+        m.y_axis.z - m.z_axis.y,
+        m.z_axis.x - m.x_axis.z,
+        m.x_axis.y - m.y_axis.x,
+    )
+}
+
+/// A:B, the sum of the products of the entries.
+pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
+    a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
+}
+
 /// What a fluid does to a block in a step, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Load {
     /// Force, N.
     pub force: DVec3,
@@ -165,12 +178,12 @@ impl Load {
     /// the middle.
     pub fn work(&self, from: &Pose, to: &Pose) -> f64 {
         let change = to.deformation - from.deformation;
-        let way = self.force.dot(to.centre - from.centre);
+        let translation = self.force.dot(to.centre - from.centre);
         if change == DMat3::ZERO {
-            return way;
+            return translation;
         }
         let middle = 0.5 * (from.deformation + to.deformation);
-        way + inner(self.moment, change * middle.inverse())
+        translation + inner(self.moment, change * middle.inverse())
     }
 
     /// Torque about the centroid, Σ r × f, N m.

@@ -1,4 +1,4 @@
-//! Numbers that look random and depend on nothing but what they are asked for.
+//! Numbers that look random and depend on nothing but their arguments.
 
 /// A number in (0, 1) for `key` and `seed`: SplitMix64 (Steele, Lea & Flood 2014, OOPSLA, figure 15),
 /// once for the seed and once for each word of the key.

@@ -20,6 +20,31 @@ const MOST: usize = 10_000_000;
 const SPECK: f64 = 1e-6;
 
 /// A rock mass to be cut.
+///
+/// ```
+/// use glam::DVec3;
+/// use riprap::geometry::{JointSet, Polyhedron, RockMass, Scatter};
+///
+/// # fn main() -> riprap::Result<()> {
+/// // A cube of 4 m cut every 1 m by joints that fall by 60° to the east.
+/// let cube = Polyhedron::cuboid(DVec3::splat(4.0))?;
+/// let mass = RockMass {
+///     joints: vec![JointSet {
+///         dip: 60.0,
+///         dip_direction: 90.0,
+///         spacing: 1.0,
+///         scatter: Scatter::None,
+///         origin: DVec3::ZERO,
+///         seed: 0,
+///         persistence: None,
+///     }],
+///     ..RockMass::new(vec![cube.faces().to_vec()])
+/// };
+/// let cut = mass.cut()?;
+/// assert_eq!(cut.blocks.len(), 6);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockMass {
     /// Convex volumes, each inside all of its faces (m); they should not overlap.
@@ -93,7 +118,7 @@ impl RockMass {
     pub fn cut(&self) -> Result<Fragments> {
         if self.volumes.is_empty() {
             let message = "a rock mass needs a volume; give the faces of at least one";
-            return Err(Error::scene("volumes", message));
+            return Err(Error::argument("volumes", message));
         }
         for (name, least) in [
             ("smallest_volume", self.smallest_volume),
@@ -101,7 +126,7 @@ impl RockMass {
         ] {
             if !(least >= 0.0 && least.is_finite()) {
                 let message = format!("is {least}; give a number from 0");
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
         }
         // What facets are known by: all planes, in the coordinates of the mass.
@@ -150,7 +175,7 @@ impl RockMass {
                 let message = format!(
                     "it would leave up to {most} pieces, {MOST} are the most; widen the spacing"
                 );
-                return Err(Error::scene(format!("joints[{index}].spacing"), message));
+                return Err(Error::argument(format!("joints[{index}].spacing"), message));
             }
             let cut = pieces.into_par_iter().flat_map_iter(|p| cutter.cut(p));
             pieces = cut.collect();

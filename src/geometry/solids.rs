@@ -86,7 +86,7 @@ pub(super) fn positive(place: &str, length: f64) -> Result<()> {
     if length > 0.0 && length.is_finite() {
         return Ok(());
     }
-    Err(Error::scene(
+    Err(Error::argument(
         place,
         format!("{length} m is no length; give a positive number in m"),
     ))

@@ -1,22 +1,18 @@
 //! A compute kernel on the caller's device: bound by name, recorded into the caller's pass.
 
-use crate::{
-    Error, Result,
-    gpu::{link::Linked, work::Work},
-};
-use std::borrow::Cow;
+use crate::{Error, Result, gpu::link::Linked};
+use std::{borrow::Cow, sync::Arc};
 
 /// A pipeline with the names of its bindings.
 #[derive(Debug)]
 pub struct Kernel {
     entry: String,
-    file: String,
+    linked: Arc<Linked>,
     slots: Vec<(String, String)>,
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     bindings: Vec<Binding>,
     size: [u32; 3],
-    work: Work,
 }
 
 /// A storage or uniform buffer that a kernel wants.
@@ -33,7 +29,7 @@ pub struct Binding {
 /// A linked program on a device. Its kernels share one shader module.
 #[derive(Debug)]
 pub struct Shader {
-    linked: Linked,
+    linked: Arc<Linked>,
     module: wgpu::ShaderModule,
 }
 
@@ -42,7 +38,7 @@ impl Shader {
     pub fn new(device: &wgpu::Device, linked: Linked) -> Self {
         Self {
             module: shader_module(device, &linked),
-            linked,
+            linked: Arc::new(linked),
         }
     }
 
@@ -69,7 +65,7 @@ impl Shader {
 fn shader_module(device: &wgpu::Device, linked: &Linked) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(&linked.file),
-        source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module.clone())),
+        source: wgpu::ShaderSource::Naga(Cow::Owned((*linked.module).clone())),
     })
 }
 
@@ -87,13 +83,8 @@ impl Kernel {
         entry: &str,
         constants: &[(&str, f64)],
     ) -> Result<Self> {
-        compile(
-            device,
-            linked,
-            &shader_module(device, linked),
-            entry,
-            constants,
-        )
+        let module = shader_module(device, linked);
+        compile(device, &Arc::new(linked.clone()), &module, entry, constants)
     }
 
     /// Name of the entry point.
@@ -103,7 +94,7 @@ impl Kernel {
 
     /// The file of the entry point, without folder and ending.
     pub fn file(&self) -> &str {
-        &self.file
+        &self.linked.file
     }
 
     /// Its slots and the files that fill them.
@@ -116,9 +107,9 @@ impl Kernel {
         self.size.iter().product()
     }
 
-    /// What an invocation computes and moves.
-    pub fn work(&self) -> Work {
-        self.work
+    /// The program that it is an entry point of.
+    pub fn linked(&self) -> &Linked {
+        &self.linked
     }
 
     /// What must be bound, in the order of the binding numbers.
@@ -183,7 +174,7 @@ impl Kernel {
 
 fn compile(
     device: &wgpu::Device,
-    linked: &Linked,
+    linked: &Arc<Linked>,
     module: &wgpu::ShaderModule,
     entry: &str,
     constants: &[(&str, f64)],
@@ -242,13 +233,12 @@ fn compile(
     });
     Ok(Kernel {
         entry: entry.into(),
-        file: linked.file.clone(),
+        linked: linked.clone(),
         slots: linked.slots.clone().into_iter().collect(),
         pipeline,
         layout,
         bindings,
         size,
-        work: Work::of(linked, entry)?,
     })
 }
 

@@ -6,7 +6,10 @@
 //! by literals: an indexed `array<f32, 27>` would cost two to three times as much.
 
 use crate::{Error, Result};
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 mod sources;
 mod unroll;
@@ -65,14 +68,14 @@ impl Program {
             file: self.entry.clone(),
             slots,
             text,
-            module,
-            info,
+            module: Arc::new(module),
+            info: Arc::new(info),
         })
     }
 }
 
 /// A linked and validated shader.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Linked {
     /// The file that it starts at.
     pub file: String,
@@ -81,9 +84,9 @@ pub struct Linked {
     /// WGSL, complete.
     pub text: String,
     /// The same, as naga sees it.
-    pub module: naga::Module,
+    pub module: Arc<naga::Module>,
     /// What naga found out about it.
-    pub info: naga::valid::ModuleInfo,
+    pub info: Arc<naga::valid::ModuleInfo>,
 }
 
 impl Linked {

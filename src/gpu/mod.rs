@@ -1,11 +1,50 @@
 //! Device side of every kernel: linking of WGSL files, pipelines, buffers, readback, timing, and the sorting primitives that
 //! SPH and the broadphase share.
+//!
+//! [`link`] makes one shader from the files that a kernel needs, [`kernel`] makes its pipeline and binds buffers by their names,
+//! [`layout`] compares structs of Rust with those of WGSL, [`readback`] reads buffers, and [`timer`] times passes on the device.
+//!
+//! ```
+//! use riprap::{gpu::{kernel::Kernel, link::Program}, wgpu};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Any device; this one does nothing, so that the example runs everywhere.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//! const DOUBLE: &str = "// Doubles each value.
+//! @group(0) @binding(0) var<storage, read_write> values: array<f32>;
+//!
+//! @compute @workgroup_size(64)
+//! fn double(@builtin(global_invocation_id) id: vec3<u32>) {
+//!     if (id.x < arrayLength(&values)) {
+//!         values[id.x] *= 2.0;
+//!     }
+//! }
+//! ";
+//! let linked = Program::new("double").text("double", DOUBLE).link()?;
+//! let kernel = Kernel::new(&device, &linked, "double", &[])?;
+//! let values = device.create_buffer(&wgpu::BufferDescriptor {
+//!     label: Some("values"),
+//!     size: 4 * 1000,
+//!     usage: wgpu::BufferUsages::STORAGE,
+//!     mapped_at_creation: false,
+//! });
+//! let bind = kernel.bind(&device, &[("values", &values)])?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! {
+//!     let mut pass = encoder.begin_compute_pass(&Default::default());
+//!     kernel.record(&mut pass, &bind, 1000u32.div_ceil(64));
+//! }
+//! queue.submit([encoder.finish()]);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod bins;
 pub(crate) mod filled;
 pub mod kernel;
 pub mod layout;
 pub mod link;
+#[cfg(feature = "checkpoint")]
+pub(crate) mod plain_bytes;
 pub mod readback;
 pub mod timer;
-pub mod work;

@@ -104,3 +104,86 @@ pub fn pass<'a>(timer: Option<&'a mut Timer>, label: &'a str) -> wgpu::ComputePa
         },
     }
 }
+
+/// Passes that are timed between two [`Phases::collect`].
+const PASSES: u32 = 2048;
+
+/// Times of the phases of a step, by name, over a run: those of passes by timestamps, those of the host by its clock. A
+/// device without timestamps gives no times of passes.
+#[derive(Debug)]
+pub struct Phases {
+    timer: Option<Timer>,
+    times: Vec<Phase>,
+}
+
+/// A phase of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    /// Its name.
+    pub name: String,
+    /// How often it was timed.
+    pub count: u64,
+    /// All times together, s.
+    pub seconds: f64,
+}
+
+impl Phases {
+    /// Nothing is timed yet.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        Self {
+            timer: Timer::new(device, queue, PASSES),
+            times: Vec::new(),
+        }
+    }
+
+    /// Records the end of the timed passes, behind the last of them.
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(timer) = &self.timer {
+            timer.resolve(encoder);
+        }
+    }
+
+    /// Adds the times of the passes that have been submitted since the last call, at most 2048 of them.
+    ///
+    /// # Errors
+    /// [`crate::Error::DeviceLost`] if the device does not give the timestamps back.
+    pub async fn collect(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        let Some(timer) = &mut self.timer else {
+            return Ok(());
+        };
+        for (name, seconds) in timer.read(device, queue).await? {
+            self.add(&name, seconds);
+        }
+        Ok(())
+    }
+
+    /// Adds a time (s) of the phase `name`.
+    pub fn add(&mut self, name: &str, seconds: f64) {
+        let known = self.times.iter().position(|phase| phase.name == name);
+        let at = known.unwrap_or_else(|| {
+            self.times.push(Phase {
+                name: name.into(),
+                count: 0,
+                seconds: 0.0,
+            });
+            self.times.len() - 1
+        });
+        self.times[at].count += 1;
+        self.times[at].seconds += seconds;
+    }
+
+    /// The phases in the order in which they first ran.
+    pub fn times(&self) -> &[Phase] {
+        &self.times
+    }
+}
+
+/// Begins a pass: timed as the phase `name` if phases are timed.
+pub fn begin_pass<'e>(
+    phases: &mut Option<Phases>,
+    encoder: &'e mut wgpu::CommandEncoder,
+    name: &str,
+) -> wgpu::ComputePass<'e> {
+    let timer = phases.as_mut().and_then(|phases| phases.timer.as_mut());
+    encoder.begin_compute_pass(&pass(timer, name))
+}

@@ -12,7 +12,7 @@ impl Lattice {
         let geometry = &self.geometry;
         // The kernels of even and odd steps keep a list each.
         let list = |bytes: usize| 2 * bytes as u64;
-        let [lists, saturation] = self.streams.bytes();
+        let [lists, psm_planes] = self.streams.bytes();
         let kinds = [
             (
                 "populations",
@@ -36,7 +36,7 @@ impl Lattice {
                     .sum(),
             ),
             ("lists of bricks", lists),
-            ("saturation of bricks with blocks", saturation),
+            ("saturation of bricks with blocks", psm_planes),
             ("guard", size(&buffers.guard)),
         ];
         kinds.into_iter().filter(|(_, bytes)| *bytes > 0).collect()

@@ -107,6 +107,14 @@ impl Lattice {
         Ok(kernel)
     }
 
+    /// The kernels for single cells that have been used, by the names of their files and entry points.
+    pub fn single_cell_kernels(&self) -> Vec<Arc<Kernel>> {
+        let made = self.cells.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kernels: Vec<_> = made.kernels.values().cloned().collect();
+        kernels.sort_by(|a, b| (a.file(), a.entry()).cmp(&(b.file(), b.entry())));
+        kernels
+    }
+
     /// A dispatch of a kernel for single cells.
     pub(super) fn cell_dispatch(
         &self,

@@ -7,26 +7,26 @@ impl Setup {
     /// Whether a fluid can be made of it.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the first field that cannot be used.
+    /// [`Error::Argument`] naming the first field that cannot be used.
     pub(super) fn check(&self) -> Result<()> {
         self.check_numbers()?;
         let cells = self.cells.iter().map(|&n| u128::from(n)).product();
         if !self.solid.is_empty() {
-            same("solids", self.solid.len(), cells)?;
+            same("solid", self.solid.len(), cells)?;
         }
         match &self.force {
             Force::None => {}
-            Force::Constant(force) => finite("fluid.acceleration", &force.map(|f| f as f32))?,
+            Force::Constant(force) => finite("force", &force.map(|f| f as f32))?,
             Force::Field(field) => {
-                same("fluid.acceleration", field.len(), cells)?;
-                finite("fluid.acceleration", field.as_flattened())?;
+                same("force", field.len(), cells)?;
+                finite("force", field.as_flattened())?;
             }
         }
         for (axis, faces) in self.faces.iter().enumerate() {
             let periodic = faces.iter().filter(|face| **face == Face::Periodic).count();
             if periodic == 1 {
                 let message = "a face is periodic only together with the opposite one";
-                return Err(Error::scene(face_name(axis, 0), message));
+                return Err(Error::argument(face_name(axis, 0), message));
             }
             for (side, face) in faces.iter().enumerate() {
                 self.check_face(face, axis, &face_name(axis, side))?;
@@ -35,7 +35,7 @@ impl Setup {
         let brick = self.brick.iter().map(|&n| u128::from(n)).product::<u128>();
         if ![32, 64, 128, 256].contains(&brick) {
             let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
-            return Err(Error::scene("brick", message));
+            return Err(Error::argument("brick", message));
         }
         Ok(())
     }
@@ -47,7 +47,7 @@ impl Setup {
                 "the viscosity must be positive, and 3 ν a number of 32 bits; ν is {:?}",
                 self.nu
             );
-            return Err(Error::scene("fluid.viscosity", message));
+            return Err(Error::argument("nu", message));
         }
         let rates = self.rates;
         let rates = [
@@ -66,7 +66,7 @@ impl Setup {
             // 2 is what 1/τ of the least viscosities is in 32 bits.
             if !(rate > 0.0 && rate <= 2.0) {
                 let message = format!("is {rate}; a rate lies above 0, up to 2");
-                return Err(Error::scene(format!("rates.{name}"), message));
+                return Err(Error::argument(format!("rates.{name}"), message));
             }
         }
         let lambdas = [
@@ -79,7 +79,7 @@ impl Setup {
                 && !(lambda > 0.0 && lambda.is_finite())
             {
                 let message = format!("is {lambda}; give a number greater than 0");
-                return Err(Error::scene(format!("numerics.{name}"), message));
+                return Err(Error::argument(name, message));
             }
         }
         if !(0.0..2.0).contains(&self.odd_rate_floor) {
@@ -87,13 +87,13 @@ impl Setup {
                 "is {}; a rate lies from 0 to below 2, such as 0.8",
                 self.odd_rate_floor
             );
-            return Err(Error::scene("numerics.odd_rate_floor", message));
+            return Err(Error::argument("odd_rate_floor", message));
         }
         if let Some(constant) = self.wale
             && !(constant >= 0.0 && (constant as f32).is_finite())
         {
             let message = format!("is {constant}; give a number from 0, such as 0.5");
-            return Err(Error::scene("numerics.wale_constant", message));
+            return Err(Error::argument("wale", message));
         }
         let squared = (self.max_speed * self.max_speed) as f32;
         if !(self.max_speed >= 0.0 && squared.is_finite()) {
@@ -101,7 +101,7 @@ impl Setup {
                 "is {}; give a speed such as 0.43, or 0 for no guard",
                 self.max_speed
             );
-            return Err(Error::scene("max_speed", message));
+            return Err(Error::argument("max_speed", message));
         }
         Ok(())
     }
@@ -118,7 +118,7 @@ impl Setup {
                          for flow through the face use `Face::Velocity`",
                         velocity[axis]
                     );
-                    return Err(Error::scene(name, message));
+                    return Err(Error::argument(name, message));
                 }
                 Ok(())
             }
@@ -135,7 +135,7 @@ impl Setup {
                 let message = format!(
                     "its density is {density}; give a number greater than 0, such as 1 for the pressure 0"
                 );
-                Err(Error::scene(name, message))
+                Err(Error::argument(name, message))
             }
         }
     }
@@ -146,7 +146,7 @@ fn same(name: &str, values: usize, cells: u128) -> Result<()> {
     if values as u128 == cells {
         return Ok(());
     }
-    Err(Error::scene(
+    Err(Error::argument(
         name,
         format!("{values} values for {cells} cells"),
     ))
@@ -158,7 +158,7 @@ pub(super) fn finite(name: &str, values: &[f32]) -> Result<()> {
         None => Ok(()),
         Some(bad) => {
             let message = format!("contains {bad}; give finite numbers of 32 bits");
-            Err(Error::scene(name, message))
+            Err(Error::argument(name, message))
         }
     }
 }

@@ -10,16 +10,20 @@ use std::sync::Arc;
 /// The full state of a fluid: no parity, no padding, no lanes, shifted by the weights, so that it
 /// restarts under any storage, lane or binding count.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Populations {
     /// Steps done.
     pub step: u64,
     /// Cells an axis.
     pub cells: [u32; 3],
     /// f_q − w_q of each cell, direction by direction, x fastest.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub values: Vec<f32>,
     /// Velocity of the last step for the eddy viscosity, component by component; empty without.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
     /// What the outflow faces carry from step to step, face by face.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub carried: Vec<f32>,
 }
 
@@ -80,7 +84,7 @@ impl Lattice {
     /// If it is of another grid, or lacks what the eddy viscosity or the faces need.
     pub fn check_populations(&self, state: &Populations) -> Result<()> {
         let cells = self.grid.cell_count();
-        let wrong = |message: String| Err(Error::scene("restart", message));
+        let wrong = |message: String| Err(Error::argument("restart", message));
         if state.cells != self.grid.cells || state.values.len() != 27 * cells {
             return wrong(format!(
                 "the saved grid has {:?} cells, this scene {:?}",

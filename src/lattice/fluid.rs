@@ -41,7 +41,7 @@ impl Dispatch {
 /// A D3Q27 lattice Boltzmann fluid.
 ///
 /// It owns buffers and pipelines; device, queue and encoder are the caller's. A step is recorded
-/// by [`Lattice::record`]; nothing is read back unless asked.
+/// by [`Lattice::record`]; nothing is read back unless requested.
 #[derive(Debug)]
 pub struct Lattice {
     pub(super) setup: Setup,
@@ -108,7 +108,7 @@ impl Lattice {
     /// state is given.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
+    /// [`Error::Argument`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
     /// hold it.
     pub fn new(device: &wgpu::Device, setup: Setup) -> Result<Self> {
         setup.check()?;
@@ -179,18 +179,23 @@ impl Lattice {
 
     /// Records one step into the caller's pass.
     pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
-        self.record_saturated(pass);
+        self.record_psm(pass);
         self.record_rest(pass);
+    }
+
+    /// Records the boundaries of the coming step alone. [`Lattice::record_psm`] does so unless it has been done.
+    pub fn record_boundaries(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        self.close(pass);
     }
 
     /// Records the first part of a step: the boundaries, and the bricks that blocks reach. What the
     /// blocks feel is known after it.
-    pub fn record_saturated(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+    pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
         self.streams.record(pass, self.parity(), true);
     }
 
-    /// Records the rest of a step after [`Lattice::record_saturated`]: all other bricks. Streaming is in
+    /// Records the rest of a step after [`Lattice::record_psm`]: all other bricks. Streaming is in
     /// place and every population has one owner a step, so that the bits do not depend on this split.
     pub fn record_rest(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.streams.record(pass, self.parity(), false);
@@ -203,7 +208,7 @@ impl Lattice {
     ///
     /// # Errors
     /// If the setup has no blocks, or a brick does not exist, is solid or is listed twice.
-    pub fn set_saturated(
+    pub fn set_psm_bricks(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -211,7 +216,7 @@ impl Lattice {
     ) -> Result<()> {
         if self.setup.solid_operator.is_none() {
             let message = "the setup has no solid operator, so that no block may be in the fluid";
-            return Err(Error::scene("numerics.solid_operator", message));
+            return Err(Error::argument("solid_operator", message));
         }
         let Self {
             streams,
@@ -222,27 +227,27 @@ impl Lattice {
         } = self;
         if let Some(bad) = bricks.iter().find(|&&brick| !geometry.runs(brick)) {
             let message = format!("brick {bad} has no fluid cell, or does not exist");
-            return Err(Error::scene("bricks", message));
+            return Err(Error::argument("bricks", message));
         }
         // Two workgroups would share a brick and write over each other.
         let mut seen = HashSet::with_capacity(bricks.len());
         if let Some(bad) = bricks.iter().find(|&&brick| !seen.insert(brick)) {
             let message = format!("brick {bad} is listed twice; list each brick once");
-            return Err(Error::scene("bricks", message));
+            return Err(Error::argument("bricks", message));
         }
         streams.set(device, queue, (setup, geometry, buffers), bricks)
     }
 
-    /// What blocks leave of the cells of the bricks that they reach, in the order of
-    /// [`Lattice::set_saturated`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
+    /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of
+    /// [`Lattice::set_psm_bricks`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
     /// buffer after that call, if it had to grow.
-    pub fn saturation(&self) -> Option<&wgpu::Buffer> {
-        self.streams.saturation()
+    pub fn psm_planes(&self) -> Option<&wgpu::Buffer> {
+        self.streams.psm_planes()
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
-    pub(super) fn saturated_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
-        self.streams.saturated()
+    pub(super) fn psm_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
+        self.streams.psm_bricks()
     }
 
     /// Records the boundary passes of the coming step, unless that is done: after it the
@@ -276,7 +281,7 @@ impl Lattice {
         let Some(face) = faces.and_then(|faces| faces.get_mut(side)) else {
             let message =
                 format!("there is no side {side} of axis {axis}; axes are 0 to 2, sides 0 and 1");
-            return Err(Error::scene("boundaries", message));
+            return Err(Error::argument("faces", message));
         };
         match face {
             Face::Velocity(old) if old.len() == velocity.len() => {
@@ -285,7 +290,7 @@ impl Lattice {
             }
             _ => {
                 let message = format!("this face takes no list of {} velocities", velocity.len());
-                return Err(Error::scene(face_name(axis, side), message));
+                return Err(Error::argument(face_name(axis, side), message));
             }
         }
         if let Some(buffer) = &self.buffers.wall_velocity {
@@ -413,11 +418,8 @@ pub fn in_plane(axis: usize) -> (usize, usize) {
     }
 }
 
-/// The name of a face in scenes, by its axis, 0 to 2, and side, 0 or 1.
+/// The name of a face in errors, by its axis, 0 to 2, and side, 0 or 1.
 pub fn face_name(axis: usize, side: usize) -> String {
     let axis = ["x", "y", "z"].get(axis).unwrap_or(&"?");
-    format!(
-        "boundaries.{axis}_{}",
-        if side == 0 { "min" } else { "max" }
-    )
+    format!("faces.{axis}_{}", if side == 0 { "min" } else { "max" })
 }

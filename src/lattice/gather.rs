@@ -37,7 +37,7 @@ impl Gather {
         let count = field.size() / 4;
         if let Some(bad) = cells.iter().find(|&&cell| u64::from(cell) >= count) {
             let message = format!("there is no cell {bad}, only {count}");
-            return Err(Error::scene("cells", message));
+            return Err(Error::argument("cells", message));
         }
         let list = fluid::storage(device, "listed cells", bytemuck::cast_slice(cells));
         let out = fluid::result_buffer(device, "gathered", 4 * cells.len() as u64);

@@ -33,8 +33,8 @@ pub const C: [[i32; 3]; 27] = [
     [1, -1, -1],
 ];
 
-/// The cell is beside a wall: bit of its flags.
-pub const BESIDE_WALL: u8 = 1 << 6;
+/// The cell is next to a wall: bit of its flags.
+pub const NEXT_TO_WALL: u8 = 1 << 6;
 /// The cell is not fluid: bit of its flags.
 pub const SOLID: u8 = 1 << 7;
 
@@ -93,7 +93,7 @@ pub struct Link {
 /// The surroundings of all cells.
 #[derive(Debug, Default)]
 pub struct Geometry {
-    /// A byte for each lane of an element, as `cells_flagged.wgsl` explains them; empty where
+    /// A byte for each lane of an element, as `cell_flags_stored.wgsl` explains them; empty where
     /// all cells are fluid without neighbours of another kind.
     pub flags: Vec<u32>,
     /// Populations that walls at rest and free-slip faces return.
@@ -194,7 +194,7 @@ impl Geometry {
                 bits |= 1 << ((q - 1) ^ 1);
             }
             if matches!(beyond, Beyond::Wall | Beyond::Moving(_)) {
-                bits |= BESIDE_WALL;
+                bits |= NEXT_TO_WALL;
             }
             let enters = opposite(q);
             match beyond {
@@ -317,9 +317,9 @@ impl Survey<'_> {
                 crossed[a] = Some(usize::from(at >= n));
             }
         }
-        // A solid beside the face goes on beyond it.
-        let beside = [0, 1, 2].map(|a| if crossed[a].is_some() { cell[a] } else { to[a] });
-        if self.is_solid(beside) {
+        // A solid next to the face goes on beyond it.
+        let nearest = [0, 1, 2].map(|a| if crossed[a].is_some() { cell[a] } else { to[a] });
+        if self.is_solid(nearest) {
             return Beyond::Wall;
         }
         let mut found = Beyond::Fluid;
@@ -366,7 +366,7 @@ impl Survey<'_> {
     }
 
     /// Specular reflection at the faces normal to `axes`: what enters `cell` against `q` left the
-    /// cell beside it towards the same faces; bounce-back where that one is not fluid.
+    /// cell next to it towards the same faces; bounce-back where that one is not fluid.
     fn slip(&self, cell: [u32; 3], q: usize, axes: [bool; 3]) -> Link {
         let entering = opposite(q);
         // The entering direction with its normal components turned towards the face again.

@@ -29,7 +29,10 @@ impl Grid {
     pub fn new(setup: &Setup) -> Result<Self> {
         let [x, y, z] = setup.cells;
         if setup.cells.contains(&0) {
-            return Err(Error::scene("cells", "each axis needs at least one cell"));
+            return Err(Error::argument(
+                "cells",
+                "each axis needs at least one cell",
+            ));
         }
         let lanes = setup.lanes;
         let allowed: &[u32] = match setup.storage {
@@ -41,14 +44,14 @@ impl Grid {
                 "{:?} storage wants one of {allowed:?} lanes, not {lanes}",
                 setup.storage
             );
-            return Err(Error::scene("numerics.lanes", message));
+            return Err(Error::argument("lanes", message));
         }
         let periodic = setup.periodic_axes();
         let pad = |n: u32, axis: usize| n.saturating_add(u32::from(!periodic[axis]));
         let depth = pad(z, 2);
         if periodic[2] && depth % lanes != 0 {
-            return Err(Error::scene(
-                "numerics.lanes",
+            return Err(Error::argument(
+                "lanes",
                 format!(
                     "{depth} cells along a periodic z do not divide into {lanes} lanes; use {} or {} \
                      cells, or walls, or another number of lanes",

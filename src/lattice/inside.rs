@@ -6,10 +6,13 @@ use std::sync::Arc;
 
 /// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inside {
     /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub cells: Vec<u32>,
     /// Their velocities, component by component, lattice units.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
 }
 
@@ -24,7 +27,7 @@ impl Inside {
         match outside || self.velocity.len() != 3 * self.cells.len() {
             true => {
                 let message = "the saved velocities in cells with solid are of another grid";
-                Err(Error::scene("restart", message))
+                Err(Error::argument("restart", message))
             }
             false => Ok(()),
         }
@@ -60,7 +63,7 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<Inside> {
-        if lattice.saturation().is_none() {
+        if lattice.psm_planes().is_none() {
             return Ok(Inside::default());
         }
         let shown = self.state(device, queue, lattice).await?.velocity;
@@ -90,7 +93,7 @@ impl Observer {
     /// Shows these velocities in their cells until the lattice, which has just been given the populations of their step, goes on.
     ///
     /// # Errors
-    /// [`Error::Scene`] if they are of another grid.
+    /// [`Error::Argument`] if they are of another grid.
     pub fn keep_inside(
         &mut self,
         device: &wgpu::Device,
@@ -101,12 +104,13 @@ impl Observer {
         let dispatch = match inside.cells.len() as u32 {
             0 => None,
             count => {
-                let program = lattice.cell_program("inside_kept");
-                let kernel = lattice.cell_kernel(device, &program, "inside_kept", &[])?;
+                let program = lattice.cell_program("velocity_restored");
+                let kernel = lattice.cell_kernel(device, &program, "velocity_restored", &[])?;
                 let cells = storage(device, "kept cells", bytemuck::cast_slice(&inside.cells));
                 let velocity = bytemuck::cast_slice(&inside.velocity);
                 let velocity = storage(device, "kept velocity", velocity);
-                let mut buffers = vec![("kept_cells", &cells), ("kept_velocity", &velocity)];
+                let mut buffers =
+                    vec![("restored_cells", &cells), ("restored_velocity", &velocity)];
                 buffers.extend(VELOCITY_OUT.into_iter().zip(self.velocity()));
                 let bind = kernel.bind(device, &buffers)?;
                 Some((kernel, bind, count.div_ceil(64)))

@@ -1,4 +1,38 @@
 //! The lattice Boltzmann fluid: D3Q27, in place, on any device.
+//!
+//! [`Setup`] says which kernels run and with which numbers, all in lattice units (Δx = Δt = 1, ρ₀ = 1); [`Units`](crate::units::Units)
+//! converts. [`Lattice`] owns the populations and records steps into the caller's pass. [`Observer`] computes density, velocity and what
+//! follows from them, into buffers that kernels of the caller can bind. [`memory`] says what a setup takes before it is made.
+//!
+//! ```
+//! use riprap::{lattice::{Face, Lattice, Observer, Setup, State, memory, Grid}, wgpu};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // Any device; this one does nothing, so that the example runs everywhere.
+//! let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+//!
+//! // A channel of 32 × 16 × 16 cells between two walls, driven along x.
+//! let cells = [32, 16, 16];
+//! let mut setup = Setup::periodic(cells, 0.02);
+//! setup.faces[2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+//! setup.force = riprap::lattice::Force::Constant([1e-5, 0.0, 0.0]);
+//! let bytes = memory(&setup, &Grid::new(&setup)?, &device.limits())?;
+//!
+//! let mut lattice = Lattice::new(&device, setup)?;
+//! lattice.start(&device, &queue, &State::rest(32 * 16 * 16), true)?;
+//! let observer = Observer::new(&device, &lattice)?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! {
+//!     let mut pass = encoder.begin_compute_pass(&Default::default());
+//!     lattice.record(&mut pass);
+//!     observer.record(&mut lattice, &mut pass)?;
+//! }
+//! queue.submit([encoder.finish()]);
+//! assert_eq!(lattice.step(), 1);
+//! # let _ = bytes;
+//! # Ok(())
+//! # }
+//! ```
 
 mod boundary;
 mod bytes;
@@ -17,7 +51,6 @@ mod program;
 mod setup;
 mod stages;
 mod start;
-mod stream_only;
 mod streams;
 mod traffic;
 
@@ -29,9 +62,9 @@ pub use grid::Grid;
 pub use inside::Inside;
 pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
-pub use program::{Reach, collide_stream, constants, single_cells, stream_only};
+#[doc(hidden)]
+pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
 pub use stages::Stages;
 pub use start::State;
-pub use stream_only::StreamOnly;
 pub use traffic::{bytes_a_cell, bytes_a_step};

@@ -30,12 +30,12 @@ impl Derived {
         match self {
             Self::EddyViscosity if lattice.setup.wale.is_none() => {
                 let message = "this lattice is laminar and has no eddy viscosity; set `wale`, or do not ask for it";
-                Err(Error::scene("derived", message))
+                Err(Error::argument("derived", message))
             }
             Self::Vorticity(axis) if axis > 2 => {
                 let message =
                     format!("there is no component {axis} of the vorticity; give 0, 1 or 2");
-                Err(Error::scene("derived", message))
+                Err(Error::argument("derived", message))
             }
             _ => Ok(()),
         }
@@ -75,13 +75,13 @@ pub struct Observer {
     of: wgpu::Buffer,
     density: wgpu::Buffer,
     velocity: [wgpu::Buffer; 3],
-    /// Made when first asked for.
+    /// Made when first requested.
     derived: Option<wgpu::Buffer>,
     derive: Vec<(Derived, Dispatch)>,
     sums: Option<(wgpu::Buffer, Dispatch)>,
     macroscopic: [Dispatch; 2],
     /// Where blocks may be.
-    inside_solids: Option<(wgpu::Device, Arc<Kernel>)>,
+    velocity_psm: Option<(wgpu::Device, Arc<Kernel>)>,
     /// Since a restart.
     pub(super) kept: Option<Kept>,
     gather: Gather,
@@ -119,10 +119,10 @@ impl Observer {
             lattice.cell_dispatch(device, &dispatch)
         };
         let macroscopic = [make(0)?, make(1)?];
-        let inside_solids = match lattice.saturation() {
+        let velocity_psm = match lattice.psm_planes() {
             Some(_) => {
-                let program = lattice.cell_program("inside_solids");
-                let kernel = lattice.cell_kernel(device, &program, "inside_solids", &[])?;
+                let program = lattice.cell_program("velocity_psm");
+                let kernel = lattice.cell_kernel(device, &program, "velocity_psm", &[])?;
                 Some((device.clone(), kernel))
             }
             None => None,
@@ -135,7 +135,7 @@ impl Observer {
             derive: Vec::new(),
             sums: None,
             macroscopic,
-            inside_solids,
+            velocity_psm,
             kept: None,
             gather: Gather::new(device, lattice)?,
             readback: Readback::default(),
@@ -158,13 +158,13 @@ impl Observer {
             return Ok(());
         }
         let (Some((device, kernel)), Some((list, slots))) =
-            (&self.inside_solids, lattice.saturated_bricks())
+            (&self.velocity_psm, lattice.psm_bricks())
         else {
             return Ok(());
         };
         // Both may be other buffers than the last time.
         let mut buffers = vec![("bricks", list), ("density", &self.density)];
-        buffers.extend(lattice.saturation().map(|kept| ("saturation_planes", kept)));
+        buffers.extend(lattice.psm_planes().map(|kept| ("psm_planes", kept)));
         buffers.extend(VELOCITY_OUT.into_iter().zip(&self.velocity));
         buffers.extend(lattice.buffers.named(false));
         let bind = kernel.bind(device, &buffers)?;
@@ -209,7 +209,7 @@ impl Observer {
             return Ok(());
         }
         let message = "it was made for another lattice; make one for each";
-        Err(Error::scene("observer", message))
+        Err(Error::argument("observer", message))
     }
 
     /// Density minus one on the domain cells, f32, x fastest.

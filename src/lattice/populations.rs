@@ -1,4 +1,4 @@
-//! The one piece of shader text that is generated: populations over as many bindings as asked.
+//! The one piece of shader text that is generated: populations over the bindings of the device.
 
 use super::{Setup, Storage};
 use std::fmt::Write;

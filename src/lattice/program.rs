@@ -7,15 +7,15 @@ use crate::gpu::link::Program;
 
 /// Which cells a collide–stream kernel is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
+pub enum BrickKind {
     /// All bricks, and all cells are plain fluid.
     All,
     /// Listed bricks of plain fluid.
     Plain,
     /// Listed bricks with the flags of each cell.
     Flagged,
-    /// Listed bricks with flags and with what blocks leave of each cell.
-    Saturated,
+    /// Listed bricks with flags and with the planes of partially saturated cells.
+    Psm,
 }
 
 /// A kernel over elements, with the storage, lanes and bindings of the setup.
@@ -48,12 +48,12 @@ fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
 }
 
 /// The fused collision and streaming of a setup.
-pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
+pub fn collide_stream(setup: &Setup, bindings: u32, kind: BrickKind) -> Program {
     let either = |condition, yes, no| if condition { yes } else { no };
-    let flagged = matches!(reach, Reach::Flagged | Reach::Saturated);
+    let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
     let operator = setup
         .solid_operator
-        .filter(|_| reach == Reach::Saturated)
+        .filter(|_| kind == BrickKind::Psm)
         .map(|operator| match operator {
             SolidOperator::Holdych => "operator_holdych",
             SolidOperator::Noble => "operator_noble",
@@ -62,19 +62,23 @@ pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
     let program = base("collide_stream", setup, bindings);
     let program = match operator {
         Some(operator) => program
-            .slot("saturation", "saturation_cells")
+            .slot("psm", "psm_cells")
             .slot("operator", operator)
-            .slot("odd", "odd_solids"),
-        None => program
-            .slot("saturation", "saturation_none")
-            .slot("odd", either(flagged, "odd_walls", "odd_bulk")),
+            .slot("odd_rates", "odd_rates_solids"),
+        None => program.slot("psm", "psm_none").slot(
+            "odd_rates",
+            either(flagged, "odd_rates_walls", "odd_rates_bulk"),
+        ),
     };
     program
         .slot(
-            "where",
-            either(reach == Reach::All, "where_all", "where_listed"),
+            "bricks",
+            either(kind == BrickKind::All, "bricks_all", "bricks_listed"),
         )
-        .slot("cells", either(flagged, "cells_flagged", "cells_plain"))
+        .slot(
+            "cell_flags",
+            either(flagged, "cell_flags_stored", "cell_flags_none"),
+        )
         .slot("equilibrium", equilibrium(setup.equilibrium))
         .slot(
             "relax",
@@ -89,8 +93,12 @@ pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
             either(setup.wale.is_some(), "eddy_wale", "eddy_none"),
         )
         .slot(
-            "keep",
-            either(setup.wale.is_some(), "keep_velocity", "keep_none"),
+            "store_velocity",
+            either(
+                setup.wale.is_some(),
+                "store_velocity",
+                "store_velocity_none",
+            ),
         )
         .slot(
             "guard",
@@ -100,9 +108,9 @@ pub fn collide_stream(setup: &Setup, bindings: u32, reach: Reach) -> Program {
 
 /// A kernel of a setup for single cells: at walls and faces, at the start, for output.
 pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
-    let beside = match setup.is_all_fluid() {
-        true => "beside_none",
-        false => "beside_flags",
+    let flags = match setup.is_all_fluid() {
+        true => "neighbour_flags_none",
+        false => "neighbour_flags_stored",
     };
     let force = match setup.force {
         Force::None => "cell_force_none",
@@ -112,14 +120,9 @@ pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
     Program::new(entry)
         .text("scalars", populations::scalars(bindings, setup.storage))
         .slot("lanes", "lanes_1")
-        .slot("beside", beside)
+        .slot("neighbour_flags", flags)
         .slot("equilibrium", equilibrium(setup.equilibrium))
         .slot("cell_force", force)
-}
-
-/// Streaming without collision, in the layout of a setup.
-pub fn stream_only(setup: &Setup, bindings: u32) -> Program {
-    base("stream_only", setup, bindings).slot("where", "where_all")
 }
 
 /// The file of an equilibrium.
@@ -151,7 +154,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("GUARD_ODD", f64::from(u8::from(odd))),
         ("MAX_SPEED_SQUARED", setup.max_speed * setup.max_speed),
         ("TAU", setup.tau()),
-        ("EXCESS", 3.0 * setup.nu),
+        ("TAU_MINUS_HALF", 3.0 * setup.nu),
         ("S4", rates.s4),
         ("S10", bulk(rates.s10)),
         ("S13", bulk(rates.s13)),
@@ -163,16 +166,16 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("S26", bulk(rates.s26)),
     ];
     let floored = |lambda| setup.odd_rate(lambda).max(setup.odd_rate_floor);
-    let beside_walls = everywhere.or(setup.wall_lambda.map(floored));
-    let wall = |rate| beside_walls.unwrap_or(rate);
+    let at_walls = everywhere.or(setup.wall_lambda.map(floored));
+    let wall = |rate| at_walls.unwrap_or(rate);
     all.extend([
         ("W10", wall(rates.s10)),
         ("W13", wall(rates.s13)),
         ("W23", wall(rates.s23)),
         ("W26", wall(rates.s26)),
     ]);
-    let beside_blocks = everywhere.or(setup.solid_lambda.map(floored));
-    let near = |rate| beside_blocks.unwrap_or(rate);
+    let at_blocks = everywhere.or(setup.solid_lambda.map(floored));
+    let near = |rate| at_blocks.unwrap_or(rate);
     all.extend([
         ("N10", near(rates.s10)),
         ("N13", near(rates.s13)),

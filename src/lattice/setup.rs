@@ -128,7 +128,8 @@ impl Rates {
     }
 }
 
-/// Everything that decides which kernels run and with which numbers.
+/// Everything that decides which kernels run and with which numbers. Made by [`Setup::periodic`]; then fields are changed.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// Fluid cells an axis.

@@ -37,21 +37,16 @@ impl Lattice {
         non_equilibrium: bool,
     ) -> Result<()> {
         let cells = self.grid.cell_count();
-        let names = [
-            "initial.pressure",
-            "initial.velocity.x",
-            "initial.velocity.y",
-            "initial.velocity.z",
-        ];
+        let names = ["excess", "velocity.x", "velocity.y", "velocity.z"];
         let fields = std::iter::once(&state.excess).chain(&state.velocity);
         for (name, field) in names.into_iter().zip(fields) {
             if field.len() != cells {
                 let message = format!("{} values for {cells} cells", field.len());
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
             if let Some(at) = field.iter().position(|v| !v.is_finite()) {
                 let message = format!("the value of cell {at} is not a finite number");
-                return Err(Error::scene(name, message));
+                return Err(Error::argument(name, message));
             }
         }
         self.step = 0;
@@ -72,7 +67,7 @@ impl Lattice {
         ];
         let program = self.cell_program("initialise");
         let mut encoder = device.create_command_encoder(&Default::default());
-        let share = f64::from(u8::from(non_equilibrium));
+        let amount = f64::from(u8::from(non_equilibrium));
         for half in self.halves() {
             let dispatch = CellDispatch {
                 program: &program,
@@ -82,7 +77,7 @@ impl Lattice {
                     ..CellPass::default()
                 },
                 buffers: &buffers,
-                constants: &[("NON_EQUILIBRIUM", share)],
+                constants: &[("NON_EQUILIBRIUM", amount)],
                 invocations: cells as u32,
             };
             let dispatch = self.cell_dispatch(device, &dispatch)?;

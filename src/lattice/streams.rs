@@ -3,7 +3,7 @@
 use super::{
     Geometry, Grid, Setup,
     fluid::{Buffers, result_buffer, storage},
-    program::{self, Reach},
+    program::{self, BrickKind},
 };
 use crate::{
     Error, Result,
@@ -14,7 +14,7 @@ use std::collections::HashSet;
 /// The dispatches of one kind of brick.
 #[derive(Debug)]
 struct Stream {
-    reach: Reach,
+    kind: BrickKind,
     /// Of even and odd steps.
     kernels: [Kernel; 2],
     binds: [wgpu::BindGroup; 2],
@@ -28,7 +28,7 @@ struct Stream {
 pub(super) struct Streams {
     streams: Vec<Stream>,
     /// What blocks leave of the cells of the bricks that they reach.
-    saturation: Option<wgpu::Buffer>,
+    psm_planes: Option<wgpu::Buffer>,
     /// Bytes of that for one brick.
     brick_bytes: u64,
 }
@@ -44,8 +44,8 @@ impl Streams {
     ) -> Result<Self> {
         let all: u32 = grid.bricks().iter().product();
         let kinds = sorted(setup, geometry, &[]);
-        let linked = |(reach, _): &(Reach, _)| {
-            let program = program::collide_stream(setup, bindings, *reach);
+        let linked = |(kind, _): &(BrickKind, _)| {
+            let program = program::collide_stream(setup, bindings, *kind);
             Ok(Shader::new(device, program.link()?))
         };
         let shaders = kinds.iter().map(linked).collect::<Result<Vec<_>>>()?;
@@ -55,11 +55,11 @@ impl Streams {
             .find_map(|shader| shader.linked().constant("PLANES"));
         let brick: u32 = grid.brick.iter().product();
         let brick_bytes = 4 * u64::from(planes.unwrap_or_default() * brick * grid.lanes);
-        let saturation = setup
+        let psm_planes = setup
             .solid_operator
-            .map(|_| result_buffer(device, "saturation", brick_bytes));
+            .map(|_| result_buffer(device, "psm_planes", brick_bytes));
         let mut streams = Vec::new();
-        for (n, ((reach, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
+        for (n, ((kind, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
             let kernel = |odd| {
                 let of_setup = program::constants(setup, grid, odd);
                 let mut constants = shader.linked().constants_of(&of_setup);
@@ -68,47 +68,46 @@ impl Streams {
                 if setup.max_speed > 0.0 {
                     constants.push(("GUARD_COUNTS", counts));
                 }
-                if reach == Reach::All {
+                if kind == BrickKind::All {
                     constants.push(("BRICKS", f64::from(all)));
                 }
                 shader.kernel(device, "collide_stream", &constants)
             };
             let kernels = [kernel(false)?, kernel(true)?];
             let groups = bricks.len() as u32;
-            let list = (reach != Reach::All).then(|| {
+            let list = (kind != BrickKind::All).then(|| {
                 let mut list = counted(&bricks);
-                if saturation.is_some() {
+                if psm_planes.is_some() {
                     list.resize(all as usize + 1, 0);
                 }
                 storage(device, "bricks", bytemuck::cast_slice(&list))
             });
-            let kept = saturation.as_ref();
+            let kept = psm_planes.as_ref();
             let binds = bind(device, &kernels, buffers, list.as_ref(), kept)?;
             streams.push(Stream {
-                reach,
+                kind,
                 kernels,
                 binds,
                 list,
-                groups: if reach == Reach::All { all } else { groups },
+                groups: if kind == BrickKind::All { all } else { groups },
             });
         }
         Ok(Self {
             streams,
-            saturation,
+            psm_planes,
             brick_bytes,
         })
     }
 
     /// What blocks leave of the cells of the bricks that they reach.
-    pub fn saturation(&self) -> Option<&wgpu::Buffer> {
-        self.saturation.as_ref()
+    pub fn psm_planes(&self) -> Option<&wgpu::Buffer> {
+        self.psm_planes.as_ref()
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
-    pub fn saturated(&self) -> Option<(&wgpu::Buffer, u32)> {
+    pub fn psm_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
         let mut streams = self.streams.iter();
-        let stream =
-            streams.find(|stream| stream.reach == Reach::Saturated && stream.groups > 0)?;
+        let stream = streams.find(|stream| stream.kind == BrickKind::Psm && stream.groups > 0)?;
         Some((stream.list.as_ref()?, stream.groups))
     }
 
@@ -118,29 +117,25 @@ impl Streams {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         (setup, geometry, buffers): (&Setup, &Geometry, &Buffers),
-        saturated: &[u32],
+        psm: &[u32],
     ) -> Result<()> {
-        let slots = saturated.len().max(1) as u64;
-        if let Some(kept) = &mut self.saturation {
+        let slots = psm.len().max(1) as u64;
+        if let Some(kept) = &mut self.psm_planes {
             if kept.size() < slots * self.brick_bytes {
-                // Half as much again, so that a block that turns does not ask again and again.
+                // Half as much again, so that a block that rotates does not reallocate repeatedly.
                 let most = most_slots(device, self.brick_bytes, slots)?;
                 let bytes = most.min(slots + slots / 2) * self.brick_bytes;
-                *kept = result_buffer(device, "saturation", bytes);
+                *kept = result_buffer(device, "psm_planes", bytes);
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
                     stream.binds = bind(device, &stream.kernels, buffers, list, Some(kept))?;
                 }
             }
-            if saturated.is_empty() {
+            if psm.is_empty() {
                 queue.write_buffer(kept, 0, &vec![0; self.brick_bytes as usize]);
             }
         }
-        for (stream, (_, bricks)) in self
-            .streams
-            .iter_mut()
-            .zip(sorted(setup, geometry, saturated))
-        {
+        for (stream, (_, bricks)) in self.streams.iter_mut().zip(sorted(setup, geometry, psm)) {
             stream.groups = bricks.len() as u32;
             if let Some(list) = &stream.list {
                 queue.write_buffer(list, 0, bytemuck::cast_slice(&counted(&bricks)));
@@ -150,8 +145,8 @@ impl Streams {
     }
 
     /// Records those with blocks, or the others.
-    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, parity: usize, saturated: bool) {
-        let these = |stream: &&Stream| (stream.reach == Reach::Saturated) == saturated;
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, parity: usize, psm: bool) {
+        let these = |stream: &&Stream| (stream.kind == BrickKind::Psm) == psm;
         for stream in self.streams.iter().filter(these) {
             if stream.groups > 0 {
                 stream.kernels[parity].record(pass, &stream.binds[parity], stream.groups);
@@ -165,7 +160,7 @@ impl Streams {
         streams.map(move |stream| (&stream.kernels[parity], stream.groups))
     }
 
-    /// Bytes of the lists, and of what blocks leave of cells.
+    /// Bytes of the lists, and of the planes of partially saturated cells.
     pub fn bytes(&self) -> [u64; 2] {
         let lists = self
             .streams
@@ -173,38 +168,38 @@ impl Streams {
             .filter_map(|stream| stream.list.as_ref());
         [
             lists.map(wgpu::Buffer::size).sum(),
-            self.saturation.as_ref().map_or(0, wgpu::Buffer::size),
+            self.psm_planes.as_ref().map_or(0, wgpu::Buffer::size),
         ]
     }
 }
 
 /// The kinds of brick that a setup has, each with its bricks.
-fn sorted(setup: &Setup, geometry: &Geometry, saturated: &[u32]) -> Vec<(Reach, Vec<u32>)> {
+fn sorted(setup: &Setup, geometry: &Geometry, psm: &[u32]) -> Vec<(BrickKind, Vec<u32>)> {
     if setup.is_all_fluid() {
-        return vec![(Reach::All, Vec::new())];
+        return vec![(BrickKind::All, Vec::new())];
     }
     let fixed = [
-        (Reach::Flagged, &geometry.mixed),
-        (Reach::Plain, &geometry.plain),
+        (BrickKind::Flagged, &geometry.mixed),
+        (BrickKind::Plain, &geometry.plain),
     ];
     if setup.solid_operator.is_none() {
         let fixed = fixed.into_iter().filter(|(_, list)| !list.is_empty());
-        return fixed.map(|(reach, list)| (reach, list.clone())).collect();
+        return fixed.map(|(kind, list)| (kind, list.clone())).collect();
     }
     // The guard counts steps in the first dispatch, which needs a brick: without a block in it the
     // kernel for blocks gives what its own would.
     let spare = geometry.mixed.first().or(geometry.plain.first());
-    let first: Vec<u32> = match saturated {
+    let first: Vec<u32> = match psm {
         [] => spare.into_iter().copied().collect(),
-        _ => saturated.to_vec(),
+        _ => psm.to_vec(),
     };
     let taken: HashSet<u32> = first.iter().copied().collect();
     let others = |list: &[u32]| -> Vec<u32> {
         let others = list.iter().filter(|brick| !taken.contains(brick));
         others.copied().collect()
     };
-    let fixed = fixed.map(|(reach, list)| (reach, others(list)));
-    std::iter::once((Reach::Saturated, first))
+    let fixed = fixed.map(|(kind, list)| (kind, others(list)));
+    std::iter::once((BrickKind::Psm, first))
         .chain(fixed)
         .collect()
 }
@@ -221,12 +216,12 @@ fn bind(
     kernels: &[Kernel; 2],
     buffers: &Buffers,
     list: Option<&wgpu::Buffer>,
-    saturation: Option<&wgpu::Buffer>,
+    psm_planes: Option<&wgpu::Buffer>,
 ) -> Result<[wgpu::BindGroup; 2]> {
     let bind = |parity: usize| {
         let mut named = buffers.named(parity == 1);
         named.extend(list.map(|list| ("bricks", list)));
-        named.extend(saturation.map(|kept| ("saturation_planes", kept)));
+        named.extend(psm_planes.map(|kept| ("psm_planes", kept)));
         kernels[parity].bind(device, &named)
     };
     Ok([bind(0)?, bind(1)?])

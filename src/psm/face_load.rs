@@ -1,10 +1,7 @@
 //! The load of a fluid on one plane face of a block.
 
 use super::{FACE_LOAD, Frame};
-use crate::{
-    geometry::{Form, Part, Polyhedron, Pose, outer},
-    rock::contact::clip,
-};
+use crate::geometry::{Form, Part, Polyhedron, Pose, clip, outer};
 use glam::{DMat3, DVec3};
 
 /// A plane face of a block where it is.
@@ -23,7 +20,7 @@ pub struct PlaneFace {
 }
 
 /// What a fluid does to one plane face of a block, from the cells of the layer beside it: what a face of less
-/// than some cells shows is coarse. Without a cell of fluid beside it, it has no load.
+/// than some cells shows is coarse. Without a cell of fluid along it, it has no load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceLoad {
     /// The face.
@@ -33,7 +30,7 @@ pub struct FaceLoad {
     pub inside: f64,
     /// Centroid of that, m; of the face where it is all seam.
     pub centre: DVec3,
-    /// Area with fluid beside it, m²: `inside` times the share of the cells beside it that hold fluid alone.
+    /// Area with fluid along it, m²: `inside` times the share of the cells next to it that hold fluid alone.
     pub wetted: f64,
     /// Force on the wetted area, N: minus its pressure times the normal, and shear.
     pub force: DVec3,
@@ -59,14 +56,14 @@ impl FaceLoad {
         -self.force.dot(self.face.normal) / self.wetted
     }
 
-    /// Mean shear stress on the wetted area, Pa; NaN without fluid beside it.
+    /// Mean shear stress on the wetted area, Pa; NaN without fluid along it.
     pub fn shear(&self) -> DVec3 {
         let normal = self.face.normal;
         (self.force - self.force.dot(normal) * normal) / self.wetted
     }
 
     /// Where on the face a force acts that has no moment beside that of the mean traction, m: the centroid of a face
-    /// that is wet all over but for seams, else the mean foot of the cells beside it.
+    /// that is wet all over but for seams, else the mean foot of the cells next to it.
     pub fn acts_at(&self) -> DVec3 {
         match self.wetted == self.inside {
             true => self.centre,

@@ -14,15 +14,15 @@ use std::collections::HashMap;
 /// Names of the buffers in WGSL.
 const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
 /// What the first kernel reads of those of blocks.
-const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "shares"];
+const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "solid_fractions"];
 /// How far the centre of a cell that counts is from the plane of a face, at most, cells: half the diagonal of a
 /// cell and the thickness of the layer.
 const REACH: f64 = 1.9;
 
-/// Sums over the cells beside the faces of the blocks that ask.
+/// Sums over the cells next to the faces of the blocks that request them.
 #[derive(Debug)]
 pub(super) struct FaceSums {
-    /// Blocks that ask, in the order of the device, ascending.
+    /// Blocks that request them, in the order of the device, ascending.
     pub requested: Vec<usize>,
     reduce: Kernel,
     sum: Kernel,
@@ -30,7 +30,7 @@ pub(super) struct FaceSums {
     buffers: [Growing; 4],
     jobs: Vec<FaceJob>,
     face_first: Vec<u32>,
-    /// Of the blocks that ask: along which axes they have images.
+    /// Of the blocks that request them: along which axes they have images.
     imaged: HashMap<usize, [bool; 3]>,
 }
 
@@ -109,8 +109,8 @@ impl FaceSums {
                 .map(|(name, b)| (*name, &b.buffer))
         };
         let shared = SHARED.iter().map(|name| (*name, kernels.buffer(name)));
-        let saturation = lattice.saturation().map(|buffer| ("saturation", buffer));
-        let named: Vec<_> = own().chain(shared).chain(saturation).collect();
+        let planes = lattice.psm_planes().map(|buffer| ("psm_planes", buffer));
+        let named: Vec<_> = own().chain(shared).chain(planes).collect();
         self.binds = Some([
             self.reduce.bind(device, &named)?,
             self.sum.bind(device, &own().collect::<Vec<_>>())?,
@@ -121,7 +121,12 @@ impl FaceSums {
         Ok(())
     }
 
-    /// Along which axes a block that asks had images when its tiles were laid down.
+    /// The kernels in the order in which they run.
+    pub fn kernels(&self) -> [&Kernel; 2] {
+        [&self.reduce, &self.sum]
+    }
+
+    /// Along which axes a block that requests them had images when its tiles were laid down.
     pub fn imaged(&self, block: usize) -> [bool; 3] {
         self.imaged.get(&block).copied().unwrap_or_default()
     }
@@ -159,7 +164,7 @@ impl FaceSums {
     }
 }
 
-/// Whether a cell of a tile may be beside a face of the part about `centre`, until tiles are looked for anew: it may
+/// Whether a cell of a tile may be next to a face of the part about `centre`, until tiles are looked for anew: it may
 /// have gone as far as the skin before and after.
 fn reaches(tile: &Tile, brick: [f64; 3], centre: DVec3, (normal, distance): &(DVec3, f64)) -> bool {
     let half = 0.5 * DVec3::from_array(brick);

@@ -21,11 +21,11 @@ impl Frame {
     /// Whether it is a place with units.
     ///
     /// # Errors
-    /// [`Error::Scene`] if not.
+    /// [`Error::Argument`] if not.
     pub(super) fn check(&self) -> Result<()> {
         if !self.origin.is_finite() {
             let message = format!("is {}; give a finite place", self.origin);
-            return Err(Error::scene("frame.origin", message));
+            return Err(Error::argument("frame.origin", message));
         }
         self.units.check()
     }

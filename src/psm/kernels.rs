@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and the memory that they share.
 
-use super::{Plan, Tile, WHOLE, WRENCH, Walk, program};
+use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     gpu::{
@@ -49,7 +49,7 @@ impl Growing {
     }
 }
 
-/// Turns of the loops of `hull_share` for a part of so many faces: through all of them, and again for each column.
+/// Turns of the loops of `hull_fraction` for a part of so many faces: through all of them, and again for each column.
 fn turns(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));
     let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
@@ -73,7 +73,7 @@ const NAMES: [&str; 13] = [
     "parts",
     "faces",
     "motions",
-    "shares",
+    "solid_fractions",
     "lane_first",
     "lane_tiles",
     "block_first",
@@ -88,7 +88,7 @@ const NAMES: [&str; 13] = [
 const KERNELS: [(&str, Option<&str>); 5] = [
     ("voxelise", Some("tile_work")),
     ("voxelise_edges", None),
-    ("saturate_cells", Some("lane_work")),
+    ("combine_parts", Some("lane_work")),
     ("reduce_tiles", None),
     ("reduce_blocks", None),
 ];
@@ -117,8 +117,8 @@ pub(super) struct Kernels {
 }
 
 impl Kernels {
-    /// For parts of at most `faces` faces.
-    pub fn new(device: &wgpu::Device, lattice: &Lattice, faces: u32) -> Result<Self> {
+    /// For parts of these forms, of at most `faces` faces.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, forms: Forms, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
         // Barriers are slow where a CPU walks through the invocations of a workgroup.
         let walk = match device.adapter_info().device_type {
@@ -126,9 +126,9 @@ impl Kernels {
             _ => Walk::Parallel,
         };
         let programs = [
-            program::voxelise(grid, walk),
-            program::voxelise_edges(grid),
-            program::saturate_cells(grid, walk),
+            program::voxelise(grid, walk, forms),
+            program::voxelise_edges(grid, forms),
+            program::combine_parts(grid, walk),
             program::reduce_tiles(grid, walk),
             program::reduce_blocks(),
         ];
@@ -196,17 +196,17 @@ impl Kernels {
         self.bind(device, lattice)
     }
 
-    /// The saturation belongs to the lattice, which may have made another one.
+    /// The planes belong to the lattice, which may have made another one.
     fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
-        let Some(saturation) = lattice.saturation() else {
+        let Some(planes) = lattice.psm_planes() else {
             let message = "the lattice has no solid operator, so that no block may be in it";
-            return Err(Error::scene("numerics.solid_operator", message));
+            return Err(Error::argument("solid_operator", message));
         };
         let named: Vec<_> = NAMES
             .iter()
             .zip(&self.buffers)
             .map(|(name, growing)| (*name, &growing.buffer))
-            .chain([("saturation", saturation)])
+            .chain([("psm_planes", planes)])
             .collect();
         let bind = |(kernel, (_, work)): (&Kernel, &(&str, Option<&str>))| {
             let mut named = named.clone();

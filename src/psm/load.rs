@@ -6,8 +6,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    geometry::{Form, Load},
-    rock::contact::Placed,
+    geometry::{Form, Load, Placed},
 };
 use glam::DVec3;
 
@@ -15,7 +14,7 @@ use glam::DVec3;
 const SEAM_GAP: f64 = 1e-3;
 
 impl SolidCells {
-    /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_saturated`].
+    /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_psm`].
     pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.kernels.record(pass, 3..5);
     }
@@ -41,7 +40,7 @@ impl SolidCells {
     pub fn loads(&self, wrenches: &[f32]) -> Result<Vec<Load>> {
         if wrenches.len() < self.wrench_count() {
             let message = format!("{} numbers, not {}", wrenches.len(), self.wrench_count());
-            return Err(Error::scene("wrenches", message));
+            return Err(Error::argument("wrenches", message));
         }
         let load = |&place: &usize| match wrenches.get(WRENCH * place..WRENCH * (place + 1)) {
             Some(wrench) if place < self.loaded => self.frame.load(wrench),
@@ -50,16 +49,16 @@ impl SolidCells {
         Ok(self.number.iter().map(load).collect())
     }
 
-    /// Records the sums of what the fluid does to single faces, after [`crate::lattice::Lattice::record_saturated`]; nothing where
-    /// nobody asks.
+    /// Records the sums of what the fluid does to single faces, after [`crate::lattice::Lattice::record_psm`]; nothing unless
+    /// a block requests them.
     pub fn record_faces(&self, pass: &mut wgpu::ComputePass<'_>) {
         if let Some(faces) = &self.face_sums {
             faces.record(pass);
         }
     }
 
-    /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that ask: see [`SolidCells::face_loads`]. None where
-    /// nobody asks; another buffer after [`SolidCells::place`], if it had to grow.
+    /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that request them: see [`SolidCells::face_loads`]. `None` unless
+    /// requested; another buffer after [`SolidCells::place`], if it had to grow.
     pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
         self.face_sums.as_ref().map(FaceSums::loads)
     }
@@ -70,7 +69,7 @@ impl SolidCells {
     }
 
     /// The loads on the faces of all blocks where they were placed last, from the numbers of
-    /// [`SolidCells::face_sums`]; blocks that do not ask have none, nor have spheres. Pressures are those in the cells
+    /// [`SolidCells::face_sums`]; others have none, nor have spheres. Pressures are those in the cells
     /// beside a face, without what a body force adds on the way to it.
     ///
     /// # Errors
@@ -82,7 +81,7 @@ impl SolidCells {
         };
         if sums.len() < faces.count() || self.poses.is_empty() {
             let message = format!("{} numbers, not {}", sums.len(), faces.count());
-            return Err(Error::scene("face_sums", message));
+            return Err(Error::argument("face_sums", message));
         }
         let mut sums = sums.chunks_exact(FACE_LOAD);
         for &block in &faces.requested {

@@ -1,10 +1,7 @@
 //! A convex part of a block where it is, in cells.
 
 use super::{Frame, Part as Row, frame::whole, tiles::Outline};
-use crate::{
-    geometry::{Part, Pose},
-    rock::contact::Placed,
-};
+use crate::geometry::{Part, Placed, Pose};
 use glam::DVec3;
 
 /// A part of a shape at a pose.

@@ -20,11 +20,11 @@ pub struct Plan {
     found: Vec<Found>,
     /// All of them, by block.
     pub tiles: Vec<Tile>,
-    /// Saturated bricks.
+    /// Bricks with blocks.
     pub bricks: Vec<u32>,
     /// Tiles of each block.
     pub block_first: Vec<u32>,
-    /// Tiles of each lane of a saturated brick, slot · lanes + lane: where they begin in `lane_tiles`.
+    /// Tiles of each lane of a brick with blocks, slot · lanes + lane: where they begin in `lane_tiles`.
     pub lane_first: Vec<u32>,
     /// Tiles by lane.
     pub lane_tiles: Vec<u32>,
@@ -167,7 +167,7 @@ impl Plan {
             .collect()
     }
 
-    /// Lanes of all saturated bricks.
+    /// Lanes of all bricks with blocks.
     pub fn lane_count(&self) -> usize {
         self.bricks.len() * self.lanes as usize
     }

@@ -23,6 +23,35 @@ pub enum Walk {
     Parallel,
 }
 
+/// Which forms the parts of blocks have: kernels have no code for the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Forms {
+    /// Spheres.
+    pub spheres: bool,
+    /// Convex polyhedra.
+    pub polyhedra: bool,
+}
+
+impl Forms {
+    /// Both.
+    pub const ALL: Self = Self {
+        spheres: true,
+        polyhedra: true,
+    };
+
+    /// The file of a slot for spheres, and that of one for polyhedra.
+    fn files(self, sphere: &'static str, polyhedron: &'static str) -> [&'static str; 2] {
+        [
+            if self.spheres { sphere } else { "ball_none" },
+            if self.polyhedra {
+                polyhedron
+            } else {
+                "hull_none"
+            },
+        ]
+    }
+}
+
 /// Invocations that a CPU adapter goes through as one vector.
 const VECTOR: u32 = 8;
 
@@ -36,25 +65,31 @@ impl Walk {
     }
 }
 
-/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `shares`, `edges`, of
-/// which the first word must be 0 before, and which has room for a word more than `shares`.
-pub fn voxelise(grid: &Grid, walk: Walk) -> Program {
+/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, of
+/// which the first word must be 0 before, and which has room for a word more than `solid_fractions`.
+pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms) -> Program {
+    let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
+        .slot("ball_quick", ball)
+        .slot("hull_quick", hull)
 }
 
 /// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
-/// `parts`, `faces`, `shares`, `edges`.
-pub fn voxelise_edges(grid: &Grid) -> Program {
+/// `parts`, `faces`, `solid_fractions`, `edges`.
+pub fn voxelise_edges(grid: &Grid, forms: Forms) -> Program {
+    let [ball, hull] = forms.files("ball_fraction", "hull_fraction");
     base("voxelise_edges", grid)
+        .slot("ball_fraction", ball)
+        .slot("hull_fraction", hull)
 }
 
-/// `saturate_cells`: a workgroup a lane of a saturated brick, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
-/// `motions`, `lane_first`, `lane_tiles`, `shares`, `saturation`.
-pub fn saturate_cells(grid: &Grid, walk: Walk) -> Program {
-    walked("saturate_cells", grid, walk)
+/// `combine_parts`: a workgroup a lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
+/// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes`.
+pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
+    walked("combine_parts", grid, walk)
 }
 
-/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `shares`, `saturation`,
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes`,
 /// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
 pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
@@ -69,10 +104,10 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells beside it, from where cells no longer
+/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells along it, from where cells no longer
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
 /// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
-/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `shares`, `saturation`, and
+/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid) -> Program {

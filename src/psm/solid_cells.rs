@@ -1,7 +1,7 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Frame, MOST_FACES, Motion, Part, Plan,
+    Forms, Frame, MOST_FACES, Motion, Part, Plan,
     face_sums::FaceSums,
     frame::FARTHEST,
     kernels::Kernels,
@@ -21,9 +21,9 @@ use std::sync::Arc;
 pub struct SolidBlock {
     /// Its shape, m.
     pub shape: Arc<Shape>,
-    /// Whether somebody wants to know what the fluid does to it.
+    /// Whether the load of the fluid on it is needed.
     pub loaded: bool,
-    /// Whether somebody wants to know what it does to each of its faces.
+    /// Whether the loads on its faces are needed.
     pub faces: bool,
 }
 
@@ -32,7 +32,7 @@ pub struct SolidBlock {
 pub struct CellWork {
     /// Tiles whose solid fractions were.
     pub tiles: u64,
-    /// Lanes of bricks whose saturation was.
+    /// Lanes of bricks that were combined.
     pub lanes: u64,
     /// Times that the tiles of blocks were looked for.
     pub searches: u64,
@@ -41,7 +41,7 @@ pub struct CellWork {
 /// Blocks in a fluid, as partially saturated cells.
 ///
 /// A step is [`SolidCells::place`] with the poses of the blocks, [`SolidCells::record_cells`],
-/// [`Lattice::record_saturated`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
+/// [`Lattice::record_psm`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
 /// [`SolidCells::wrenches`] holds what [`SolidCells::loads`] makes loads of, and with [`SolidCells::record_faces`] beside
 /// the loads [`SolidCells::face_sums`] what [`SolidCells::face_loads`] does. Poses, motions and loads are SI.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ pub struct SolidCells {
     outlines: Vec<Vec<Outline>>,
     plan: Plan,
     pub(super) kernels: Kernels,
-    /// None where nobody asks for faces.
+    /// `None` unless a block requests faces.
     pub(super) face_sums: Option<FaceSums>,
     work: CellWork,
 }
@@ -71,7 +71,7 @@ impl SolidCells {
     /// [`SolidCells::place`].
     ///
     /// # Errors
-    /// [`Error::Scene`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
+    /// [`Error::Argument`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
@@ -88,9 +88,12 @@ impl SolidCells {
         let blocks: Vec<_> = order.iter().map(|&block| blocks[block].clone()).collect();
         let (mut first_part, mut first_face) = (vec![0], vec![0]);
         let (mut faces, mut most) = (0, 0);
+        let mut forms = Forms::default();
         for block in &blocks {
             for part in block.shape.parts() {
+                forms.spheres |= matches!(part.form, Form::Sphere { .. });
                 if let Form::Convex(shape) = &part.form {
+                    forms.polyhedra = true;
                     let count = shape.faces().len() as u32;
                     if count > MOST_FACES {
                         return Err(Error::Limit {
@@ -118,7 +121,7 @@ impl SolidCells {
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
-            kernels: Kernels::new(device, lattice, most)?,
+            kernels: Kernels::new(device, lattice, forms, most)?,
             frame,
             number,
             first_part,
@@ -146,7 +149,7 @@ impl SolidCells {
     ) -> Result<()> {
         if poses.len() != self.blocks.len() {
             let message = format!("{} poses for {} blocks", poses.len(), self.blocks.len());
-            return Err(Error::scene("poses", message));
+            return Err(Error::argument("poses", message));
         }
         let nowhere = |pose: &Pose| !pose.is_finite();
         if let Some(bad) = poses.iter().position(nowhere) {
@@ -166,7 +169,7 @@ impl SolidCells {
                  end the run before, or close the boundary through which it went",
                 poses[bad].centre
             );
-            return Err(Error::scene(format!("block {bad}"), message));
+            return Err(Error::argument(format!("block {bad}"), message));
         }
         let poses = self.ordered(poses);
         let start = self.poses.is_empty();
@@ -260,7 +263,7 @@ impl SolidCells {
         lattice: &mut Lattice,
     ) -> Result<()> {
         self.plan.assemble(lattice.geometry(), lattice.grid());
-        lattice.set_saturated(device, queue, &self.plan.bricks)?;
+        lattice.set_psm_bricks(device, queue, &self.plan.bricks)?;
         let counts = [
             self.first_face.len() - 1,
             self.faces,
@@ -362,6 +365,11 @@ impl SolidCells {
     /// The kernels in the order in which they run, each with the workgroups of the coming step.
     pub fn kernels(&self) -> impl Iterator<Item = (&Kernel, u32)> {
         self.kernels.all()
+    }
+
+    /// The kernels of loads on single faces; none unless a block requests these.
+    pub fn face_kernels(&self) -> impl Iterator<Item = &Kernel> {
+        self.face_sums.iter().flat_map(FaceSums::kernels)
     }
 
     /// Bytes on the device.

@@ -3,34 +3,34 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Share of a part in a cell that is inside it, as are all cells within two layers around.
-pub const DEEP: f32 = 2.0;
+/// Solid fraction of a part in a cell that is inside it, as are all cells within two layers around.
+pub const INTERIOR: f32 = 2.0;
 
-/// Share of a part in a cell that it leaves empty, but not all of the 26 cells around.
+/// Solid fraction of a part in a cell that it leaves empty, but not all of the 26 cells around.
 pub const NEAR: f32 = -1.0;
 
 /// The same of a cell whose side lies on a face of the part.
 pub const TOUCHES: f32 = -2.0;
 
-/// Added to the sum of the shares in a cell that is deep in one of its parts.
-pub const DEEP_SUM: f32 = 8.0;
+/// Added to the sum of the solid fractions in a cell in the interior of one of its parts.
+pub const INTERIOR_SUM: f32 = 8.0;
 
 /// Added to it in a full cell of a closed joint, in which several blocks meet.
 pub const JOINT_SUM: f32 = 16.0;
 
-/// Numbers that each cell of a saturated brick has on the device.
+/// Numbers that each cell of a brick with blocks has on the device.
 pub const PLANES: usize = 9;
 
 /// Numbers that the device adds up for each block.
 pub const WRENCH: usize = 20;
 
-/// Numbers that the device adds up for each face that is asked for, over the layer of cells beside it: traction
+/// Numbers that the device adds up for each face that is requested, over the layer of cells along it: traction
 /// (3), its moment about the block's centroid (3), height of the cells' centres over the face, their feet on the face
 /// from that centroid (3) and the products of these (xx, yy, zz, yz, zx, xy), number of cells with fluid, number of
 /// cells.
 pub const FACE_LOAD: usize = 18;
 
-/// The part of one convex part of a block in one lane of one saturated brick.
+/// The part of one convex part of a block in one lane of one brick with blocks.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Tile {
@@ -40,7 +40,7 @@ pub struct Tile {
     pub part: u32,
     /// Number of the block.
     pub block: u32,
-    /// Number of the brick among the saturated ones.
+    /// Number of the brick among the bricks with blocks.
     pub slot: u32,
     /// Lane of the brick's elements.
     pub lane: u32,

@@ -1,22 +1,20 @@
 //! All blocks of a scene and their state.
 
 use super::{
-    Body, ContactPoint, Ledger, Setup, Sleep,
-    body::{Flight, State},
-    books::{All, Books},
-    bound, check,
+    Body, ContactPoint, EnergyLedger, Setup, Sleep,
+    body::{self, MidStep, State},
+    candidate_pairs::{CandidatePair, SkinReference, usual_skin},
+    check,
+    contact_list::{ContactList, ContactSum},
     deforming::{DeformingBlocks, pose},
+    energy::{BodyStates, WorkSums},
     films::Films,
-    make,
-    narrow::Joints,
-    pairs::Mark,
-    parts::Parts,
+    narrowphase::Joints,
     period::Periods,
-    resolvers::Resolvers,
-    step::is_time,
-    sums::Sum,
-    touch::Pair,
-    touches::Touches,
+    placed_parts::PlacedParts,
+    resolver_pool::ResolverPool,
+    step::{StepTimes, is_time},
+    time_step,
 };
 use crate::{
     Error, Result,
@@ -29,6 +27,7 @@ use crate::{
     },
 };
 use glam::{DQuat, DVec3};
+use std::time::Instant;
 
 /// Blocks that move under gravity, loads and each other's contacts.
 ///
@@ -73,7 +72,7 @@ pub struct Blocks {
     pub(super) periods: Option<Periods>,
     /// Fluid in thin gaps.
     pub(super) film: Option<law::Film>,
-    pub(super) resolvers: Resolvers,
+    pub(super) resolver_pool: ResolverPool,
 
     pub(super) time: f64,
     pub(super) steps: u64,
@@ -82,28 +81,30 @@ pub struct Blocks {
     pub(super) states: Vec<State>,
     pub(super) deforming: DeformingBlocks,
     /// Poses when the pairs were found; empty: never.
-    pub(super) marks: Vec<Mark>,
-    pub(super) pairs: Vec<Pair>,
-    pub(super) touches: Touches,
-    pub(super) books: Books,
+    pub(super) skin_references: Vec<SkinReference>,
+    pub(super) pairs: Vec<CandidatePair>,
+    pub(super) contacts: ContactList,
+    pub(super) work_sums: WorkSums,
 
     // What a step writes before it is known to be good; then `next_…` change places with what they follow.
-    pub(super) parts: Parts,
-    pub(super) flights: Vec<Flight>,
-    pub(super) sums: Vec<Sum>,
+    pub(super) parts: PlacedParts,
+    pub(super) mid_steps: Vec<MidStep>,
+    pub(super) contact_sums: Vec<ContactSum>,
     pub(super) films: Films,
     /// What they have taken in this step, J.
-    pub(super) filmed: f64,
+    pub(super) film_work: f64,
     pub(super) next_states: Vec<State>,
-    pub(super) next_pairs: Vec<Pair>,
-    pub(super) next_touches: Touches,
+    pub(super) next_pairs: Vec<CandidatePair>,
+    pub(super) next_contacts: ContactList,
+    /// Times of the phases of steps, if requested.
+    pub(super) step_times: Option<StepTimes>,
 }
 
 impl Blocks {
     /// Blocks at t = 0.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming a block without mass, a pose that is not finite, a material that does not
+    /// [`Error::Argument`] naming a block without mass, a pose that is not finite, a material that does not
     /// exist or cannot be.
     pub fn new(setup: Setup) -> Result<Self> {
         Self::with_options(setup, Options::default())
@@ -116,12 +117,12 @@ impl Blocks {
     pub fn with_options(setup: Setup, options: Options) -> Result<Self> {
         check::check(&setup)?;
         let joints = check::joints(&setup);
-        let (bodies, states, deforming) = make::make(&setup);
-        let (frequency_squared, _) = bound::of_shapes(&bodies, &deforming, &joints);
+        let (bodies, states, deforming) = body::make(&setup);
+        let (frequency_squared, _) = time_step::of_shapes(&bodies, &deforming, &joints);
         let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
         let time_step = setup.time_step.unwrap_or(usual);
         let mut blocks = Self {
-            skin: setup.skin.unwrap_or_else(|| make::usual_skin(&bodies)),
+            skin: setup.skin.unwrap_or_else(|| usual_skin(&bodies)),
             joints,
             gravity: setup.gravity,
             damping: setup.damping,
@@ -132,30 +133,31 @@ impl Blocks {
             corner_area: setup.corner_area,
             film: setup.film,
             periods: None,
-            resolvers: Resolvers::new(options),
+            resolver_pool: ResolverPool::new(options),
             time: 0.0,
             steps: 0,
             time_step,
             started: false,
-            marks: Vec::new(),
+            skin_references: Vec::new(),
             pairs: Vec::new(),
-            touches: Touches::default(),
-            books: Books::default(),
-            parts: Parts::new(&bodies),
-            flights: vec![Flight::default(); bodies.len()],
-            sums: Vec::new(),
+            contacts: ContactList::default(),
+            work_sums: WorkSums::default(),
+            parts: PlacedParts::new(&bodies),
+            mid_steps: vec![MidStep::default(); bodies.len()],
+            contact_sums: Vec::new(),
             films: Films::default(),
-            filmed: 0.0,
+            film_work: 0.0,
             next_states: states.clone(),
             next_pairs: Vec::new(),
-            next_touches: Touches::default(),
+            next_contacts: ContactList::default(),
+            step_times: None,
             bodies,
             states,
             deforming,
         };
         blocks.place();
         if let Some(period) = setup.period {
-            blocks.periods = Some(blocks.repeated(period)?);
+            blocks.periods = Some(blocks.periods_of(period)?);
         }
         Ok(blocks)
     }
@@ -270,7 +272,7 @@ impl Blocks {
 
     /// The contacts at the end of the last step, in the order of the pairs.
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> + '_ {
-        let real = self.touches.iter().filter(|touch| touch.area > 0.0);
+        let real = self.contacts.iter().filter(|contact| contact.area > 0.0);
         real.map(ContactPoint::of)
     }
 
@@ -290,44 +292,45 @@ impl Blocks {
 
     /// Force, N, and torque about its centroid, N m, of what acts on a block alone now: its point loads, and its mass
     /// times its acceleration.
-    pub(crate) fn acting(&self, block: usize) -> [DVec3; 2] {
+    pub(crate) fn applied_load(&self, block: usize) -> [DVec3; 2] {
         let body = &self.bodies[block];
-        let Some(acting) = body.acting() else {
+        let Some(applied_forces) = body.applied_forces() else {
             return [DVec3::ZERO; 2];
         };
         let pose = pose(body, &self.states[block], &self.deforming.strains);
-        let pull = acting.pull(pose.deformation, body.mass, self.time);
-        [pull.force, integrate::axial(pull.moment)]
+        let wrench = applied_forces.wrench(pose.deformation, body.mass, self.time);
+        [wrench.force, integrate::axial(wrench.moment)]
     }
 
     /// Energies since the start.
-    pub fn ledger(&self) -> Ledger {
-        self.books.ledger(self.all(), &self.touches, self.gravity)
+    pub fn ledger(&self) -> EnergyLedger {
+        self.work_sums
+            .ledger(self.all(), &self.contacts, self.gravity)
     }
 
     /// What the resolvers have done so far.
     pub fn counts(&self) -> Counts {
-        self.resolvers.counts()
+        self.resolver_pool.counts()
     }
 
     /// Number of candidate pairs.
-    pub fn candidates(&self) -> usize {
+    pub fn candidate_pair_count(&self) -> usize {
         self.pairs.len()
     }
 
     /// External loads of all blocks, which act until they are set anew.
     ///
     /// # Errors
-    /// [`Error::Scene`] if there is not one for each block, or one is not finite.
+    /// [`Error::Argument`] if there is not one for each block, or one is not finite.
     pub fn load(&mut self, loads: &[Load]) -> Result<()> {
         if loads.len() != self.len() {
             let message = format!("{} loads for {} blocks", loads.len(), self.len());
-            return Err(Error::scene("loads", message));
+            return Err(Error::argument("loads", message));
         }
         let finite = |load: &Load| load.force.is_finite() && load.moment.is_finite();
         if let Some(i) = loads.iter().position(|load| !finite(load)) {
             let message = format!("the load {:?} is not finite", loads[i].force);
-            return Err(Error::scene(self.label(i), message));
+            return Err(Error::argument(self.label(i), message));
         }
         for (state, load) in self.states.iter_mut().zip(loads) {
             state.load = load.force;
@@ -337,37 +340,51 @@ impl Blocks {
         for (one, strain) in deforming.list.iter().zip(&mut deforming.strains) {
             strain.load = loads[one.block].moment;
         }
-        let all = All {
+        let all = BodyStates {
             bodies: &self.bodies,
             states: &self.states,
             deforming: &self.deforming,
         };
-        self.books.reload(all, self.time);
+        self.work_sums.reload(all, self.time);
         self.wake();
         Ok(())
     }
 
     /// Steps until the time is `until` (s), in equal steps of at most the time step, with pairs from
-    /// `finder` when they are wanted.
+    /// `broadphase` when they are wanted.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and of the finder, and [`Error::Scene`] if that time is not finite.
-    pub async fn advance(&mut self, finder: &mut impl Broadphase, until: f64) -> Result<()> {
+    /// Those of [`Blocks::step`], and of the broadphase, and [`Error::Argument`] if that time is not finite.
+    pub async fn advance(&mut self, broadphase: &mut impl Broadphase, until: f64) -> Result<()> {
         is_time(until)?;
         while self.time < until {
             if self.wants_pairs() {
-                let pairs = finder.pairs(&self.items()).await?;
+                let start = self.step_times.map(|_| Instant::now());
+                let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
+                if let (Some(times), Some(start)) = (&mut self.step_times, start) {
+                    times.broadphase += start.elapsed().as_secs_f64();
+                }
             }
-            self.step_known(self.stride(until))?;
+            self.step_known(self.substep_to(until))?;
         }
         Ok(())
+    }
+
+    /// Times the phases of steps from now on.
+    pub fn time_phases(&mut self) {
+        self.step_times.get_or_insert_default();
+    }
+
+    /// Times of the phases of steps; `None` unless requested by [`Blocks::time_phases`].
+    pub fn step_times(&self) -> Option<StepTimes> {
+        self.step_times
     }
 
     /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
     ///
     /// # Errors
-    /// [`Error::Scene`] if that time is not finite.
+    /// [`Error::Argument`] if that time is not finite.
     pub fn wait(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         self.time = self.time.max(until);
@@ -375,8 +392,8 @@ impl Blocks {
     }
 
     /// All of them, with their state.
-    fn all(&self) -> All<'_> {
-        All {
+    fn all(&self) -> BodyStates<'_> {
+        BodyStates {
             bodies: &self.bodies,
             states: &self.states,
             deforming: &self.deforming,
@@ -385,6 +402,6 @@ impl Blocks {
 
     /// A block in a message.
     pub(super) fn label(&self, block: usize) -> String {
-        super::narrow::label(block, &self.bodies[block].name)
+        super::narrowphase::label(block, &self.bodies[block].name)
     }
 }

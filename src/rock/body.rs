@@ -1,11 +1,11 @@
-//! One block: what stays and what changes.
+//! One block: its constants ([`Body`]), its state ([`State`]), and its motion in a step.
 
 use super::{
-    Block, Motion,
-    acting::{self, Acting},
-    deforming::{RIGID, Under},
-    films::Push,
-    sums::Sum,
+    Block, Motion, Setup,
+    applied_forces::{self, AppliedForces},
+    contact_list::ContactSum,
+    deforming::{DeformingBlocks, RIGID, StepParams},
+    films::FilmImpulse,
 };
 use crate::{
     formula::Formula,
@@ -15,7 +15,7 @@ use crate::{
 use glam::{DMat3, DQuat, DVec3};
 use std::{ops::Range, sync::Arc};
 
-/// What stays.
+/// Constants of a block.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub name: String,
@@ -40,7 +40,7 @@ pub(super) struct Body {
 #[derive(Clone, Debug)]
 pub(super) enum Drive {
     /// Those of contacts and loads, and maybe more of its own.
-    Forces(Option<Box<Acting>>),
+    Forces(Option<Box<AppliedForces>>),
     Nothing,
     /// Velocity and spin.
     Formulas(Box<[[Formula; 3]; 2]>),
@@ -49,7 +49,7 @@ pub(super) enum Drive {
 impl Drive {
     pub fn of(block: &Block) -> Self {
         match &block.motion {
-            Motion::Free => Self::Forces(Acting::of(block)),
+            Motion::Free => Self::Forces(AppliedForces::of(block)),
             Motion::Fixed => Self::Nothing,
             Motion::Driven { velocity, spin } => {
                 Self::Formulas(Box::new([velocity.clone(), spin.clone()]))
@@ -72,7 +72,7 @@ impl Body {
         let Drive::Formulas(formulas) = &self.drive else {
             return [DVec3::ZERO; 2];
         };
-        formulas.each_ref().map(|v| acting::value(v, t))
+        formulas.each_ref().map(|v| applied_forces::value(v, t))
     }
 
     /// The formula of a driven block that is not finite at the time `t` (s), if one is.
@@ -86,9 +86,9 @@ impl Body {
     }
 
     /// What acts on it alone.
-    pub fn acting(&self) -> Option<&Acting> {
+    pub fn applied_forces(&self) -> Option<&AppliedForces> {
         match &self.drive {
-            Drive::Forces(acting) => acting.as_deref(),
+            Drive::Forces(applied_forces) => applied_forces.as_deref(),
             _ => None,
         }
     }
@@ -102,8 +102,8 @@ impl Body {
     fn pulls(&self, state: &State, gravity: DVec3, t: f64) -> [DVec3; 2] {
         let mut force = state.force + state.load;
         let mut torque = state.torque + state.load_torque;
-        if let Some(acting) = self.acting() {
-            let more = acting.pull(DMat3::from_quat(state.rotation), self.mass, t);
+        if let Some(applied_forces) = self.applied_forces() {
+            let more = applied_forces.wrench(DMat3::from_quat(state.rotation), self.mass, t);
             force += more.force;
             torque += integrate::axial(more.moment);
         }
@@ -120,8 +120,9 @@ impl Body {
     }
 }
 
-/// What changes, between two steps.
+/// State of a block between two steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct State {
     /// m.
     pub centre: DVec3,
@@ -148,8 +149,8 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Takes over what the contacts do.
-    pub fn pull(&mut self, sum: &Sum) {
+    /// Sets the net force and torque of the contacts.
+    pub fn set_contact_forces(&mut self, sum: &ContactSum) {
         (self.force, self.torque) = (sum.force, sum.torque);
     }
 
@@ -169,10 +170,10 @@ impl State {
     }
 }
 
-/// How a block moves within a step, and what else its contacts ask of it: together, since each contact
-/// looks at two blocks that may be anywhere in the lists.
+/// Motion of a block within a step, and the constants that its contacts need: together, since each contact
+/// reads two blocks that may be anywhere in the lists.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Flight {
+pub(super) struct MidStep {
     /// At the end of the step, m.
     pub centre: DVec3,
     /// At the end of the step.
@@ -192,9 +193,9 @@ pub(super) struct Flight {
     pub rests: bool,
 }
 
-impl Flight {
+impl MidStep {
     /// Of a block that stays where `state` is.
-    pub fn still(body: &Body, state: &State) -> Self {
+    pub fn at_rest(body: &Body, state: &State) -> Self {
         Self {
             centre: state.centre,
             rotation: state.rotation,
@@ -210,19 +211,19 @@ impl Flight {
         Self {
             end_velocity: state.velocity,
             end_spin: state.spin,
-            ..Self::still(body, state)
+            ..Self::at_rest(body, state)
         }
     }
 }
 
 /// Velocity and angular momentum of a free rigid block in the middle of a step.
-pub(super) fn first_half(body: &Body, state: &State, under: Under) -> (DVec3, DVec3) {
-    let Under {
+pub(super) fn first_half(body: &Body, state: &State, params: StepParams) -> (DVec3, DVec3) {
+    let StepParams {
         gravity,
         damping,
         time,
         dt,
-    } = under;
+    } = params;
     let [rate, torque] = body.pulls(state, gravity, time);
     (
         integrate::first_kick(state.velocity, rate, damping, dt),
@@ -231,14 +232,21 @@ pub(super) fn first_half(body: &Body, state: &State, under: Under) -> (DVec3, DV
 }
 
 /// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
-/// goes with its like. `push`: what films of fluid do to it on the way.
-pub(super) fn fly(body: &Body, state: &mut State, push: Push, under: Under) -> Flight {
-    let Under { time, dt, .. } = under;
+/// goes with its like. `push`: impulse of films of fluid in the first half of the step.
+pub(super) fn kick_drift(
+    body: &Body,
+    state: &mut State,
+    push: FilmImpulse,
+    params: StepParams,
+) -> MidStep {
+    let StepParams { time, dt, .. } = params;
     match &body.drive {
-        Drive::Nothing => Flight::still(body, state),
-        Drive::Forces(_) if state.asleep || body.deforming != RIGID => Flight::still(body, state),
+        Drive::Nothing => MidStep::at_rest(body, state),
+        Drive::Forces(_) if state.asleep || body.deforming != RIGID => {
+            MidStep::at_rest(body, state)
+        }
         Drive::Forces(_) => {
-            let (velocity, momentum) = first_half(body, state, under);
+            let (velocity, momentum) = first_half(body, state, params);
             let (velocity, momentum) = (velocity + push.velocity, momentum + push.momentum);
             // The dashpots want the velocity at the end of the step, which the force there is part of:
             // the last acceleration gives it to second order.
@@ -247,12 +255,12 @@ pub(super) fn fly(body: &Body, state: &mut State, push: Push, under: Under) -> F
             state.centre += velocity * dt;
             state.rotation = integrate::turn(&body.inertia, state.rotation, momentum, dt);
             (state.velocity, state.momentum) = (velocity, momentum);
-            Flight {
+            MidStep {
                 velocity,
                 spin: integrate::spin(&body.inertia, state.rotation, momentum),
                 end_velocity,
                 end_spin: integrate::spin(&body.inertia, state.rotation, end_momentum),
-                ..Flight::still(body, state)
+                ..MidStep::at_rest(body, state)
             }
         }
         Drive::Formulas(_) => {
@@ -260,30 +268,80 @@ pub(super) fn fly(body: &Body, state: &mut State, push: Push, under: Under) -> F
             state.centre += mid_velocity * dt;
             state.rotation = (DQuat::from_scaled_axis(mid_spin * dt) * state.rotation).normalize();
             [state.velocity, state.spin] = body.driven_at(time + dt);
-            Flight {
+            MidStep {
                 velocity: mid_velocity,
                 spin: mid_spin,
                 end_velocity: state.velocity,
                 end_spin: state.spin,
-                ..Flight::still(body, state)
+                ..MidStep::at_rest(body, state)
             }
         }
     }
 }
 
 /// The second kick of a step, with the forces at its end.
-pub(super) fn land(body: &Body, state: &mut State, under: Under) {
+pub(super) fn second_kick(body: &Body, state: &mut State, params: StepParams) {
     if !body.is_free() || state.asleep || body.deforming != RIGID {
         return;
     }
-    let Under {
+    let StepParams {
         gravity,
         damping,
         time,
         dt,
-    } = under;
+    } = params;
     let [rate, torque] = body.pulls(state, gravity, time + dt);
     state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
     state.momentum = integrate::second_kick(state.momentum, torque, damping, dt);
     state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
+}
+
+/// The blocks of a setup that has been checked.
+pub(super) fn make(setup: &Setup) -> (Vec<Body>, Vec<State>, DeformingBlocks) {
+    let mut bodies: Vec<Body> = Vec::with_capacity(setup.blocks.len());
+    let mut states = Vec::with_capacity(setup.blocks.len());
+    let mut deforming = DeformingBlocks::default();
+    let mut first = 0;
+    for (index, block) in setup.blocks.iter().enumerate() {
+        let material = &setup.materials[block.material];
+        let count = block.shape.parts().len();
+        let body = Body {
+            name: block.name.clone(),
+            mass: material.density * block.shape.volume(),
+            inertia: Principal::of(block.shape.inertia()).scaled(material.density),
+            shape: block.shape.clone(),
+            radius: block.shape.radius(),
+            material: block.material as u32,
+            deforming: deforming.add(index, block, material),
+            drive: Drive::of(block),
+            guide: None,
+            parts: first..first + count,
+        };
+        first += count;
+        states.push(start(&body, block));
+        bodies.push(body);
+    }
+    for guide in &setup.guides {
+        bodies[guide.block].guide = Some(Box::new(guide.axis.normalize()));
+    }
+    (bodies, states, deforming)
+}
+
+fn start(body: &Body, block: &Block) -> State {
+    let mut state = State {
+        centre: block.centre,
+        rotation: block.rotation.normalize(),
+        velocity: block.velocity,
+        spin: block.spin,
+        ..State::default()
+    };
+    match &body.drive {
+        Drive::Forces(_) => {
+            let frame = state.rotation * body.inertia.axes;
+            state.momentum = frame * ((frame.conjugate() * block.spin) * body.inertia.moments);
+        }
+        Drive::Nothing => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
+        Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
+    }
+    state
 }

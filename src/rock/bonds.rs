@@ -1,66 +1,73 @@
-//! Bonds: contacts of faces that pull, where the faces touched at the start.
+//! Bonds: contacts of faces that carry tension, where the faces touched at the start.
 
-use super::{narrow::Scene, touch::Touch};
+use super::{
+    contact_list::Contact,
+    narrowphase::{Narrowphase, PairIds},
+};
 use crate::rock::{
-    contact::{Placed, Seam},
+    contact::{Bond, Placed},
     law::{self, History},
 };
-use glam::DVec3;
 
-impl Scene<'_> {
-    /// A bond where its parts are now; none where it breaks.
-    pub(super) fn held(
+impl Narrowphase<'_> {
+    /// The contact of a bond at the present poses of its parts; none where it breaks.
+    pub(super) fn bonded_contact(
         &self,
-        (parts, blocks, way): ([u32; 2], [u32; 2], DVec3),
+        ids: PairIds,
         [first, second]: [&Placed; 2],
-        seam: &Seam,
-        before: Option<&Touch>,
-    ) -> Option<Touch> {
-        let now = seam.of(first, second);
+        bond: &Bond,
+        before: Option<&Contact>,
+    ) -> Option<Contact> {
+        let PairIds {
+            parts,
+            blocks,
+            image_shift,
+        } = ids;
+        let now = bond.state(first, second);
         let joint = self.joint(blocks);
         let section = law::Section {
             normal: now.normal,
             overlap: now.overlap,
-            area: seam.area,
-            elastic_area: seam.area,
+            area: bond.area,
+            elastic_area: bond.area,
             rolls: false,
-            gape: now.overlap - now.least(seam),
+            opening: now.overlap - now.smallest_overlap(bond),
         };
         let fresh = History {
             bonded: true,
             ..History::default()
         };
-        let history = before.map_or(fresh, |touch| touch.force.history);
-        let motion = self.motion(blocks, now.point, way);
+        let history = before.map_or(fresh, |contact| contact.force.history);
+        let motion = self.motion(blocks, now.point, image_shift);
         let force = law::force(joint, &section, &motion, &history);
-        force.history.bonded.then(|| Touch {
+        force.history.bonded.then(|| Contact {
             parts,
             blocks,
-            way,
+            image_shift,
             point: now.point,
             pressure_centre: now.point,
             normal: now.normal,
             overlap: now.overlap,
-            area: seam.area,
-            section: seam.area,
-            width: seam.width(),
+            area: bond.area,
+            section: bond.area,
+            width: bond.width(),
             limit: 0.1 * first.smallest_distance.min(second.smallest_distance),
             force: law::Force {
-                bending: joint.normal_stiffness * now.moment(seam),
+                bending: joint.normal_stiffness * now.moment(bond),
                 ..force
             },
-            seam: *seam,
-            stored: before.map_or(0.0, |touch| touch.stored),
-            power: before.map_or(0.0, |touch| touch.power),
+            bond: *bond,
+            stored: before.map_or(0.0, |contact| contact.stored),
+            power: before.map_or(0.0, |contact| contact.power),
         })
     }
 }
 
-/// What a contact remembers once it is no bond, or no more.
-pub(super) fn unbonded(touch: &Touch) -> History {
+/// History of a contact without a bond.
+pub(super) fn unbonded(contact: &Contact) -> History {
     History {
         bonded: false,
         slip: 0.0,
-        ..touch.force.history
+        ..contact.force.history
     }
 }

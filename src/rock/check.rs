@@ -2,27 +2,27 @@
 
 mod deformable;
 
-use super::{Guide, Motion, Setup, Sleep, narrow::Joints, narrow::label};
+use super::{Guide, Motion, Setup, Sleep, narrowphase::Joints, narrowphase::label};
 use crate::{Error, Result, rock::law::Joint};
 use glam::DVec3;
 
 /// # Errors
-/// [`Error::Scene`] naming the first number that cannot be used.
+/// [`Error::Argument`] naming the first number that cannot be used.
 pub(super) fn check(setup: &Setup) -> Result<()> {
     let positive = |place: &str, value: f64, unit: &str| {
         if value > 0.0 && value.is_finite() {
             return Ok(());
         }
         let message = format!("{value} must be greater than 0 {unit}");
-        Err(Error::scene(place, message))
+        Err(Error::argument(place, message))
     };
     if !setup.gravity.is_finite() {
         let message = format!("{} must be finite", setup.gravity);
-        return Err(Error::scene("gravity", message));
+        return Err(Error::argument("gravity", message));
     }
     if !(setup.damping >= 0.0 && setup.damping.is_finite()) {
         let message = format!("{} must be 0 1/s or more", setup.damping);
-        return Err(Error::scene("damping", message));
+        return Err(Error::argument("damping", message));
     }
     if let Some(step) = setup.time_step {
         positive("time_step", step, "s")?;
@@ -34,7 +34,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
     positive("largest_overlap", setup.largest_overlap, "")?;
     if !(0.0..=1.0).contains(&setup.corner_area) {
         let message = format!("{} must be between 0 and 1", setup.corner_area);
-        return Err(Error::scene("corner_area", message));
+        return Err(Error::argument("corner_area", message));
     }
     if let Some(period) = &setup.period {
         period.check()?;
@@ -64,7 +64,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let place = format!("pairs[{i}]");
         if let Some(bad) = pair.materials.iter().find(|&&m| m >= setup.materials.len()) {
             let message = format!("there is no material {bad}, only {}", setup.materials.len());
-            return Err(Error::scene(place, message));
+            return Err(Error::argument(place, message));
         }
         pair.joint.check(&place)?;
     }
@@ -72,7 +72,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         check_block(setup, i)?;
         let place = label(i, &block.name);
         deformable::check(setup, block, &place)?;
-        deformable::check_acting(block, &place)?;
+        deformable::check_applied_forces(block, &place)?;
     }
     setup
         .guides
@@ -83,13 +83,13 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
 /// A guided block is free and rigid, and starts along its guide.
 fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
     let Some(block) = setup.blocks.get(guide.block) else {
-        let (asked, known) = (guide.block, setup.blocks.len());
-        let message = format!("there is no block {asked}, only {known}");
-        return Err(Error::scene("guides", message));
+        let (number, known) = (guide.block, setup.blocks.len());
+        let message = format!("there is no block {number}, only {known}");
+        return Err(Error::argument("guides", message));
     };
     let refuse = |message: &str| {
         let place = format!("{}: guide", label(guide.block, &block.name));
-        Err(Error::scene(place, message))
+        Err(Error::argument(place, message))
     };
     let axis = guide.axis.try_normalize();
     let Some(axis) = axis.filter(|_| guide.axis.is_finite()) else {
@@ -114,10 +114,10 @@ fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
 
 fn check_block(setup: &Setup, index: usize) -> Result<()> {
     let block = &setup.blocks[index];
-    let refuse = |message: String| Err(Error::scene(label(index, &block.name), message));
+    let refuse = |message: String| Err(Error::argument(label(index, &block.name), message));
     let Some(material) = setup.materials.get(block.material) else {
-        let (asked, known) = (block.material, setup.materials.len());
-        return refuse(format!("there is no material {asked}, only {known}"));
+        let (number, known) = (block.material, setup.materials.len());
+        return refuse(format!("there is no material {number}, only {known}"));
     };
     let mass = material.density * block.shape.volume();
     if !(mass > 0.0 && mass.is_finite()) {

@@ -1,16 +1,16 @@
-//! The blocks that deform: what they are beside rigid blocks, and how they move.
+//! Deformable blocks: their deformation and how they move.
 //!
 //! They stand in the lists of all blocks like any other, so that contacts, pairs and output see no difference;
-//! what a rotation does not tell of them is in lists of its own, which scenes of rigid blocks leave empty.
+//! their deformations are in lists of their own, which scenes of rigid blocks leave empty.
 
 use super::{
     Block, Body, Material,
-    body::{Flight, State},
-    touches::Touches,
+    body::{MidStep, State},
+    contact_list::ContactList,
 };
 use crate::{
     geometry::{Form, Pose, outer},
-    rock::integrate::{self, Affine, Held, Pull, axial},
+    rock::integrate::{self, Affine, PointConstraints, Wrench, axial},
 };
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -24,13 +24,14 @@ pub(super) struct Deforming {
     /// Its number among all blocks.
     pub block: usize,
     pub affine: Affine,
-    pub held: Held,
+    pub constraints: PointConstraints,
     /// Lever of its farthest vertex, m.
     pub reach: f64,
 }
 
 /// What changes of one, between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Strain {
     /// F.
     pub deformation: DMat3,
@@ -41,7 +42,7 @@ pub(super) struct Strain {
     /// Σ f ⊗ r of the external load, N m.
     pub load: DMat3,
     /// F when the pairs were found.
-    pub marked: DMat3,
+    pub skin_reference: DMat3,
 }
 
 impl Default for Strain {
@@ -52,7 +53,7 @@ impl Default for Strain {
             rate: DMat3::ZERO,
             moment: DMat3::ZERO,
             load: DMat3::ZERO,
-            marked: DMat3::IDENTITY,
+            skin_reference: DMat3::IDENTITY,
         }
     }
 }
@@ -85,11 +86,11 @@ pub(super) fn pose(body: &Body, state: &State, strains: &[Strain]) -> Pose {
     }
 }
 
-/// What a step makes of one.
+/// Result of the first half of a step of one.
 #[derive(Clone, Copy, Debug, Default)]
-struct Flown {
+struct TrialStep {
     state: State,
-    flight: Flight,
+    mid_step: MidStep,
     /// ∂v/∂x: the mean of the step, and that expected at its end, 1/s.
     gradients: [DMat3; 2],
 }
@@ -101,12 +102,12 @@ pub(super) struct DeformingBlocks {
     pub strains: Vec<Strain>,
     /// What a step writes before it is known to be good.
     pub next: Vec<Strain>,
-    flown: Vec<Flown>,
+    trials: Vec<TrialStep>,
 }
 
-/// What a step of a block is under.
+/// Parameters of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Under {
+pub(super) struct StepParams {
     /// m/s².
     pub gravity: DVec3,
     /// α, 1/s.
@@ -138,10 +139,10 @@ impl DeformingBlocks {
             block.velocity,
             block.spin,
         );
-        let held = Held::new(
+        let constraints = PointConstraints::new(
             &affine,
             (start.centre, start.deformation),
-            points.map(|held| (held.point, held.axes)),
+            points.map(|constraints| (constraints.point, constraints.axes)),
         );
         self.strains.push(Strain {
             deformation: start.deformation,
@@ -149,7 +150,7 @@ impl DeformingBlocks {
             ..Strain::default()
         });
         self.next = self.strains.clone();
-        self.flown.push(Flown::default());
+        self.trials.push(TrialStep::default());
         let forms = block.shape.parts().iter().map(|part| &part.form);
         let vertices = forms.flat_map(|form| match form {
             Form::Convex(polyhedron) => polyhedron.vertices(),
@@ -159,7 +160,7 @@ impl DeformingBlocks {
         self.list.push(Deforming {
             block: index,
             affine,
-            held,
+            constraints,
             reach,
         });
         self.list.len() as u32 - 1
@@ -182,7 +183,7 @@ impl DeformingBlocks {
 
     /// ∂v/∂x of `body` over the present step and as expected at its end, 1/s.
     pub fn gradients(&self, body: &Body) -> Option<&[DMat3; 2]> {
-        (body.deforming != RIGID).then(|| &self.flown[body.deforming as usize].gradients)
+        (body.deforming != RIGID).then(|| &self.trials[body.deforming as usize].gradients)
     }
 
     /// Arm and width, m, with which a contact of `width` (m) at `arm` (m from the centroid, world) counts for
@@ -205,62 +206,70 @@ impl DeformingBlocks {
     }
 
     /// No point of a block has moved farther by its deformation since the pairs were found, m.
-    pub fn strayed(&self, body: &Body) -> Option<f64> {
+    pub fn moved_by_strain(&self, body: &Body) -> Option<f64> {
         let (_, strain) = self.of(body)?;
-        Some(norm(strain.deformation - strain.marked) * body.radius)
+        Some(norm(strain.deformation - strain.skin_reference) * body.radius)
     }
 
     /// The pairs are found where the blocks are now.
-    pub fn mark(&mut self) {
+    pub fn set_skin_reference(&mut self) {
         for strain in &mut self.strains {
-            strain.marked = strain.deformation;
+            strain.skin_reference = strain.deformation;
         }
     }
 
     /// How they move before the first step.
     pub fn at_start(&mut self) {
-        for (flown, strain) in self.flown.iter_mut().zip(&self.strains) {
-            flown.gradients = [DMat3::ZERO, strain.gradient()];
+        for (trial, strain) in self.trials.iter_mut().zip(&self.strains) {
+            trial.gradients = [DMat3::ZERO, strain.gradient()];
         }
         self.next.clone_from(&self.strains);
     }
 
-    /// Kick and drift of all over a step, into `states` and `flights`; the first block that is nowhere, or
+    /// Kick and drift of all over a step, into `states` and `mid_steps`; the first block that is nowhere, or
     /// turned inside out.
-    pub fn fly(
+    pub fn kick_drift(
         &mut self,
         bodies: &[Body],
         before: &[State],
-        under: Under,
+        params: StepParams,
         states: &mut [State],
-        flights: &mut [Flight],
+        mid_steps: &mut [MidStep],
     ) -> Option<usize> {
         let all = self.list.par_iter().zip(&self.strains);
-        let ends = self.next.par_iter_mut().zip(&mut self.flown);
-        let lost = all.zip(ends).filter_map(|((one, strain), (next, flown))| {
+        let ends = self.next.par_iter_mut().zip(&mut self.trials);
+        let lost = all.zip(ends).filter_map(|((one, strain), (next, trial))| {
             let body = &bodies[one.block];
-            *flown = one.fly(body, &before[one.block], strain, next, under);
-            (!flown.state.is_finite() || !next.is_sound()).then_some(one.block)
+            *trial = one.kick_drift(body, &before[one.block], strain, next, params);
+            (!trial.state.is_finite() || !next.is_sound()).then_some(one.block)
         });
         let lost = lost.min();
-        for (one, flown) in self.list.iter().zip(&self.flown) {
-            states[one.block] = flown.state;
-            flights[one.block] = flown.flight;
+        for (one, trial) in self.list.iter().zip(&self.trials) {
+            states[one.block] = trial.state;
+            mid_steps[one.block] = trial.mid_step;
         }
         lost
     }
 
-    /// Takes over what the contacts do.
-    pub fn pull(&mut self, bodies: &[Body], touches: &Touches, states: &[State]) {
+    /// Sums the moments Σ f ⊗ r of the contacts.
+    pub fn sum_contact_moments(
+        &mut self,
+        bodies: &[Body],
+        contacts: &ContactList,
+        states: &[State],
+    ) {
         if self.is_empty() {
             return;
         }
         for strain in &mut self.strains {
             strain.moment = DMat3::ZERO;
         }
-        for touch in touches.iter() {
-            let places = [touch.pressure_centre, touch.pressure_centre - touch.way];
-            let ends = touch.blocks.into_iter().zip(places);
+        for contact in contacts.iter() {
+            let places = [
+                contact.pressure_centre,
+                contact.pressure_centre - contact.image_shift,
+            ];
+            let ends = contact.blocks.into_iter().zip(places);
             for ((block, at), sign) in ends.zip([-1.0, 1.0]) {
                 let k = bodies[block as usize].deforming;
                 if k == RIGID {
@@ -268,22 +277,33 @@ impl DeformingBlocks {
                 }
                 let arm = at - states[block as usize].centre;
                 // A torque is the skew part of a moment.
-                let moment = outer(touch.force.total(), arm) + couple(touch.force.couple());
+                let moment = outer(contact.force.total(), arm) + couple(contact.force.couple());
                 self.strains[k as usize].moment += moment * sign;
             }
         }
     }
 
     /// The second kick of a step, with the forces at its end.
-    pub fn land(&mut self, bodies: &[Body], under: Under, states: &mut [State]) {
+    pub fn second_kick(&mut self, bodies: &[Body], params: StepParams, states: &mut [State]) {
         for (one, strain) in self.list.iter().zip(&mut self.strains) {
-            one.land(&bodies[one.block], &mut states[one.block], strain, under);
+            one.second_kick(&bodies[one.block], &mut states[one.block], strain, params);
         }
     }
 }
 
+/// Acceleration of a deformable block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Acceleration {
+    /// Of the centroid, m/s².
+    pub centre: DVec3,
+    /// F̈, 1/s².
+    pub deformation: DMat3,
+    /// Force of the fixed points on the block, N.
+    pub support: DVec3,
+}
+
 impl Deforming {
-    /// Accelerations of the centroid and of F at the time `t`, s, and the force that the held points feel, N.
+    /// Acceleration at the time `t`, s.
     pub fn accelerations(
         &self,
         body: &Body,
@@ -291,44 +311,48 @@ impl Deforming {
         strain: &Strain,
         gravity: DVec3,
         t: f64,
-    ) -> (DVec3, DMat3, DVec3) {
-        let mut pull = Pull {
+    ) -> Acceleration {
+        let mut wrench = Wrench {
             force: state.force + state.load,
             moment: strain.moment + strain.load,
         };
-        if let Some(acting) = body.acting() {
-            let more = acting.pull(strain.deformation, body.mass, t);
-            pull.force += more.force;
-            pull.moment += more.moment;
+        if let Some(applied_forces) = body.applied_forces() {
+            let more = applied_forces.wrench(strain.deformation, body.mass, t);
+            wrench.force += more.force;
+            wrench.moment += more.moment;
         }
-        let (rate, turning) = self.affine.accelerations(strain.deformation, &pull);
-        let free = (rate + gravity, turning);
-        let (rate, turning) = self.held.project(free);
-        (rate, turning, body.mass * (rate - free.0))
+        let (rate, turning) = self.affine.accelerations(strain.deformation, &wrench);
+        let free = rate + gravity;
+        let (centre, deformation) = self.constraints.project((free, turning));
+        Acceleration {
+            centre,
+            deformation,
+            support: body.mass * (centre - free),
+        }
     }
 
-    fn fly(
+    fn kick_drift(
         &self,
         body: &Body,
         before: &State,
         strain: &Strain,
         next: &mut Strain,
-        Under {
+        StepParams {
             gravity,
             damping,
             time,
             dt,
-        }: Under,
-    ) -> Flown {
-        let (rate, turning, _) = self.accelerations(body, before, strain, gravity, time);
-        let velocity = integrate::first_kick(before.velocity, rate, damping, dt);
-        let half = integrate::first_kick(strain.rate, turning, damping, dt);
+        }: StepParams,
+    ) -> TrialStep {
+        let rate = self.accelerations(body, before, strain, gravity, time);
+        let velocity = integrate::first_kick(before.velocity, rate.centre, damping, dt);
+        let half = integrate::first_kick(strain.rate, rate.deformation, damping, dt);
         let mut state = *before;
-        let flown = (
+        let drifted = (
             before.centre + velocity * dt,
             strain.deformation + half * dt,
         );
-        let (centre, deformation) = self.held.place(flown);
+        let (centre, deformation) = self.constraints.place(drifted);
         (state.centre, state.velocity) = (centre, velocity);
         *next = Strain {
             deformation,
@@ -345,29 +369,29 @@ impl Deforming {
         }
         let gradients = [half * inverse, (half * 2.0 - strain.rate) * inverse];
         let [spin, end_spin] = gradients.map(|gradient| 0.5 * axial(gradient));
-        Flown {
-            flight: Flight {
+        TrialStep {
+            mid_step: MidStep {
                 velocity,
                 spin,
                 end_velocity: 2.0 * velocity - before.velocity,
                 end_spin,
-                ..Flight::still(body, &state)
+                ..MidStep::at_rest(body, &state)
             },
             state,
             gradients,
         }
     }
 
-    fn land(&self, body: &Body, state: &mut State, strain: &mut Strain, under: Under) {
-        let Under {
+    fn second_kick(&self, body: &Body, state: &mut State, strain: &mut Strain, params: StepParams) {
+        let StepParams {
             gravity,
             damping,
             time,
             dt,
-        } = under;
-        let (rate, turning, _) = self.accelerations(body, state, strain, gravity, time + dt);
-        state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);
-        strain.rate = integrate::second_kick(strain.rate, turning, damping, dt);
+        } = params;
+        let rate = self.accelerations(body, state, strain, gravity, time + dt);
+        state.velocity = integrate::second_kick(state.velocity, rate.centre, damping, dt);
+        strain.rate = integrate::second_kick(strain.rate, rate.deformation, damping, dt);
         state.momentum = self
             .affine
             .angular_momentum(strain.deformation, strain.rate);

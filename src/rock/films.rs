@@ -8,21 +8,24 @@
 use super::{
     Body,
     body::{self, State},
-    deforming::Under,
-    touch::NONE,
-    touches::Touches,
+    contact_list::ContactList,
+    deforming::StepParams,
 };
-use crate::rock::{contact::Squeeze, integrate, law};
+use crate::rock::{contact::ThinGap, integrate, law};
 use glam::DVec3;
 
 /// Residual, as a share of the first one, at which the impulses are known: far below the velocity to which a film
 /// of a thousandth of the step's own time slows a pair.
-const SETTLED: f64 = 1e-13;
+const RESIDUAL_TOLERANCE: f64 = 1e-13;
 /// Iterations at most for each film; as many as there are films would do without rounding.
-const MOST: usize = 3;
+const ITERATIONS_PER_FILM: usize = 3;
 
-/// One way in which one gap resists.
+/// In place of an index: the block has no films.
+const NO_BODY: u32 = u32::MAX;
+
+/// One mode, closing or tilt, in which one gap resists.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Film {
     pub blocks: [u32; 2],
     /// Along which the second block moves away from the first; zero for a tilt.
@@ -36,7 +39,7 @@ pub(super) struct Film {
 impl Film {
     /// The films in a thin gap between two blocks with these centroids (m).
     pub fn of(
-        squeeze: &Squeeze,
+        thin_gap: &ThinGap,
         law: &law::Film,
         blocks: [u32; 2],
         centres: [DVec3; 2],
@@ -45,18 +48,18 @@ impl Film {
         let slips = blocks.map(slips);
         // Where fluid slips along one side of a gap, twice as wide a one would be symmetric about it.
         let share = if slips[0] == slips[1] { 1.0 } else { 0.25 };
-        let normal = squeeze.normal;
+        let normal = thin_gap.normal;
         let pushed = Self {
             blocks,
             normal,
-            arms: centres.map(|centre| (squeeze.point - centre).cross(normal)),
-            resistance: share * law.resistance(squeeze),
+            arms: centres.map(|centre| (thin_gap.point - centre).cross(normal)),
+            resistance: share * law.resistance(thin_gap),
         };
-        let tilts = law.tilting(squeeze);
+        let tilts = law.tilting(thin_gap);
         let tilted = (0..2).map(move |k| Self {
             blocks,
             normal: DVec3::ZERO,
-            arms: [squeeze.axis(k); 2],
+            arms: [thin_gap.axis(k); 2],
             resistance: share * tilts[k],
         });
         let all = std::iter::once(pushed).chain(tilted.collect::<Vec<_>>());
@@ -64,9 +67,9 @@ impl Film {
     }
 }
 
-/// What films do to a block in half a step.
+/// Impulse of films on a block in half a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Push {
+pub(super) struct FilmImpulse {
     /// m/s.
     pub velocity: DVec3,
     /// Of angular momentum about the centroid, kg m²/s.
@@ -75,17 +78,17 @@ pub(super) struct Push {
     pub impulse: DVec3,
 }
 
-/// How a block moves, and how it gives way to films.
+/// Motion of a block at a film, and its response to impulses.
 #[derive(Clone, Copy, Debug, Default)]
-struct Mover {
+struct FilmBody {
     block: usize,
     velocity: DVec3,
     spin: DVec3,
-    /// 1/kg; 0 of what does not give way.
+    /// 1/kg; 0 of what impulses do not move.
     inverse_mass: f64,
-    /// What a direction of the impulses does to its velocity and spin.
-    tried: [DVec3; 2],
-    push: Push,
+    /// Change of velocity and spin by a direction of the impulses.
+    direction_response: [DVec3; 2],
+    push: FilmImpulse,
 }
 
 /// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −u, κ = c Δt/2, solved by conjugate gradients, whose every step takes
@@ -93,12 +96,12 @@ struct Mover {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     film: Film,
-    /// Blocks among the movers.
+    /// Indices of the two blocks among the film bodies.
     ends: [usize; 2],
     /// Relative velocity at the start of the half step.
     before: f64,
     /// What a unit of impulse does to the spin of each block.
-    turns: [DVec3; 2],
+    spin_response: [DVec3; 2],
     /// Its place on the diagonal, without 1/κ.
     yielding: f64,
     impulse: f64,
@@ -111,86 +114,92 @@ struct Row {
 /// The films of a step, its memory used again and again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Films {
-    /// Which mover a block is, or [`NONE`]; empty before the first film.
-    slots: Vec<u32>,
-    movers: Vec<Mover>,
+    /// Index of each block among the film bodies, or [`NO_BODY`]; empty before the first film.
+    body_of_block: Vec<u32>,
+    film_bodies: Vec<FilmBody>,
     rows: Vec<Row>,
     /// Length of the step, s.
     dt: f64,
 }
 
 impl Films {
-    /// Finds the pushes in the first half of a step, of the films of `touches`; returns the energy that they take, J.
+    /// Finds the pushes in the first half of a step, of the films of `contacts`; returns the energy that they take, J.
     pub fn first_half(
         &mut self,
-        (bodies, states): (&[Body], &[State]),
-        touches: &Touches,
-        under: Under,
+        bodies: &[Body],
+        states: &[State],
+        contacts: &ContactList,
+        params: StepParams,
     ) -> f64 {
-        self.dt = under.dt;
-        self.begin((bodies, states), touches);
-        for mover in self.movers.iter_mut().filter(|m| m.inverse_mass > 0.0) {
-            let (body, state) = (&bodies[mover.block], &states[mover.block]);
-            let (velocity, momentum) = body::first_half(body, state, under);
-            mover.velocity = velocity;
-            mover.spin = integrate::spin(&body.inertia, state.rotation, momentum);
+        self.dt = params.dt;
+        self.begin(bodies, states, contacts);
+        for film_body in self.film_bodies.iter_mut().filter(|m| m.inverse_mass > 0.0) {
+            let (body, state) = (&bodies[film_body.block], &states[film_body.block]);
+            let (velocity, momentum) = body::first_half(body, state, params);
+            film_body.velocity = velocity;
+            film_body.spin = integrate::spin(&body.inertia, state.rotation, momentum);
         }
         self.solve()
     }
 
     /// Remembers how blocks move before the second half of a step.
-    pub fn before_second_half(&mut self, (bodies, states): (&[Body], &[State]), touches: &Touches) {
-        self.begin((bodies, states), touches);
+    pub fn before_second_half(
+        &mut self,
+        bodies: &[Body],
+        states: &[State],
+        contacts: &ContactList,
+    ) {
+        self.begin(bodies, states, contacts);
     }
 
     /// Adds the pushes in the second half of the step to `states` as it left them; returns the energy that they
     /// take, J.
     pub fn second_half(&mut self, bodies: &[Body], states: &mut [State]) -> f64 {
-        for mover in &mut self.movers {
-            let state = &states[mover.block];
-            (mover.velocity, mover.spin) = (state.velocity, state.spin);
+        for film_body in &mut self.film_bodies {
+            let state = &states[film_body.block];
+            (film_body.velocity, film_body.spin) = (state.velocity, state.spin);
         }
         let taken = self.solve();
-        for mover in self.movers.iter().filter(|m| m.inverse_mass > 0.0) {
-            let (body, state) = (&bodies[mover.block], &mut states[mover.block]);
-            state.velocity += mover.push.velocity;
-            state.momentum += mover.push.momentum;
+        for film_body in self.film_bodies.iter().filter(|m| m.inverse_mass > 0.0) {
+            let (body, state) = (&bodies[film_body.block], &mut states[film_body.block]);
+            state.velocity += film_body.push.velocity;
+            state.momentum += film_body.push.momentum;
             state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
         }
         taken
     }
 
-    /// What films did to a block in the last half step.
-    pub fn push(&self, block: usize) -> Push {
-        match self.slots.get(block) {
-            Some(&slot) if slot != NONE => self.movers[slot as usize].push,
-            _ => Push::default(),
+    /// Impulse of films on a block in the last half step.
+    pub fn push(&self, block: usize) -> FilmImpulse {
+        match self.body_of_block.get(block) {
+            Some(&index) if index != NO_BODY => self.film_bodies[index as usize].push,
+            _ => FilmImpulse::default(),
         }
     }
 
-    /// What they did to all blocks that have films: blocks, and forces, N.
+    /// All blocks that have films, and the forces of these, N.
     pub fn forces(&self) -> impl Iterator<Item = (usize, DVec3)> + '_ {
         let half = 0.5 * self.dt;
-        self.movers
+        self.film_bodies
             .iter()
-            .map(move |mover| (mover.block, mover.push.impulse / half))
+            .map(move |film_body| (film_body.block, film_body.push.impulse / half))
     }
 
-    /// The films of a half step and the blocks that they are beside, as these move now.
-    fn begin(&mut self, (bodies, states): (&[Body], &[State]), touches: &Touches) {
-        for mover in self.movers.drain(..) {
-            self.slots[mover.block] = NONE;
+    /// The films of a half step, and the present motion of their blocks.
+    fn begin(&mut self, bodies: &[Body], states: &[State], contacts: &ContactList) {
+        for film_body in self.film_bodies.drain(..) {
+            self.body_of_block[film_body.block] = NO_BODY;
         }
         self.rows.clear();
-        for film in touches.films() {
-            self.slots.resize(bodies.len(), NONE);
+        for film in contacts.films() {
+            self.body_of_block.resize(bodies.len(), NO_BODY);
             let mut row = Row {
                 film: *film,
                 ends: film
                     .blocks
-                    .map(|block| self.mover(block as usize, bodies, states)),
+                    .map(|block| self.film_body(block as usize, bodies, states)),
                 before: 0.0,
-                turns: [DVec3::ZERO; 2],
+                spin_response: [DVec3::ZERO; 2],
                 yielding: 0.0,
                 impulse: 0.0,
                 residual: 0.0,
@@ -198,16 +207,17 @@ impl Films {
                 image: 0.0,
             };
             for (k, end) in row.ends.into_iter().enumerate() {
-                let Mover {
+                let FilmBody {
                     block,
                     inverse_mass,
                     ..
-                } = self.movers[end];
+                } = self.film_bodies[end];
                 if inverse_mass > 0.0 {
                     let (body, state) = (&bodies[block], &states[block]);
-                    row.turns[k] = integrate::spin(&body.inertia, state.rotation, film.arms[k]);
+                    row.spin_response[k] =
+                        integrate::spin(&body.inertia, state.rotation, film.arms[k]);
                     row.yielding += inverse_mass * film.normal.length_squared()
-                        + film.arms[k].dot(row.turns[k]);
+                        + film.arms[k].dot(row.spin_response[k]);
                 }
             }
             row.before = self.relative(&row);
@@ -215,16 +225,16 @@ impl Films {
         }
     }
 
-    fn mover(&mut self, block: usize, bodies: &[Body], states: &[State]) -> usize {
-        if self.slots[block] == NONE {
-            self.slots[block] = self.movers.len() as u32;
+    fn film_body(&mut self, block: usize, bodies: &[Body], states: &[State]) -> usize {
+        if self.body_of_block[block] == NO_BODY {
+            self.body_of_block[block] = self.film_bodies.len() as u32;
             let (body, state) = (&bodies[block], &states[block]);
             let inverse_mass = if state.asleep {
                 0.0
             } else {
                 body.inverse_mass()
             };
-            self.movers.push(Mover {
+            self.film_bodies.push(FilmBody {
                 block,
                 velocity: state.velocity,
                 // In the middle of a step the spin of a free body is not that of its momentum yet.
@@ -233,15 +243,15 @@ impl Films {
                     false => state.spin,
                 },
                 inverse_mass,
-                ..Mover::default()
+                ..FilmBody::default()
             });
         }
-        self.slots[block] as usize
+        self.body_of_block[block] as usize
     }
 
     /// Velocity, or rate of tilt, at which the gap of a film opens.
     fn relative(&self, row: &Row) -> f64 {
-        let [a, b] = row.ends.map(|end| &self.movers[end]);
+        let [a, b] = row.ends.map(|end| &self.film_bodies[end]);
         let Film { normal, arms, .. } = row.film;
         normal.dot(b.velocity - a.velocity) + arms[1].dot(b.spin) - arms[0].dot(a.spin)
     }
@@ -262,8 +272,8 @@ impl Films {
             row.direction = residual / diagonal(row);
             size += residual * row.direction;
         }
-        let enough = SETTLED * SETTLED * size;
-        for _ in 0..MOST * self.rows.len() {
+        let enough = RESIDUAL_TOLERANCE * RESIDUAL_TOLERANCE * size;
+        for _ in 0..ITERATIONS_PER_FILM * self.rows.len() {
             if size <= enough {
                 break;
             }
@@ -280,24 +290,25 @@ impl Films {
             }
             size = next;
         }
-        self.act()
+        self.apply()
     }
 
     /// Multiplies the system with the direction, and returns the product of both.
     fn images(&mut self, half: f64) -> f64 {
-        for mover in &mut self.movers {
-            mover.tried = [DVec3::ZERO; 2];
+        for film_body in &mut self.film_bodies {
+            film_body.direction_response = [DVec3::ZERO; 2];
         }
         for row in &self.rows {
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                let mover = &mut self.movers[row.ends[k]];
-                mover.tried[0] += sign * row.direction * mover.inverse_mass * row.film.normal;
-                mover.tried[1] += sign * row.direction * row.turns[k];
+                let film_body = &mut self.film_bodies[row.ends[k]];
+                film_body.direction_response[0] +=
+                    sign * row.direction * film_body.inverse_mass * row.film.normal;
+                film_body.direction_response[1] += sign * row.direction * row.spin_response[k];
             }
         }
         let mut product = 0.0;
         for row in &mut self.rows {
-            let [a, b] = row.ends.map(|end| self.movers[end].tried);
+            let [a, b] = row.ends.map(|end| self.film_bodies[end].direction_response);
             let Film {
                 normal,
                 arms,
@@ -313,21 +324,21 @@ impl Films {
 
     /// Makes pushes of the impulses, and returns the energy that they take, J: they meet the mean of the velocities
     /// at the start and at the end of the half step.
-    fn act(&mut self) -> f64 {
+    fn apply(&mut self) -> f64 {
         for row in &self.rows {
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                let mover = &mut self.movers[row.ends[k]];
+                let film_body = &mut self.film_bodies[row.ends[k]];
                 let impulse = sign * row.impulse;
-                mover.push.impulse += impulse * row.film.normal;
-                if mover.inverse_mass > 0.0 {
-                    mover.push.velocity += impulse * mover.inverse_mass * row.film.normal;
-                    mover.push.momentum += impulse * row.film.arms[k];
-                    mover.spin += impulse * row.turns[k];
+                film_body.push.impulse += impulse * row.film.normal;
+                if film_body.inverse_mass > 0.0 {
+                    film_body.push.velocity += impulse * film_body.inverse_mass * row.film.normal;
+                    film_body.push.momentum += impulse * row.film.arms[k];
+                    film_body.spin += impulse * row.spin_response[k];
                 }
             }
         }
-        for mover in &mut self.movers {
-            mover.velocity += mover.push.velocity;
+        for film_body in &mut self.film_bodies {
+            film_body.velocity += film_body.push.velocity;
         }
         let taken = |row: &Row| -0.5 * row.impulse * (row.before + self.relative(row));
         self.rows.iter().map(taken).sum()

@@ -3,49 +3,70 @@
 //! [`Blocks`] owns the state. A step is kick, drift, the contacts of the candidate pairs, kick; which pairs
 //! are candidates says a [`Broadphase`](crate::rock::broadphase::Broadphase) of the caller's. Forces are summed
 //! in the order of the pairs, so that the bits do not depend on the number of threads.
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::{
+//!     geometry::{Polyhedron, Shape},
+//!     rock::{Block, Blocks, Material, Setup, broadphase::HostBroadphase},
+//! };
+//! use std::sync::Arc;
+//!
+//! # fn main() -> riprap::Result<()> {
+//! // A cube of 1 m on a floor, under gravity.
+//! let floor = Polyhedron::cuboid(DVec3::new(4.0, 4.0, 0.2))?;
+//! let cube = Arc::new(Shape::from(Polyhedron::cuboid(DVec3::ONE)?));
+//! let mut blocks = Blocks::new(Setup {
+//!     blocks: vec![
+//!         Block::new("floor", Shape::from(floor), DVec3::Z * -0.1).fixed(),
+//!         Block::new("cube", cube, DVec3::Z * 0.5),
+//!     ],
+//!     materials: vec![Material::default()],
+//!     ..Setup::default()
+//! })?;
+//! // No device is needed: the pairs are found on the host.
+//! pollster::block_on(blocks.advance(&mut HostBroadphase, 0.05))?;
+//! assert!((blocks.poses()[1].centre.z - 0.5).abs() < 1e-3);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod broadphase;
 pub mod contact;
 pub mod integrate;
 pub mod law;
 
-mod acting;
+mod applied_forces;
 mod blocks;
 mod body;
 mod bonds;
-mod books;
-mod bound;
-mod bytes;
+mod candidate_pairs;
 mod check;
-mod contact_point;
+mod contact_list;
 mod deforming;
+mod energy;
 mod films;
-mod items;
-mod leaps;
-mod ledger;
-mod make;
-mod narrow;
-mod pairs;
-mod parts;
+mod narrowphase;
 mod period;
+mod placed_parts;
 mod relax;
-mod resolvers;
+mod resolver_pool;
 mod setup;
-mod sleeping;
+mod sleep;
 mod snapshot;
 mod step;
 mod stress;
-mod sums;
-mod touch;
-mod touches;
+mod time_step;
+mod tunnelling;
 
 pub use blocks::Blocks;
-pub use contact_point::ContactPoint;
-pub use ledger::Ledger;
+pub use contact_list::ContactPoint;
+pub use energy::EnergyLedger;
 pub use period::Period;
 pub use setup::{
     Block, Deformable, FixedPoint, Guide, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
 };
 pub use snapshot::Snapshot;
+pub use step::StepTimes;
 
 use body::Body;

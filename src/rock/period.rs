@@ -2,10 +2,10 @@
 //!
 //! Blocks go on in the coordinates of the world, however many periods away. A search for pairs sees each part in
 //! the one period and, where its box reaches a neighbour's, its images in the next ones; a pair is two parts and the
-//! number of periods by which the second is moved to be beside the first.
+//! number of periods by which the second is shifted to its image near the first.
 
 use super::{Body, body::State};
-use crate::{Error, Result, rock::broadphase::Item};
+use crate::{Error, Result, rock::broadphase::Aabb};
 use glam::DVec3;
 
 /// How far beyond a period a block may reach and count as one that fills it: the rounding of scenes.
@@ -26,17 +26,17 @@ impl Period {
         self.size[axis].is_finite()
     }
 
-    /// Way of a number of periods, m.
-    pub(super) fn way(&self, turns: [i32; 3]) -> DVec3 {
-        let way = |axis: usize| match turns[axis] {
+    /// Shift by a number of periods, m.
+    pub(super) fn shift(&self, offset: [i32; 3]) -> DVec3 {
+        let shift = |axis: usize| match offset[axis] {
             0 => 0.0,
-            turns => f64::from(turns) * self.size[axis],
+            offset => f64::from(offset) * self.size[axis],
         };
-        DVec3::new(way(0), way(1), way(2))
+        DVec3::new(shift(0), shift(1), shift(2))
     }
 
-    /// Number of periods that a place is away.
-    fn turns(&self, place: DVec3) -> [i32; 3] {
+    /// Number of periods from the first period to that of a place.
+    fn offset(&self, place: DVec3) -> [i32; 3] {
         [0, 1, 2].map(|axis| match self.repeats(axis) {
             true => ((place[axis] - self.origin[axis]) / self.size[axis]).floor() as i32,
             false => 0,
@@ -44,39 +44,41 @@ impl Period {
     }
 
     /// A place moved into the one period, m.
-    pub(crate) fn within(&self, place: DVec3) -> DVec3 {
-        place - self.way(self.turns(place))
+    pub(crate) fn wrapped(&self, place: DVec3) -> DVec3 {
+        place - self.shift(self.offset(place))
     }
 
-    /// Way by which something is to be moved that is `apart` (m) from something else, to be as near as it gets, m.
-    pub fn nearest(&self, apart: DVec3) -> DVec3 {
-        let turns = [0, 1, 2].map(|axis| match self.repeats(axis) {
-            true => -(apart[axis] / self.size[axis]).round() as i32,
+    /// Shift to the nearest image of something at a distance vector `separation` (m) from something else, m.
+    pub fn nearest(&self, separation: DVec3) -> DVec3 {
+        let offset = [0, 1, 2].map(|axis| match self.repeats(axis) {
+            true => -(separation[axis] / self.size[axis]).round() as i32,
             false => 0,
         });
-        self.way(turns)
+        self.shift(offset)
     }
 
-    /// All ways by which something is to be moved that is `apart` (m) from something else, to be within `near` (m) of it
-    /// along each axis, m; that to its nearest image, and to one on each side of that at most.
-    pub(crate) fn ways(&self, apart: DVec3, near: f64) -> Vec<DVec3> {
-        let nearest = self.nearest(apart);
-        let mut ways = vec![nearest];
+    /// Shifts to the images of something at a distance vector `separation` (m) from something else that are within `range`
+    /// (m) of it along each axis, m: the nearest image, and at most one on each side of it.
+    pub(crate) fn image_shifts(&self, separation: DVec3, range: f64) -> Vec<DVec3> {
+        let nearest = self.nearest(separation);
+        let mut image_shifts = vec![nearest];
         for axis in (0..3).filter(|axis| self.repeats(*axis)) {
-            for turn in [-1.0, 1.0] {
-                let step = DVec3::AXES[axis] * (turn * self.size[axis]);
-                if (apart + nearest + step)[axis].abs() <= near {
-                    let more = ways.iter().filter(|way| way[axis] == nearest[axis]);
-                    let more: Vec<_> = more.map(|way| *way + step).collect();
-                    ways.extend(more);
+            for side in [-1.0, 1.0] {
+                let step = DVec3::AXES[axis] * (side * self.size[axis]);
+                if (separation + nearest + step)[axis].abs() <= range {
+                    let more = image_shifts
+                        .iter()
+                        .filter(|shift| shift[axis] == nearest[axis]);
+                    let more: Vec<_> = more.map(|shift| *shift + step).collect();
+                    image_shifts.extend(more);
                 }
             }
         }
-        ways
+        image_shifts
     }
 
     /// # Errors
-    /// [`Error::Scene`] if an edge is not positive.
+    /// [`Error::Argument`] if an edge is not positive.
     pub(super) fn check(&self) -> Result<()> {
         if self.origin.is_finite() && self.size.min_element() > 0.0 {
             return Ok(());
@@ -85,13 +87,13 @@ impl Period {
             "a period of {} m from {} m: edges must be greater than 0, infinite where nothing repeats",
             self.size, self.origin
         );
-        Err(Error::scene("period", message))
+        Err(Error::argument("period", message))
     }
 
     /// Along which axes a body at the start fills more than the period. What is fixed then is the same in all of them.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it can move, so that it would be in its own way.
+    /// [`Error::Argument`] if it can move: it would overlap its own image.
     pub(super) fn filled(
         &self,
         body: &Body,
@@ -103,11 +105,11 @@ impl Period {
         if let Some(axis) = (0..3).find(|&axis| filled[axis] && !body.is_fixed()) {
             let (name, period) = (["x", "y", "z"][axis], self.size[axis]);
             let message = format!(
-                "it is {} m long along {name}, where space repeats after {period} m, and would be in its own way; make \
+                "it is {} m long along {name}, where space repeats after {period} m, and would overlap its own image; make \
                  it at most that long, or the domain longer, or fix it",
                 extent[axis]
             );
-            return Err(Error::scene(label, message));
+            return Err(Error::argument(label, message));
         }
         Ok(filled)
     }
@@ -118,7 +120,7 @@ impl Period {
 pub(super) struct Image {
     pub part: u32,
     /// Periods by which it is moved back.
-    pub turns: [i32; 3],
+    pub offset: [i32; 3],
 }
 
 /// The periods of all blocks.
@@ -132,43 +134,43 @@ pub(super) struct Periods {
 impl Periods {
     /// Moves the boxes of all parts into the period and adds their images in the neighbouring ones, as far as they
     /// reach another box there. `block`: that of each part.
-    pub fn images(&self, states: &[State], block: &[u32], items: &mut Vec<Item>) -> Vec<Image> {
-        let mut images: Vec<Image> = Vec::with_capacity(items.len());
+    pub fn images(&self, states: &[State], block: &[u32], aabbs: &mut Vec<Aabb>) -> Vec<Image> {
+        let mut images: Vec<Image> = Vec::with_capacity(aabbs.len());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for ((part, item), &block) in (0..).zip(items.iter_mut()).zip(block) {
-            let turns = self.period.turns(states[block as usize].centre);
-            *item = moved(item, -self.period.way(turns));
-            images.push(Image { part, turns });
+        for ((part, aabb), &block) in (0..).zip(aabbs.iter_mut()).zip(block) {
+            let offset = self.period.offset(states[block as usize].centre);
+            *aabb = moved(aabb, -self.period.shift(offset));
+            images.push(Image { part, offset });
             let filled = self.filled[block as usize];
             for axis in (0..3).filter(|&axis| !filled[axis]) {
-                low[axis] = low[axis].min(item.min[axis]);
-                high[axis] = high[axis].max(item.max[axis]);
+                low[axis] = low[axis].min(aabb.min[axis]);
+                high[axis] = high[axis].max(aabb.max[axis]);
             }
         }
         for n in 0..block.len() {
-            let (item, image) = (items[n], images[n]);
+            let (aabb, image) = (aabbs[n], images[n]);
             let filled = self.filled[block[n] as usize];
-            let ways = |axis: usize| -> &[i32] {
+            let image_shifts = |axis: usize| -> &[i32] {
                 match self.period.repeats(axis) && !filled[axis] {
                     true => &[0, 1, -1],
                     false => &[0],
                 }
             };
-            for &x in ways(0) {
-                for &y in ways(1) {
-                    for &z in ways(2) {
-                        let way = self.period.way([x, y, z]);
-                        let there = moved(&item, way);
+            for &x in image_shifts(0) {
+                for &y in image_shifts(1) {
+                    for &z in image_shifts(2) {
+                        let shift = self.period.shift([x, y, z]);
+                        let there = moved(&aabb, shift);
                         let reaches = (0..3).all(|axis| {
-                            way[axis] == 0.0
+                            shift[axis] == 0.0
                                 || there.min[axis] <= high[axis] && low[axis] <= there.max[axis]
                         });
-                        if way != DVec3::ZERO && reaches {
-                            items.push(there);
-                            let [a, b, c] = image.turns;
+                        if shift != DVec3::ZERO && reaches {
+                            aabbs.push(there);
+                            let [a, b, c] = image.offset;
                             images.push(Image {
                                 part: image.part,
-                                turns: [a - x, b - y, c - z],
+                                offset: [a - x, b - y, c - z],
                             });
                         }
                     }
@@ -180,17 +182,17 @@ impl Periods {
 
     /// What stays the same of the periods between two blocks while one of them goes through the border: those along
     /// axes that neither fills.
-    pub fn lasting(&self, blocks: [u32; 2], turns: [i32; 3]) -> [i32; 3] {
+    pub fn lasting(&self, blocks: [u32; 2], offset: [i32; 3]) -> [i32; 3] {
         let [a, b] = blocks.map(|block| self.filled[block as usize]);
-        std::array::from_fn(|axis| if a[axis] || b[axis] { 0 } else { turns[axis] })
+        std::array::from_fn(|axis| if a[axis] || b[axis] { 0 } else { offset[axis] })
     }
 }
 
-fn moved(item: &Item, way: DVec3) -> Item {
-    let by = |corner: [f64; 3]| std::array::from_fn(|axis| corner[axis] + way[axis]);
-    Item {
-        min: by(item.min),
-        max: by(item.max),
-        ..*item
+fn moved(aabb: &Aabb, shift: DVec3) -> Aabb {
+    let by = |corner: [f64; 3]| std::array::from_fn(|axis| corner[axis] + shift[axis]);
+    Aabb {
+        min: by(aabb.min),
+        max: by(aabb.max),
+        ..*aabb
     }
 }

@@ -1,6 +1,6 @@
 //! Pushing apart what overlaps before the first step.
 
-use super::{Blocks, deforming::pose, touch::TENTHS};
+use super::{Blocks, contact_list::DISTANCES_PER_LIMIT, deforming::pose};
 use crate::{
     Error, Result,
     error::Overlap,
@@ -21,12 +21,16 @@ impl Blocks {
     /// # Errors
     /// [`Error::Overlaps`] with what is left after `sweeps`; the blocks stay where they got to. Those of
     /// the finder.
-    pub async fn relax(&mut self, finder: &mut impl Broadphase, sweeps: usize) -> Result<usize> {
+    pub async fn relax(
+        &mut self,
+        broadphase: &mut impl Broadphase,
+        sweeps: usize,
+    ) -> Result<usize> {
         let mut resolver = Resolver::new(Options::default());
         let mut left = Vec::new();
         for sweep in 0..=sweeps {
             if self.wants_pairs() {
-                let pairs = finder.pairs(&self.items()).await?;
+                let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
             }
             left = self.push_apart(&mut resolver)?;
@@ -50,21 +54,26 @@ impl Blocks {
             // What fixed points hold stays, too.
             let inverse = blocks.map(|block| {
                 let body = &self.bodies[block];
-                let held = self
+                let constrained = self
                     .deforming
                     .of(body)
-                    .is_some_and(|(one, _)| !one.held.is_empty());
-                if held { 0.0 } else { body.inverse_mass() }
+                    .is_some_and(|(one, _)| !one.constraints.is_empty());
+                if constrained {
+                    0.0
+                } else {
+                    body.inverse_mass()
+                }
             });
             let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
             let periods = self.periods.as_ref();
-            let way = periods.map_or(DVec3::ZERO, |periods| periods.period.way(pair.turns));
-            image.copy_moved(second, way);
+            let image_shift =
+                periods.map_or(DVec3::ZERO, |periods| periods.period.shift(pair.offset));
+            image.copy_moved(second, image_shift);
             let Verdict::Contact(contact) = resolver.resolve(first, &image, &mut pair.cache)?
             else {
                 continue;
             };
-            let most = TENTHS * self.start_overlap * contact.limit;
+            let most = DISTANCES_PER_LIMIT * self.start_overlap * contact.limit;
             if contact.overlap <= most {
                 continue;
             }
@@ -77,14 +86,14 @@ impl Blocks {
                 continue;
             }
             // Half the allowed overlap stays, so that neighbours that touch keep touching.
-            let way = contact.overlap - 0.5 * most;
+            let distance = contact.overlap - 0.5 * most;
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
-                self.states[block].centre += contact.normal * (sign * share * way);
+                self.states[block].centre += contact.normal * (sign * share * distance);
                 let body = &self.bodies[block];
                 let pose = pose(body, &self.states[block], &self.deforming.strains);
-                self.parts.put_one(body, &pose);
+                self.parts.place_block(body, &pose);
             }
         }
         Ok(found)

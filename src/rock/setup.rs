@@ -110,7 +110,7 @@ pub struct Block {
     pub deformable: Option<Deformable>,
     /// Forces on points of it, if it is free. It then never sleeps.
     pub point_loads: Vec<PointLoad>,
-    /// Acceleration by which it is pulled beside gravity, m/s², formulas of t, if it is free. It then
+    /// Acceleration in addition to gravity, m/s², formulas of t, if it is free. It then
     /// never sleeps.
     pub acceleration: Option<[Formula; 3]>,
 }

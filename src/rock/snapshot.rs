@@ -3,40 +3,30 @@
 use super::{
     Blocks,
     body::State,
-    books::Books,
-    bytes::{Plain, fields},
+    candidate_pairs::{CandidatePair, SkinReference},
+    contact_list::{Contact, ContactList},
     deforming::Strain,
+    energy::WorkSums,
     films::Film,
-    pairs::Mark,
-    touch::{Pair, Touch},
-    touches::Touches,
 };
-use crate::{
-    Error, Result,
-    rock::{
-        contact::{Cache, Seam},
-        law::{Force, History},
-    },
-};
-
-/// First bytes of a snapshot; the digit is the version of the form.
-const MAGIC: &[u8; 16] = b"riprap blocks 5\n";
+use crate::{Error, Result};
 
 /// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
 /// resolver remembers, the ledger. What does not change, such as shapes, is in the
 /// [`Setup`](super::Setup).
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
     time: f64,
     steps: u64,
     time_step: f64,
     started: bool,
     states: Vec<State>,
-    marks: Vec<Mark>,
-    pairs: Vec<Pair>,
-    touches: Vec<Touch>,
+    skin_references: Vec<SkinReference>,
+    pairs: Vec<CandidatePair>,
+    contacts: Vec<Contact>,
     films: Vec<Film>,
-    books: Books,
+    work_sums: WorkSums,
     /// Of blocks that deform.
     strains: Vec<Strain>,
 }
@@ -47,29 +37,17 @@ impl Snapshot {
         self.time
     }
 
-    /// As bytes, the same on every machine.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = MAGIC.to_vec();
-        self.write(&mut bytes);
-        bytes
-    }
-
-    /// From what [`Snapshot::to_bytes`] gave.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] if the bytes are no snapshot, or are cut short.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let Some(mut rest) = bytes.strip_prefix(MAGIC) else {
-            let message = "this is no snapshot of this version of riprap";
-            return Err(Error::scene("snapshot", message));
-        };
-        let snapshot = Self::read(&mut rest)?;
-        if rest.is_empty() {
-            Ok(snapshot)
-        } else {
-            let message = format!("{} bytes too many", rest.len());
-            Err(Error::scene("snapshot", message))
-        }
+    /// Bytes of memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        let lists = [
+            size_of_val(&*self.states),
+            size_of_val(&*self.skin_references),
+            size_of_val(&*self.pairs),
+            size_of_val(&*self.contacts),
+            size_of_val(&*self.films),
+            size_of_val(&*self.strains),
+        ];
+        (size_of::<Self>() + lists.iter().sum::<usize>()) as u64
     }
 }
 
@@ -88,13 +66,13 @@ impl Blocks {
         snapshot.time_step = self.time_step;
         snapshot.started = self.started;
         snapshot.states.clone_from(&self.states);
-        snapshot.marks.clone_from(&self.marks);
+        snapshot.skin_references.clone_from(&self.skin_references);
         snapshot.pairs.clone_from(&self.pairs);
-        self.touches
-            .list(&mut snapshot.pairs, &mut snapshot.touches);
+        self.contacts
+            .list(&mut snapshot.pairs, &mut snapshot.contacts);
         snapshot.films.clear();
-        snapshot.films.extend(self.touches.films());
-        snapshot.books = self.books;
+        snapshot.films.extend(self.contacts.films());
+        snapshot.work_sums = self.work_sums;
         snapshot.strains.clone_from(&self.deforming.strains);
     }
 
@@ -102,29 +80,31 @@ impl Blocks {
     /// from there.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the state is not one of these blocks.
+    /// [`Error::Argument`] if the state is not one of these blocks.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
-        let way = |turns| self.period().map(|period| period.way(turns));
-        let known = |pair: &Pair| {
+        let image_shift = |offset| self.period().map(|period| period.shift(offset));
+        let known = |pair: &CandidatePair| {
             pair.parts.iter().all(|&part| part < parts)
-                && (pair.turns == [0; 3] || way(pair.turns).is_some_and(|way| way.is_finite()))
-                && (pair.touch == super::touch::NONE
-                    || (pair.touch as usize) < snapshot.touches.len())
+                && (pair.offset == [0; 3]
+                    || image_shift(pair.offset).is_some_and(|image_shift| image_shift.is_finite()))
+                && (pair.contact == super::contact_list::NO_CONTACT
+                    || (pair.contact as usize) < snapshot.contacts.len())
         };
-        let own = |touch: &Touch| {
-            touch
+        let own = |contact: &Contact| {
+            contact
                 .parts
                 .iter()
-                .zip(touch.blocks)
+                .zip(contact.blocks)
                 .all(|(&part, block)| self.parts.block.get(part as usize) == Some(&block))
         };
         let fits = snapshot.states.len() == self.len()
             && snapshot.strains.len() == self.deforming.strains.len()
-            && (snapshot.marks.is_empty() || snapshot.marks.len() == self.len())
+            && (snapshot.skin_references.is_empty()
+                || snapshot.skin_references.len() == self.len())
             && snapshot.pairs.iter().all(known)
-            && snapshot.touches.iter().all(own)
+            && snapshot.contacts.iter().all(own)
             && snapshot
                 .films
                 .iter()
@@ -137,124 +117,19 @@ impl Blocks {
                 self.len(),
                 self.deforming.strains.len()
             );
-            return Err(Error::scene("snapshot", message));
+            return Err(Error::argument("snapshot", message));
         }
         self.time = snapshot.time;
         self.steps = snapshot.steps;
         self.time_step = snapshot.time_step;
         self.started = snapshot.started;
         self.states.clone_from(&snapshot.states);
-        self.marks.clone_from(&snapshot.marks);
+        self.skin_references.clone_from(&snapshot.skin_references);
         self.pairs.clone_from(&snapshot.pairs);
-        self.touches = Touches::from_list(&snapshot.touches, &snapshot.films);
-        self.books = snapshot.books;
+        self.contacts = ContactList::from_list(&snapshot.contacts, &snapshot.films);
+        self.work_sums = snapshot.work_sums;
         self.deforming.strains.clone_from(&snapshot.strains);
         self.place();
         Ok(())
     }
 }
-
-fields!(Snapshot {
-    time,
-    steps,
-    time_step,
-    started,
-    states,
-    marks,
-    pairs,
-    touches,
-    films,
-    books,
-    strains
-});
-fields!(Film {
-    blocks,
-    normal,
-    arms,
-    resistance
-});
-fields!(State {
-    centre,
-    rotation,
-    velocity,
-    momentum,
-    spin,
-    force,
-    torque,
-    load,
-    load_torque,
-    slow,
-    asleep,
-    slept,
-});
-fields!(Strain {
-    deformation,
-    rate,
-    moment,
-    load,
-    marked
-});
-fields!(Mark {
-    centre,
-    rotation,
-    room
-});
-fields!(Pair {
-    parts,
-    turns,
-    cache,
-    touch
-});
-fields!(Cache {
-    plane,
-    point,
-    contact,
-    second
-});
-fields!(Touch {
-    parts,
-    blocks,
-    way,
-    point,
-    pressure_centre,
-    normal,
-    overlap,
-    area,
-    section,
-    width,
-    limit,
-    force,
-    seam,
-    stored,
-    power,
-});
-fields!(Force {
-    spring,
-    dashpot,
-    moment,
-    bending,
-    friction,
-    history
-});
-fields!(History {
-    shear,
-    normal,
-    bonded,
-    slip
-});
-fields!(Seam {
-    area,
-    overlap,
-    arms,
-    normals,
-    axis,
-    extents,
-    seconds
-});
-fields!(Books {
-    friction,
-    lost,
-    film,
-    work,
-    power
-});

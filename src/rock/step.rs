@@ -2,32 +2,44 @@
 
 use super::{
     Blocks,
-    body::{self, Flight},
-    books::All,
-    bound,
-    deforming::Under,
-    narrow, sums,
-    touch::{TENTHS, Touch},
-    touches::Touches,
+    body::{self, MidStep},
+    contact_list::{Contact, ContactList, DISTANCES_PER_LIMIT, sum_contacts},
+    deforming::StepParams,
+    energy::BodyStates,
+    narrowphase, time_step,
 };
 use crate::{Error, Result, error::Overlap, rock::law};
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// Blocks that one thread takes at least: handing out fewer costs more.
-pub(super) const FEW: usize = 256;
+pub(super) const BLOCKS_PER_TASK: usize = 256;
 
-/// Whether `until` is a time (s) to go to.
+/// Times that the host spends in the phases of steps, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepTimes {
+    /// Steps that have been timed.
+    pub steps: u64,
+    /// Candidate pairs.
+    pub broadphase: f64,
+    /// Contacts of the pairs and their forces.
+    pub contact: f64,
+    /// Motion, energies and sleep.
+    pub integrate: f64,
+}
+
+/// Refuses a time `until` (s) that is not finite.
 pub(super) fn is_time(until: f64) -> Result<()> {
     if until.is_finite() {
         return Ok(());
     }
     let message = format!("{until} s is no time to go to; give a finite one");
-    Err(Error::scene("until", message))
+    Err(Error::argument("until", message))
 }
 
-/// What a step leads to.
+/// Length and end of one sub-step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stride {
+pub(super) struct Substep {
     /// s.
     dt: f64,
     /// Time at its end, where it is known better than by adding up, s.
@@ -40,11 +52,11 @@ impl Blocks {
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
     /// the contacts, [`Error::DeepOverlap`] if two blocks are pressed into each other,
-    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Scene`] if pairs are wanted first, or if a block moves by more
+    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Argument`] if pairs are wanted first, or if a block moves by more
     /// than half its width, so that it could pass through others unseen. After an error everything is as it was before
     /// the step.
     pub fn step(&mut self) -> Result<()> {
-        self.step_by(Stride {
+        self.step_by(Substep {
             dt: self.time_step,
             end: None,
         })
@@ -53,20 +65,20 @@ impl Blocks {
     /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and [`Error::Scene`] if that time is past.
+    /// Those of [`Blocks::step`], and [`Error::Argument`] if that time is past.
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         if until < self.time {
             let message = format!("{until} s is past: the time is {} s", self.time);
-            return Err(Error::scene("until", message));
+            return Err(Error::argument("until", message));
         }
-        self.step_by(self.stride(until))
+        self.step_by(self.substep_to(until))
     }
 
     /// The next of the equal steps to the time `until`, s.
-    pub(super) fn stride(&self, until: f64) -> Stride {
+    pub(super) fn substep_to(&self, until: f64) -> Substep {
         let steps = self.steps_to(until);
-        Stride {
+        Substep {
             dt: (until - self.time) / steps,
             end: (steps == 1.0).then_some(until),
         }
@@ -79,31 +91,36 @@ impl Blocks {
         (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0)
     }
 
-    fn step_by(&mut self, stride: Stride) -> Result<()> {
+    fn step_by(&mut self, substep: Substep) -> Result<()> {
         if self.wants_pairs() {
             let message =
-                "a step wants pairs first: find those of items() and give them to set_pairs";
-            return Err(Error::scene("pairs", message));
+                "a step wants pairs first: find those of aabbs() and give them to set_pairs";
+            return Err(Error::argument("pairs", message));
         }
-        self.step_known(stride)
+        self.step_known(substep)
     }
 
-    /// A step of whose pairs it is known that they are all there.
-    pub(super) fn step_known(&mut self, Stride { dt, end }: Stride) -> Result<()> {
+    /// A step whose list of pairs is known to be complete.
+    pub(super) fn step_known(&mut self, Substep { dt, end }: Substep) -> Result<()> {
         if !dt.is_finite() {
             let message = "nothing limits the step, since no block is free; give time_step";
-            return Err(Error::scene("time_step", message));
+            return Err(Error::argument("time_step", message));
         }
         if !self.started {
             self.start()?;
         }
-        if let Err(error) = self.fly(dt) {
+        let start = self.step_times.map(|times| (Instant::now(), times.contact));
+        if let Err(error) = self.kick_drift(dt) {
             self.place();
             return Err(error);
         }
-        self.land(dt);
+        self.finish_step(dt);
         if let Some(end) = end {
             self.time = end;
+        }
+        if let (Some(times), Some((start, contact))) = (&mut self.step_times, start) {
+            times.steps += 1;
+            times.integrate += start.elapsed().as_secs_f64() - (times.contact - contact);
         }
         Ok(())
     }
@@ -111,107 +128,113 @@ impl Blocks {
     /// Finds the contacts of the first step.
     fn start(&mut self) -> Result<()> {
         let all = self.bodies.iter().zip(&self.states);
-        self.flights.clear();
-        self.flights
-            .extend(all.map(|(body, state)| Flight::at_start(body, state)));
+        self.mid_steps.clear();
+        self.mid_steps
+            .extend(all.map(|(body, state)| MidStep::at_start(body, state)));
         self.deforming.at_start();
         self.find_contacts(0.0, true)?;
-        self.check_start(&self.next_touches)?;
+        self.check_start(&self.next_contacts)?;
         self.check_step(self.time_step)?;
         self.next_states.clone_from(&self.states);
         self.take_over();
-        for (state, sum) in self.states.iter_mut().zip(&self.sums) {
-            state.pull(sum);
+        for (state, sum) in self.states.iter_mut().zip(&self.contact_sums) {
+            state.set_contact_forces(sum);
         }
         self.deforming
-            .pull(&self.bodies, &self.touches, &self.states);
-        // A step of no length books the powers at the start.
-        let under = self.under(0.0);
-        self.book(under);
-        self.shorten();
+            .sum_contact_moments(&self.bodies, &self.contacts, &self.states);
+        // A step of length zero records the powers at the start.
+        let params = self.step_params(0.0);
+        self.add_work(params);
+        self.shorten_time_step();
         self.started = true;
         Ok(())
     }
 
     /// Kick, drift and the contacts there.
-    fn fly(&mut self, dt: f64) -> Result<()> {
-        let under = self.under(dt);
-        self.filmed = self
+    fn kick_drift(&mut self, dt: f64) -> Result<()> {
+        let params = self.step_params(dt);
+        self.film_work = self
             .films
-            .first_half((&self.bodies, &self.states), &self.touches, under);
+            .first_half(&self.bodies, &self.states, &self.contacts, params);
         let films = &self.films;
         let all = self.bodies.par_iter().zip(&self.states);
-        let ends = self.next_states.par_iter_mut().zip(&mut self.flights);
-        let all = all.zip(ends).enumerate().with_min_len(FEW);
-        let lost = all.filter_map(|(i, ((body, state), (next, flight)))| {
+        let ends = self.next_states.par_iter_mut().zip(&mut self.mid_steps);
+        let all = all.zip(ends).enumerate().with_min_len(BLOCKS_PER_TASK);
+        let not_finite = all.filter_map(|(i, ((body, state), (next, mid_step)))| {
             *next = *state;
-            *flight = body::fly(body, next, films.push(i), under);
+            *mid_step = body::kick_drift(body, next, films.push(i), params);
             (!next.is_finite()).then_some(i)
         });
-        let lost = lost.min();
-        let unsound = self.deforming.fly(
+        let not_finite = not_finite.min();
+        let unsound = self.deforming.kick_drift(
             &self.bodies,
             &self.states,
-            under,
+            params,
             &mut self.next_states,
-            &mut self.flights,
+            &mut self.mid_steps,
         );
-        if let Some(bad) = lost.into_iter().chain(unsound).min() {
-            return Err(self.lost(bad, self.time + dt));
+        if let Some(bad) = not_finite.into_iter().chain(unsound).min() {
+            return Err(self.not_finite(bad, self.time + dt));
         }
-        self.check_ways(dt)?;
+        self.check_tunnelling(dt)?;
         let strains = &self.deforming.next;
-        self.parts.follow(&self.bodies, &self.next_states, strains);
+        self.parts
+            .place_moving(&self.bodies, &self.next_states, strains);
+        let start = self.step_times.map(|_| Instant::now());
         self.find_contacts(dt, false)?;
+        if let (Some(times), Some(start)) = (&mut self.step_times, start) {
+            times.contact += start.elapsed().as_secs_f64();
+        }
         self.check_step(dt)
     }
 
     /// Takes the step over: forces, second kick, energies, sleep.
-    fn land(&mut self, dt: f64) {
+    fn finish_step(&mut self, dt: f64) {
         self.take_over();
-        let (gravity, sleep, under) = (self.gravity, self.sleep, self.under(dt));
+        let (gravity, sleep, params) = (self.gravity, self.sleep, self.step_params(dt));
         self.films
-            .before_second_half((&self.bodies, &self.states), &self.touches);
-        let all = self.bodies.par_iter().zip(&self.sums);
-        let all = all.zip(&mut self.states).with_min_len(FEW);
+            .before_second_half(&self.bodies, &self.states, &self.contacts);
+        let all = self.bodies.par_iter().zip(&self.contact_sums);
+        let all = all.zip(&mut self.states).with_min_len(BLOCKS_PER_TASK);
         all.for_each(|((body, sum), state)| {
-            state.pull(sum);
+            state.set_contact_forces(sum);
             if let Some(sleep) = &sleep {
                 state.wake(body, sleep, gravity);
             }
-            body::land(body, state, under);
+            body::second_kick(body, state, params);
         });
         self.deforming
-            .pull(&self.bodies, &self.touches, &self.states);
-        self.deforming.land(&self.bodies, under, &mut self.states);
-        self.filmed += self.films.second_half(&self.bodies, &mut self.states);
-        self.stir();
-        self.books.film += self.filmed;
-        self.book(under);
+            .sum_contact_moments(&self.bodies, &self.contacts, &self.states);
+        self.deforming
+            .second_kick(&self.bodies, params, &mut self.states);
+        self.film_work += self.films.second_half(&self.bodies, &mut self.states);
+        self.wake_by_films();
+        self.work_sums.film += self.film_work;
+        self.add_work(params);
         if let Some(sleep) = &sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
                 if body.may_sleep() {
-                    state.drowse(body, sleep, dt);
+                    state.update_sleep(body, sleep, dt);
                 }
             }
         }
         self.time += dt;
         self.steps += 1;
-        self.shorten();
+        self.shorten_time_step();
     }
 
-    /// What was written becomes what is.
+    /// Accepts the trial state.
     fn take_over(&mut self) {
         std::mem::swap(&mut self.states, &mut self.next_states);
         std::mem::swap(&mut self.pairs, &mut self.next_pairs);
-        std::mem::swap(&mut self.touches, &mut self.next_touches);
+        std::mem::swap(&mut self.contacts, &mut self.next_contacts);
         let deforming = &mut self.deforming;
         std::mem::swap(&mut deforming.strains, &mut deforming.next);
     }
 
     /// A step of `dt` (s) from now.
-    fn under(&self, dt: f64) -> Under {
-        Under {
+    fn step_params(&self, dt: f64) -> StepParams {
+        StepParams {
             gravity: self.gravity,
             damping: self.damping,
             time: self.time,
@@ -219,18 +242,18 @@ impl Blocks {
         }
     }
 
-    /// Books a step that has been taken over.
-    fn book(&mut self, under: Under) {
-        let all = All {
+    /// Adds the works of an accepted step.
+    fn add_work(&mut self, params: StepParams) {
+        let all = BodyStates {
             bodies: &self.bodies,
             states: &self.states,
             deforming: &self.deforming,
         };
-        self.books.step(all, &mut self.touches, under);
+        self.work_sums.add_step(all, &mut self.contacts, params);
     }
 
-    /// Wakes the sleepers that films push at.
-    fn stir(&mut self) {
+    /// Wakes the sleeping blocks on which films act.
+    fn wake_by_films(&mut self) {
         let Some(sleep) = self.sleep else {
             return;
         };
@@ -246,11 +269,11 @@ impl Blocks {
     /// Puts all parts where their blocks are.
     pub(super) fn place(&mut self) {
         self.parts
-            .put(&self.bodies, &self.states, &self.deforming.strains);
+            .place_all(&self.bodies, &self.states, &self.deforming.strains);
     }
 
     /// Why a block has no pose at `time` (s).
-    fn lost(&self, number: usize, time: f64) -> Error {
+    fn not_finite(&self, number: usize, time: f64) -> Error {
         let strain = self.deforming.of_next(&self.bodies[number]);
         let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
         let block = self.label(number);
@@ -272,7 +295,7 @@ impl Blocks {
         }
     }
 
-    /// Wakes the sleepers that something new pulls at.
+    /// Wakes the sleeping blocks whose load has changed.
     pub(super) fn wake(&mut self) {
         let Some(sleep) = self.sleep else {
             return;
@@ -282,16 +305,16 @@ impl Blocks {
         }
     }
 
-    /// The contacts of all pairs where the blocks have flown to, and their sums. Those of the start are
-    /// bonded, and as deep as they are.
+    /// The contacts of all pairs at the trial positions, and their sums. At the start faces are bonded, and overlaps have
+    /// no limit.
     fn find_contacts(&mut self, dt: f64, bonding: bool) -> Result<()> {
-        let scene = narrow::Scene {
+        let narrowphase = narrowphase::Narrowphase {
             bodies: &self.bodies,
-            flights: &self.flights,
+            mid_steps: &self.mid_steps,
             deforming: &self.deforming,
             parts: &self.parts,
             joints: &self.joints,
-            touches: &self.touches,
+            contacts: &self.contacts,
             time_step: dt,
             bonding,
             largest_overlap: if bonding {
@@ -303,34 +326,35 @@ impl Blocks {
             film: self.film.as_ref(),
             periods: self.periods.as_ref(),
         };
-        narrow::resolve(
-            &scene,
-            &mut self.resolvers,
+        narrowphase::resolve(
+            &narrowphase,
+            &mut self.resolver_pool,
             &self.pairs,
             &mut self.next_pairs,
-            &mut self.next_touches,
+            &mut self.next_contacts,
         )?;
-        sums::of_touches(
-            &self.next_touches,
-            (&self.bodies, &self.deforming),
-            &self.flights,
+        sum_contacts(
+            &self.next_contacts,
+            &self.bodies,
+            &self.deforming,
+            &self.mid_steps,
             &self.joints,
-            &mut self.sums,
+            &mut self.contact_sums,
         );
         Ok(())
     }
 
-    fn check_start(&self, touches: &Touches) -> Result<()> {
-        let most = |touch: &Touch| TENTHS * self.start_overlap * touch.limit;
-        let mut deep: Vec<_> = touches.iter().filter(|t| t.overlap > most(t)).collect();
+    fn check_start(&self, contacts: &ContactList) -> Result<()> {
+        let most = |contact: &Contact| DISTANCES_PER_LIMIT * self.start_overlap * contact.limit;
+        let mut deep: Vec<_> = contacts.iter().filter(|t| t.overlap > most(t)).collect();
         if deep.is_empty() {
             return Ok(());
         }
         deep.sort_by(|a, b| b.overlap.total_cmp(&a.overlap));
-        let overlap = |touch: &&Touch| Overlap {
-            first: self.label(touch.blocks[0] as usize),
-            second: self.label(touch.blocks[1] as usize),
-            depth: touch.overlap,
+        let overlap = |contact: &&Contact| Overlap {
+            first: self.label(contact.blocks[0] as usize),
+            second: self.label(contact.blocks[1] as usize),
+            depth: contact.overlap,
         };
         Err(Error::Overlaps {
             pairs: deep.iter().map(overlap).collect(),
@@ -342,7 +366,8 @@ impl Blocks {
         if !self.given_step {
             return Ok(());
         }
-        let (frequency_squared, block) = bound::of_sums(&self.bodies, &self.deforming, &self.sums);
+        let (frequency_squared, block) =
+            time_step::of_sums(&self.bodies, &self.deforming, &self.contact_sums);
         let bound = law::longest_step(law::LARGEST_SHARE, frequency_squared);
         if dt <= bound {
             return Ok(());
@@ -356,11 +381,12 @@ impl Blocks {
     }
 
     /// Keeps a step that was not given within the usual bound of the present contacts.
-    fn shorten(&mut self) {
+    fn shorten_time_step(&mut self) {
         if self.given_step {
             return;
         }
-        let (frequency_squared, _) = bound::of_sums(&self.bodies, &self.deforming, &self.sums);
+        let (frequency_squared, _) =
+            time_step::of_sums(&self.bodies, &self.deforming, &self.contact_sums);
         let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
         self.time_step = self.time_step.min(usual);
     }

@@ -38,7 +38,7 @@ impl Blocks {
         let body = &self.bodies[block];
         let (one, strain) = self.deforming.of(body)?;
         let state = &self.states[block];
-        let (_, _, force) = one.accelerations(body, state, strain, self.gravity, self.time);
-        (!one.held.is_empty()).then_some(force)
+        let rate = one.accelerations(body, state, strain, self.gravity, self.time);
+        (!one.constraints.is_empty()).then_some(rate.support)
     }
 }

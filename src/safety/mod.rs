@@ -19,12 +19,31 @@
 //! | toppling | ΣM⁺/ΣM⁻ about an edge of the base: moments that hold the block over those that turn it over, of the parts of W along and across n, of the fluid, and of the point loads and the acceleration | Novak et al. 2007, Hydraulic Structures, §3.2; of W alone Wyllie & Mah 2004, chapter 9, Goodman & Bray 1976 |
 //!
 //! The fluid counts with its moment about the edge by its true line of action: thrust and uplift turn the block over, and
-//! uplift, buoyancy included, is not taken from W, as in the practice of gravity dams. Both ways reach one together, where
+//! uplift, buoyancy included, is not taken from W, as in the practice of gravity dams. Both factors reach one together, where
 //! the resultant goes through the edge; USACE (EM 1110-2-2200, 1995) judges by the place of that resultant alone. The fluid
 //! is one load: water that presses down on a slope is netted with its thrust.
 //!
 //! Which planes a block slides on follows from the direction of R alone: it may move into no neighbour that it touches (Goodman &
 //! Shi 1985, chapter 9).
+//!
+//! ```
+//! use glam::DVec3;
+//! use riprap::safety::{Mode, Plane, sliding, uplift};
+//!
+//! // 100 kN on a joint of 2 m² that dips by 30° along x, with a friction angle of 40° and no cohesion.
+//! let weight = DVec3::Z * -1e5;
+//! let (sin, cos) = 30f64.to_radians().sin_cos();
+//! let joint = Plane {
+//!     normal: DVec3::new(sin, 0.0, cos),
+//!     area: 2.0,
+//!     cohesion: 0.0,
+//!     friction_angle: 40f64.to_radians(),
+//! };
+//! let found = sliding(weight, &[joint]);
+//! assert!((found.factor - 40f64.to_radians().tan() / 30f64.to_radians().tan()).abs() < 1e-12);
+//! // Water that carries a quarter of the weight.
+//! assert_eq!(uplift(weight, -0.25 * weight), 4.0);
+//! ```
 
 mod patch;
 mod sliding;
@@ -40,7 +59,7 @@ pub use uplift::uplift;
 
 /// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.
 const ROUNDING: f64 = 1e-7;
-/// Angle by which a way may lead into a plane and is open, rad: normals of contacts tilt by 1e-6 to 1e-4, the overlap of
+/// Angle by which an open direction may lead into a plane, rad: normals of contacts tilt by 1e-6 to 1e-4, the overlap of
 /// their faces over the width.
 const TILT: f64 = 1e-3;
 

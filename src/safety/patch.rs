@@ -1,6 +1,6 @@
 //! Where two parts touch: the polygon that both have in the plane of their contact.
 
-use crate::rock::contact::{Placed, clip};
+use crate::geometry::{Placed, clip};
 use glam::DVec3;
 
 /// Cosine of the angle from which a face is across a contact's plane and bounds the patch: 10°. Those nearer to it are

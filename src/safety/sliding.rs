@@ -56,7 +56,7 @@ impl Sliding {
 }
 
 /// Safety against sliding under the resultant `force` (N) of weight, loads and fluid, contacts left out: the least factor of
-/// those of the ways that are open.
+/// those of the directions that are open.
 pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     if planes.is_empty() {
         return Sliding::none(f64::NAN, Mode::Free);
@@ -75,7 +75,7 @@ pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     least.unwrap_or(Sliding::none(f64::INFINITY, Mode::Held))
 }
 
-/// Whether the way `along`, a unit vector, leads into none of the planes but `own`.
+/// Whether the direction `along`, a unit vector, leads into none of the planes but `own`.
 fn is_open(along: DVec3, planes: &[Plane], own: &[usize]) -> bool {
     let others = planes.iter().enumerate().filter(|(n, _)| !own.contains(n));
     others.fold(true, |open, (_, plane)| {

@@ -30,12 +30,12 @@ struct Support {
 
 impl Support {
     /// Whether a block may begin to turn about an axis through `edge`: none of the corners then moves into the plane, by
-    /// more than the tilt of contacts over their distance from the axis. Where one is on the axis itself, rounding gives its way,
+    /// more than the tilt of contacts over their distance from the axis. Where one is on the axis itself, rounding gives its direction,
     /// so that the distance is that of the farthest.
     fn lets_turn(&self, axis: DVec3, edge: DVec3) -> bool {
-        let ways = self.corners.iter().map(|x| axis.cross(*x - edge));
-        let farthest = ways.clone().map(DVec3::length).fold(0.0, f64::max);
-        let into = ways.map(|way| -way.dot(self.plane.normal));
+        let directions = self.corners.iter().map(|x| axis.cross(*x - edge));
+        let farthest = directions.clone().map(DVec3::length).fold(0.0, f64::max);
+        let into = directions.map(|direction| -direction.dot(self.plane.normal));
         into.fold(0.0, f64::max) <= TILT * farthest
     }
 }
@@ -50,7 +50,7 @@ impl Standing {
         let supports = supports(setup, blocks, block);
         let planes: Vec<Plane> = supports.iter().map(|support| support.plane).collect();
         let fluid = Wrench { force, torque };
-        let [push, turn] = blocks.acting(block);
+        let [push, turn] = blocks.applied_load(block);
         let acting = Wrench {
             force: push,
             torque: turn,
@@ -109,8 +109,8 @@ fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
 mod tests {
     use super::*;
 
-    /// A wall beside a block that topples along it, whose normal leans by `tilt` (rad) against the way.
-    fn beside(tilt: f64) -> Support {
+    /// A side wall of a block that topples along it, whose normal leans by `tilt` (rad) against the motion.
+    fn side_wall(tilt: f64) -> Support {
         let corner = |(x, z)| DVec3::new(x, 0.0, z);
         Support {
             plane: Plane {
@@ -128,12 +128,15 @@ mod tests {
     fn a_wall_along_the_way_holds_no_edge_whatever_the_tilt_of_its_contact() {
         for axis in [DVec3::Y, -DVec3::Y] {
             for tilt in [1e-6, -1e-6, 1e-4, -1e-4] {
-                assert!(beside(tilt).lets_turn(axis, DVec3::ZERO), "{axis} {tilt}");
+                assert!(
+                    side_wall(tilt).lets_turn(axis, DVec3::ZERO),
+                    "{axis} {tilt}"
+                );
             }
         }
-        assert!(!beside(0.01).lets_turn(-DVec3::Y, DVec3::ZERO));
+        assert!(!side_wall(0.01).lets_turn(-DVec3::Y, DVec3::ZERO));
         // Into the wall itself.
-        assert!(!beside(0.0).lets_turn(DVec3::X, DVec3::ZERO));
-        assert!(beside(0.0).lets_turn(-DVec3::X, DVec3::ZERO));
+        assert!(!side_wall(0.0).lets_turn(DVec3::X, DVec3::ZERO));
+        assert!(side_wall(0.0).lets_turn(-DVec3::X, DVec3::ZERO));
     }
 }

@@ -2,15 +2,15 @@
 
 use super::patch::patch;
 use crate::{
-    geometry::{Form, Part, Pose, Shape},
+    geometry::{Form, Part, Placed, Pose, Shape},
     psm::{area_of, corners},
-    rock::{Blocks, ContactPoint, Motion, Setup, contact::Placed},
+    rock::{Blocks, ContactPoint, Motion, Setup},
 };
 use glam::DVec3;
 
 /// Gap within which two faces touch, as a share of the block's radius: the rounding of scenes.
 const CLOSED: f64 = 1e-4;
-/// Least area of a touch, as a share of the square of the block's radius: faces beside that on which a block stands reach
+/// Least area of a touch, as a share of the square of the block's radius: faces next to that on which a block stands reach
 /// its ground with their edges, by the overlap of contacts.
 const AREA: f64 = 1e-3;
 
@@ -47,12 +47,20 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
         let first: usize = before.iter().map(|block| block.shape.parts().len()).sum();
         let part: &Part = &setup.blocks[block].shape.parts()[contact.parts[side] - first];
         let mut placed = Placed::of(part, &poses[block]);
-        placed.centre += if side == 1 { contact.way } else { DVec3::ZERO };
+        placed.centre += if side == 1 {
+            contact.image_shift
+        } else {
+            DVec3::ZERO
+        };
         placed
     });
     // The normal goes from the first block to the second, which may be an image.
     let second = contact.blocks[1] == block;
-    let back = if second { contact.way } else { DVec3::ZERO };
+    let back = if second {
+        contact.image_shift
+    } else {
+        DVec3::ZERO
+    };
     let mut corners = patch(contact.point, contact.normal, [&a, &b]);
     corners.iter_mut().for_each(|corner| *corner -= back);
     Touching {
@@ -80,11 +88,13 @@ fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]
             continue;
         }
         let apart = its.centre - pose.centre;
-        let ways = blocks.ways([block, other], apart, near);
-        let within = ways.iter().filter(|way| (apart + **way).length() <= near);
-        for way in within {
+        let image_shifts = blocks.image_shifts([block, other], apart, near);
+        let within = image_shifts
+            .iter()
+            .filter(|shift| (apart + **shift).length() <= near);
+        for shift in within {
             let image = Pose {
-                centre: its.centre + *way,
+                centre: its.centre + *shift,
                 ..*its
             };
             faces_on(

@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::rock::law::Elastic;
-
 /// A rock, and how its joints push, slide and break.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -53,14 +51,6 @@ impl Material {
 
     fn usual_ratio() -> f64 {
         0.25
-    }
-
-    /// Elasticity of the rock itself, if it is given.
-    pub fn elastic(&self) -> Option<Elastic> {
-        self.youngs_modulus.map(|youngs_modulus| Elastic {
-            youngs_modulus,
-            poissons_ratio: self.poissons_ratio,
-        })
     }
 
     /// Shear stiffness, given or not, Pa/m.

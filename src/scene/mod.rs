@@ -2,6 +2,32 @@
 //!
 //! A scene is a TOML file. Every table is a type of this module, every key a public field;
 //! [`Scene::schema`] is the same as a JSON schema.
+//!
+//! [`build`] makes the setups of the engines from a scene, in the units of [`Units::of`](crate::units::Units::of).
+//!
+//! ```
+//! use riprap::{scene::{Scene, build::lattice_setup}, units::Units};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! let text = r#"
+//!     domain = { size = [0.2, 0.1, 0.1], cell = 0.01 }
+//!     fluid = { density = 1000, viscosity = 1e-3, acceleration = [0.01, 0, 0] }
+//!     numerics.time_step = 0.001
+//!     run.steps = 100
+//!     [boundaries]
+//!     z_min.kind = "wall"
+//!     z_max.kind = "wall"
+//! "#;
+//! let scene = Scene::from_toml(text, ".".as_ref(), "channel.toml")?;
+//! let setup = lattice_setup(&scene, &Units::of(&scene)?, None)?;
+//! assert_eq!(setup.cells, [20, 10, 10]);
+//!
+//! // An error names the file, the line and the key.
+//! let error = Scene::from_toml(&text.replace("1e-3", "-1"), ".".as_ref(), "channel.toml");
+//! assert!(error.unwrap_err().to_string().starts_with("channel.toml:3:"));
+//! # Ok(())
+//! # }
+//! ```
 
 mod advice;
 mod block_shape;
@@ -22,6 +48,7 @@ mod output;
 mod parse;
 mod particles;
 mod probes;
+mod renamed;
 mod rock;
 mod rock_masses;
 mod run;
@@ -53,6 +80,7 @@ pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperato
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use particles::{EquationOfState, Particles, Scheme};
 pub use probes::{Probe, ProbePlace};
+pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};
 pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::Run;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::Scene;
-use crate::error::{Error, Result};
+use super::{Scene, renamed::renamed_keys};
+use crate::error::{Error, Place, Result};
 
 /// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
 /// other: `viscocity` and `viscosity` have 0.97, unrelated keys of the format stay below 0.7.
@@ -40,8 +40,8 @@ impl Scene {
         Ok(scene)
     }
 
-    /// `error`, whose place is a key of the scene in `text`, with the line and column of that key;
-    /// `place` names the text. Errors that have no such place stay as they are.
+    /// `error`, of a key of the scene in `text` or of an argument that was made from it, with the line and column of that
+    /// key; `place` names the text. Errors of other kinds stay as they are.
     pub fn locate(error: Error, text: &str, place: &str) -> Error {
         locate(error, text, place)
     }
@@ -49,6 +49,17 @@ impl Scene {
 
 /// The error of a text that does not follow the format.
 fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
+    // A text that is no TOML has no keys; its own error follows.
+    if let Some(first) = renamed_keys(text, place).unwrap_or_default().first() {
+        return Error::Scene {
+            place: Some(Place {
+                file: place.to_owned(),
+                position: Some([first.line, first.column]),
+            }),
+            key: first.key.old.to_owned(),
+            message: format!("{first}; `riprap migrate {place}` rewrites all old keys"),
+        };
+    }
     let span = error.span();
     let at = span.clone().map(|span| position(text, span.start));
     let message = match (error.message(), span.and_then(|span| text.get(span))) {
@@ -64,29 +75,30 @@ fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
         .trim_end()
         .rsplit_once("\nin `")
         .and_then(|(_, keys)| keys.strip_suffix('`'));
-    Error::scene(
-        match at {
-            Some((line, column)) => format!("{place}:{line}:{column}"),
-            None => place.to_owned(),
-        },
-        match keys {
-            Some(keys) => format!("{keys}: {message}"),
-            None => message,
-        },
-    )
+    Error::Scene {
+        place: Some(Place {
+            file: place.to_owned(),
+            position: at,
+        }),
+        key: keys.unwrap_or_default().to_owned(),
+        message,
+    }
 }
 
 /// The error of a check, with the line of the key that it names.
 fn locate(error: Error, text: &str, place: &str) -> Error {
     match error {
         Error::Scene {
-            place: key,
+            place: None,
+            key,
             message,
-        } => Error::Scene {
-            place: match find(text, &key) {
-                Some((line, column)) => format!("{place}:{line}:{column}: {key}"),
-                None => format!("{place}: {key}"),
-            },
+        }
+        | Error::Argument { what: key, message } => Error::Scene {
+            place: Some(Place {
+                file: place.to_owned(),
+                position: find(text, &key),
+            }),
+            key,
             message,
         },
         Error::Overlaps { mut pairs } => {
@@ -95,7 +107,7 @@ fn locate(error: Error, text: &str, place: &str) -> Error {
                     let name = block
                         .split_once(" (")
                         .map(|(_, name)| name.trim_end_matches(')'));
-                    if let Some((line, _)) = name.and_then(|name| find_block(text, name)) {
+                    if let Some([line, _]) = name.and_then(|name| find_block(text, name)) {
                         *block = format!("{block} of {place}:{line}");
                     }
                 }
@@ -108,7 +120,7 @@ fn locate(error: Error, text: &str, place: &str) -> Error {
 
 /// Line and column of the value at the path `key` such as `probes[1].at`, or of the nearest
 /// table around it that is written in the text.
-fn find(text: &str, key: &str) -> Option<(usize, usize)> {
+fn find(text: &str, key: &str) -> Option<[usize; 2]> {
     if let Some(name) = key.strip_prefix("block ") {
         return find_block(text, name);
     }
@@ -128,7 +140,7 @@ fn find(text: &str, key: &str) -> Option<(usize, usize)> {
 }
 
 /// Line and column of the table that makes the block `name`, or many of which it is one, `name_3` of `name`.
-fn find_block(text: &str, name: &str) -> Option<(usize, usize)> {
+fn find_block(text: &str, name: &str) -> Option<[usize; 2]> {
     let document = toml::de::DeTable::parse(text).ok()?;
     let tables = ["blocks", "solids", "rock_masses"].into_iter();
     let tables = tables.filter_map(|key| document.get_ref().get(key)?.get_ref().as_array());
@@ -152,13 +164,13 @@ fn find_block(text: &str, name: &str) -> Option<(usize, usize)> {
 }
 
 /// Line and column of the byte `offset`, counted from 1.
-fn position(text: &str, offset: usize) -> (usize, usize) {
+pub(super) fn position(text: &str, offset: usize) -> [usize; 2] {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (
+    [
         before.matches('\n').count() + 1,
         before[line_start..].chars().count() + 1,
-    )
+    ]
 }
 
 /// serde's words, in those of the format.

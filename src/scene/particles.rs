@@ -51,12 +51,6 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Speed of sound over the largest speed: density then varies by about a hundredth.
-    pub const SOUND: f64 = 10.0;
-
-    /// Stiffness of the scheme `mueller` over the square of the largest speed.
-    pub const STIFFNESS: f64 = 5.0;
-
     /// Those of this spacing (m), the rest as it is by default.
     pub fn of(spacing: f64) -> Self {
         Self {

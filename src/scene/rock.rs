@@ -32,7 +32,7 @@ pub struct Rock {
     /// they are refused.
     pub relax: bool,
     /// Where pairs that may touch are searched. Default `auto`.
-    pub search: Search,
+    pub broadphase: Search,
 }
 
 impl Default for Rock {
@@ -46,7 +46,7 @@ impl Default for Rock {
             largest_overlap: 0.1,
             corner_area: 0.0,
             relax: false,
-            search: Search::default(),
+            broadphase: Search::default(),
         }
     }
 }

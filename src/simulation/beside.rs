@@ -1,7 +1,7 @@
 //! The first cells beside walls, solids and blocks.
 
-use super::Simulation;
-use crate::lattice::Face;
+use super::lattice_fluid::LatticeFluid;
+use crate::{coupling::Coupled, lattice::Face};
 use glam::DVec3;
 
 /// A fluid cell beside a wall, a solid or a block.
@@ -18,13 +18,10 @@ pub(super) struct BesideWall {
     pub block: Option<usize>,
 }
 
-impl Simulation {
+impl LatticeFluid {
     /// All of them; a cell beside two walls is there for each, but only once for all blocks.
-    pub(super) fn cells_beside(&self) -> Vec<BesideWall> {
-        let near = self
-            .coupled
-            .as_ref()
-            .map(|coupled| coupled.cells_near_blocks(1.5));
+    pub(super) fn cells_beside(&self, coupled: Option<Coupled<'_>>) -> Vec<BesideWall> {
+        let near = coupled.map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
         // Where a block is close, its cells are those of the block.
         let taken: Vec<u32> = near.iter().map(|found| found.cell.index).collect();
@@ -37,8 +34,7 @@ impl Simulation {
                 continue;
             }
             let centre = self.centre_of(at);
-            let velocity = self.coupled.as_ref();
-            let velocity = velocity.map(|coupled| coupled.solid_velocity(found.block, centre));
+            let velocity = coupled.map(|coupled| coupled.solid_velocity(found.block, centre));
             all.push(BesideWall {
                 cell: at,
                 normal: found.cell.normal,

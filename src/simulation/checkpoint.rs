@@ -1,142 +1,155 @@
-//! A state on disk: canonical order, so that it restarts under any storage, lanes or bindings.
+//! The state of a simulation between two steps. Arrays of the device are in canonical order, so that they restart under any
+//! storage, lanes or bindings.
 
-mod blocks;
-mod sealed;
-mod water;
-
-pub use blocks::BlockCheckpoint;
-pub use water::WaterCheckpoint;
+#[cfg(feature = "checkpoint")]
+mod file;
 
 use crate::{
     Error, Result,
-    coupling::CoupledState,
+    coupling::{CouplingState, RockState},
+    geometry::Load,
     lattice::{Inside, Populations},
+    scene::Scene,
+    simulation::Reading,
+    sph::{Particle, SphState},
 };
-use std::path::Path;
+use glam::DVec3;
+use std::fmt;
+
+/// What a simulation consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Blocks without a fluid.
+    Rock,
+    /// A fluid on a lattice, with or without blocks.
+    Lattice,
+    /// Free water (SPH), with or without blocks.
+    Particles,
+}
+
+impl Kind {
+    /// The kind of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        if scene.has_particles() {
+            Self::Particles
+        } else if scene.has_fluid() {
+            Self::Lattice
+        } else {
+            Self::Rock
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rock => "blocks alone",
+            Self::Lattice => "a fluid on a lattice",
+            Self::Particles => "free water",
+        })
+    }
+}
 
 /// The state of a simulation between two steps.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
-    /// Time step, s.
+    /// Steps done.
+    pub step: u64,
+    /// Length of a step, s.
     pub time_step: f64,
+    /// The blocks, if there are any.
+    pub rock: Option<RockState>,
+    /// The fluid, if there is one.
+    pub fluid: Option<FluidState>,
+}
+
+/// The state of a fluid.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub enum FluidState {
+    /// On a lattice.
+    Lattice(LatticeState),
+    /// Free water.
+    Particles(WaterState),
+}
+
+/// The state of a fluid on a lattice.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct LatticeState {
     /// Cell size, m.
     pub cell: f64,
-    /// The fluid.
+    /// The populations.
     pub populations: Populations,
     /// Velocities where blocks are, which nothing of the next step depends on.
     pub inside: Inside,
-    /// The blocks in it.
-    pub blocks: Option<CoupledState>,
+    /// The coupling to blocks, if there are any.
+    pub coupling: Option<CouplingState>,
 }
 
-/// First bytes of a file; the digit is the version of the format.
-const MAGIC: &sealed::Magic = b"riprap state  4\n";
-/// Step, three cell counts, four lengths, time step, cell, bytes of the blocks.
-const HEADER: usize = 8 + 3 * 4 + 4 * 8 + 2 * 8 + 8;
+/// The state of free water.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct WaterState {
+    /// Lower corner of the domain, m.
+    pub origin: DVec3,
+    /// Its size, m.
+    pub size: DVec3,
+    /// Spacing of the particles, m.
+    pub spacing: f64,
+    /// The particles, in the order and the units of the device.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
+    pub particles: Vec<Particle>,
+    /// State of the solver besides.
+    pub solver: SphState,
+    /// Mean load on each block in the last exchange; empty before the first one.
+    pub loads: Vec<Load>,
+    /// Work of blocks since the start in joints that have no particles, J.
+    pub joints: f64,
+    /// Measurements of the pressure sensors.
+    pub sensors: Vec<Reading>,
+}
 
 impl Checkpoint {
-    /// Writes the file; one that is there stays whole until the new one is complete.
-    ///
-    /// # Errors
-    /// [`Error::File`] if it cannot be written.
-    pub fn write(&self, path: &Path) -> Result<()> {
-        let Populations {
-            step,
-            cells,
-            values,
-            velocity,
-            carried,
-        } = &self.populations;
-        sealed::write(path, MAGIC, |file| {
-            file.write_all(&step.to_le_bytes())?;
-            for n in cells {
-                file.write_all(&n.to_le_bytes())?;
-            }
-            let lists = [values, velocity, carried, &self.inside.velocity];
-            for list in lists {
-                file.write_all(&(list.len() as u64).to_le_bytes())?;
-            }
-            file.write_all(&self.time_step.to_le_bytes())?;
-            file.write_all(&self.cell.to_le_bytes())?;
-            let blocks = self.blocks.as_ref().map(CoupledState::to_bytes);
-            let blocks = blocks.unwrap_or_default();
-            file.write_all(&(blocks.len() as u64).to_le_bytes())?;
-            for list in lists {
-                let mut bytes = Vec::with_capacity(4 * list.len());
-                bytes.extend(list.iter().flat_map(|value| value.to_le_bytes()));
-                file.write_all(&bytes)?;
-            }
-            for cell in &self.inside.cells {
-                file.write_all(&cell.to_le_bytes())?;
-            }
-            file.write_all(&blocks)
-        })
+    /// What the simulation consists of.
+    pub fn kind(&self) -> Kind {
+        match self.fluid {
+            None => Kind::Rock,
+            Some(FluidState::Lattice(_)) => Kind::Lattice,
+            Some(FluidState::Particles(_)) => Kind::Particles,
+        }
     }
 
-    /// Reads a file.
+    /// Checks that it is of a simulation of the same kind and time step.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read, is no checkpoint, or is not as it was written.
-    pub fn read(path: &Path) -> Result<Self> {
-        let bytes = sealed::read(path, MAGIC, "a fluid on a lattice")?;
-        let broken = |message: &str| Error::file(path, message);
-        let long = |at: usize| {
-            let part = bytes.get(at..at + 8).and_then(|part| part.try_into().ok());
-            part.map(u64::from_le_bytes).ok_or_else(|| broken(CUT))
-        };
-        let short = |at: usize| {
-            let part = bytes.get(at..at + 4).and_then(|part| part.try_into().ok());
-            part.map(u32::from_le_bytes).ok_or_else(|| broken(CUT))
-        };
-        let cells = [short(8)?, short(12)?, short(16)?];
-        let lengths = [long(20)?, long(28)?, long(36)?, long(44)?];
-        let inside = lengths[3] / 3;
-        let expected = lengths
-            .iter()
-            .chain([&inside])
-            .fold(0u64, |sum, n| sum.saturating_add(n.saturating_mul(4)));
-        let rest = bytes.len().saturating_sub(HEADER) as u64;
-        if expected.saturating_add(long(68)?) != rest {
-            return Err(broken(CUT));
+    /// [`Error::Scene`] if not.
+    pub(super) fn check(&self, kind: Kind, time_step: f64) -> Result<()> {
+        if self.kind() != kind {
+            return Err(other_scene(self.kind(), kind));
         }
-        let (values, blocks) = bytes[HEADER..].split_at(expected as usize);
-        let blocks = match blocks {
-            [] => None,
-            _ => Some(
-                CoupledState::from_bytes(blocks).map_err(|error| match error {
-                    Error::Scene { message, .. } => broken(&message),
-                    other => other,
-                })?,
-            ),
-        };
-        let words = values.chunks_exact(4);
-        let mut words = words.map(|part| u32::from_le_bytes(std::array::from_fn(|k| part[k])));
-        let mut list = |n: u64| {
-            words
-                .by_ref()
-                .take(n as usize)
-                .map(f32::from_bits)
-                .collect()
-        };
-        let [values, velocity, carried, shown] = lengths.map(&mut list);
-        let inside = Inside {
-            cells: words.collect(),
-            velocity: shown,
-        };
-        Ok(Self {
-            inside,
-            time_step: f64::from_bits(long(52)?),
-            cell: f64::from_bits(long(60)?),
-            blocks,
-            populations: Populations {
-                step: long(0)?,
-                cells,
-                values,
-                velocity,
-                carried,
-            },
-        })
+        if differ(self.time_step, time_step) {
+            return Err(other_scene(
+                format!("steps of {:e} s", self.time_step),
+                format!("steps of {time_step:e} s"),
+            ));
+        }
+        Ok(())
     }
 }
 
-const CUT: &str = "the checkpoint is cut short; use an older one";
+/// Whether two lengths differ by more than rounding.
+pub(super) fn differ(its: f64, own: f64) -> bool {
+    (its - own).abs() > 1e-12 * own
+}
+
+/// The error of a checkpoint that is of something else than the scene.
+pub(super) fn other_scene(its: impl fmt::Display, own: impl fmt::Display) -> Error {
+    Error::argument(
+        "restart",
+        format!(
+            "the checkpoint is of {its}, and the scene of {own}; restart with the scene that wrote it"
+        ),
+    )
+}

@@ -1,20 +1,22 @@
 //! Why a run left the range of the method, and what to change.
 
-use super::Simulation;
+use super::lattice_fluid::LatticeFluid;
 use crate::{
     Error,
+    coupling::{Coupled, Rock},
     lattice::{self, Fault},
     scene::Face,
 };
 
-impl Simulation {
+impl LatticeFluid {
     /// The error of a fault, with its likely cause in numbers.
-    pub(super) fn diverged(&self, fault: Fault) -> Error {
+    pub fn diverged(&self, rock: Option<&Rock>, fault: Fault) -> Error {
         let setup = self.lattice.setup();
-        if let Some([cause, remedy]) = self.block_at_inlet() {
+        let coupled = self.coupled(rock);
+        if let Some([cause, remedy]) = coupled.and_then(|coupled| self.block_at_inlet(coupled)) {
             return self.fault(fault, cause, remedy);
         }
-        if let Some((cause, remedy)) = self.fast_block() {
+        if let Some((cause, remedy)) = coupled.and_then(|coupled| self.fast_block(coupled)) {
             return self.fault(fault, cause, remedy);
         }
         let excess = setup.tau() - 0.5;
@@ -62,8 +64,7 @@ impl Simulation {
     }
 
     /// A block that lies where fluid enters.
-    fn block_at_inlet(&self) -> Option<[String; 2]> {
-        let coupled = self.coupled.as_ref()?;
+    fn block_at_inlet(&self, coupled: Coupled<'_>) -> Option<[String; 2]> {
         let faces = &self.lattice.setup().faces;
         let through = |face: Face| {
             let axis = face.axis().index();
@@ -85,8 +86,7 @@ impl Simulation {
     }
 
     /// The fastest block, if no flow can follow it.
-    fn fast_block(&self) -> Option<(String, String)> {
-        let coupled = self.coupled.as_ref()?;
+    fn fast_block(&self, coupled: Coupled<'_>) -> Option<(String, String)> {
         let made = coupled.setup().setup.blocks[..coupled.in_fluid()].iter();
         let moving = coupled.blocks().poses().into_iter();
         let speeds = made.zip(moving).map(|(block, pose)| {

@@ -1,8 +1,9 @@
 //! What a simulation shows, in SI.
 
-use super::Simulation;
+use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
     Error, Result,
+    coupling::{Coupled, Rock},
     lattice::Derived,
     output::{Array, Image},
     scene::Field,
@@ -27,7 +28,7 @@ impl Simulation {
     /// The given fields on all cells.
     ///
     /// # Errors
-    /// If the device is lost or does not hold a field.
+    /// If the scene has no fluid on a lattice, the device is lost or does not hold a field.
     pub async fn image(&mut self, fields: &[Field]) -> Result<Image> {
         Ok(Image {
             origin: self.scene.domain.origin,
@@ -41,9 +42,9 @@ impl Simulation {
     /// fastest; only their values leave the device.
     ///
     /// # Errors
-    /// If a cell is outside of the domain, the device is lost or does not hold a field.
+    /// If the scene has no fluid on a lattice, a cell is outside of the domain, the device is lost or does not hold a field.
     pub async fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
-        let count = self.lattice.grid().cell_count();
+        let count = self.lattice_fluid()?.lattice.grid().cell_count();
         if let Some(outside) = cells.iter().find(|cell| **cell as usize >= count) {
             return Err(Error::scene(
                 "cells",
@@ -54,6 +55,42 @@ impl Simulation {
     }
 
     async fn arrays(&mut self, fields: &[Field], cells: Option<&[u32]>) -> Result<Vec<Array>> {
+        let (fluid, rock) = self.lattice_and_rock()?;
+        fluid.arrays(rock, fields, cells).await
+    }
+
+    /// The sums over the fluid.
+    ///
+    /// # Errors
+    /// If the scene has no fluid on a lattice, or the device is lost.
+    pub async fn totals(&mut self) -> Result<Totals> {
+        let (fluid, _) = self.lattice_and_rock()?;
+        let sums = fluid
+            .observer
+            .sums(&fluid.device, &fluid.queue, &mut fluid.lattice)
+            .await?;
+        let units = &fluid.units;
+        let volume = units.cell.powi(3);
+        let mass = units.density * volume;
+        let speed = units.velocity_from_lattice(1.0);
+        let rate = units.rate_from_lattice(1.0);
+        Ok(Totals {
+            mass: mass * (sums.cells + sums.excess),
+            momentum: sums.momentum.map(|j| mass * speed * j),
+            kinetic_energy: mass * speed * speed * sums.kinetic_energy,
+            enstrophy: volume * rate * rate * sums.enstrophy,
+            max_speed: speed * sums.max_speed,
+        })
+    }
+}
+
+impl LatticeFluid {
+    async fn arrays(
+        &mut self,
+        rock: Option<&Rock>,
+        fields: &[Field],
+        cells: Option<&[u32]>,
+    ) -> Result<Vec<Array>> {
         let units = self.units;
         let mut state = None;
         let mut arrays = Vec::with_capacity(fields.len());
@@ -96,7 +133,7 @@ impl Simulation {
                     }
                     interleave(&parts, 1.0)
                 }
-                Field::Solid => self.solid_values(cells),
+                Field::Solid => self.solid_values(self.coupled(rock), cells),
             };
             arrays.push(Array {
                 name: field.name().into(),
@@ -123,10 +160,9 @@ impl Simulation {
     }
 
     /// 1 in solid cells, and in those whose centres are in a block.
-    fn solid_values(&self, cells: Option<&[u32]>) -> Vec<f32> {
+    fn solid_values(&self, coupled: Option<Coupled<'_>>, cells: Option<&[u32]>) -> Vec<f32> {
         let solid = self.solid();
-        let blocks = self.coupled.as_ref();
-        let blocks = blocks.map_or_else(Vec::new, |coupled| coupled.cells_near_blocks(0.0));
+        let blocks = coupled.map_or_else(Vec::new, |coupled| coupled.cells_near_blocks(0.0));
         let value = |cell: usize| {
             let in_block = || blocks.binary_search_by_key(&cell, |found| found.cell.index as usize);
             let is_solid = solid.get(cell).is_some_and(|solid| *solid) || in_block().is_ok();
@@ -136,29 +172,6 @@ impl Simulation {
             Some(cells) => cells.iter().map(|cell| value(*cell as usize)).collect(),
             None => (0..self.lattice.grid().cell_count()).map(value).collect(),
         }
-    }
-
-    /// The sums over the fluid.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub async fn totals(&mut self) -> Result<Totals> {
-        let sums = self
-            .observer
-            .sums(&self.device, &self.queue, &mut self.lattice)
-            .await?;
-        let units = &self.units;
-        let volume = units.cell.powi(3);
-        let mass = units.density * volume;
-        let speed = units.velocity_from_lattice(1.0);
-        let rate = units.rate_from_lattice(1.0);
-        Ok(Totals {
-            mass: mass * (sums.cells + sums.excess),
-            momentum: sums.momentum.map(|j| mass * speed * j),
-            kinetic_energy: mass * speed * speed * sums.kinetic_energy,
-            enstrophy: volume * rate * rate * sums.enstrophy,
-            max_speed: speed * sums.max_speed,
-        })
     }
 }
 

@@ -1,214 +1,294 @@
-//! A scene on a device: the loop that a user sees.
+//! A scene on a device: blocks, a fluid, or both, in one loop.
 
 mod beside;
 mod block_fields;
 pub mod checkpoint;
-mod countable;
 mod diverged;
-mod dry;
 mod face_surface;
 mod fields;
-mod flow;
-mod free_surface;
+mod lattice_fluid;
 mod needs;
-mod pool;
+mod point_cloud;
 pub mod probe;
-mod scene_step;
+mod rock_step;
 mod sensors;
+mod sph_fluid;
 mod wall_units;
 mod water_ledger;
 
 pub use block_fields::{block_polyhedra, contact_cloud, voigt};
-pub use dry::Dry;
-pub(crate) use dry::{begin, finder};
+pub use checkpoint::Kind;
 pub use face_surface::face_surface;
 pub use fields::Totals;
-pub use free_surface::FreeSurface;
-pub use needs::Needs;
-pub(crate) use scene_step::scene_step;
+pub use needs::{LatticeNeeds, Needs};
+pub use point_cloud::point_cloud;
 pub use sensors::Reading;
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 pub use water_ledger::WaterLedger;
 
-use self::countable::countable;
+pub use crate::gpu::timer::Phase;
 use crate::{
     Error, Result,
-    coupling::{self, Coupled, Rock},
-    error::told,
-    lattice::{Collision, Derived, Lattice, Observer, State},
+    coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock},
+    geometry::Pose,
+    gpu::timer::Phases,
+    lattice::{Lattice, Setup},
     scene::{
-        Advice, Boundary, Face, SUGA_EXCESS, Scene,
-        build::{block_setup, lattice_setup},
+        Advice, Scene,
+        build::{BlockSetup, block_setup, lattice_setup},
     },
-    simulation::checkpoint::Checkpoint,
+    sph::{SphSolver, Water},
     units::Units,
 };
-use flow::Flow;
+use checkpoint::{Checkpoint, FluidState, other_scene};
+use lattice_fluid::LatticeFluid;
+use rock_step::rock_step;
+use sph_fluid::SphFluid;
+use std::sync::Arc;
 
-/// A scene that runs.
+/// A scene that runs: blocks, a fluid on a lattice or free water (SPH), or blocks in one of these.
 ///
-/// Nothing here blocks: what reads from the device is a future, and somebody must poll the device
-/// meanwhile (`wgpu::Device::poll`).
+/// No method blocks: what reads from the device is a future, and the caller must poll the device while it awaits one
+/// (`wgpu::Device::poll`).
 #[derive(Debug)]
 pub struct Simulation {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    scene: Scene,
-    units: Units,
+    scene: Arc<Scene>,
     advice: Advice,
-    lattice: Lattice,
-    observer: Observer,
-    /// Velocity faces whose formulas contain the time.
-    changing: Vec<Face>,
-    /// The blocks in the fluid.
-    coupled: Option<Coupled>,
+    rock: Option<Rock>,
+    fluid: Option<Fluid>,
+    /// s
+    time_step: f64,
+    step: u64,
+}
+
+/// The fluid of a scene.
+#[derive(Debug)]
+enum Fluid {
+    Lattice(Box<LatticeFluid>),
+    Particles(Box<SphFluid>),
+}
+
+impl coupling::Fluid for Fluid {
+    fn time(&self) -> f64 {
+        match self {
+            Self::Lattice(fluid) => fluid.time(),
+            Self::Particles(fluid) => fluid.time(),
+        }
+    }
+
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        match self {
+            Self::Lattice(fluid) => fluid.advance(poses, interval, end).await,
+            Self::Particles(fluid) => fluid.advance(poses, interval, end).await,
+        }
+    }
 }
 
 impl Simulation {
     /// Compiles the kernels of a scene and sets its initial state.
     ///
     /// # Errors
-    /// What the scene lacks, or what the device cannot hold.
+    /// What the scene lacks, or what the device cannot hold; those of [`Rock::new`].
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
-        let units = Units::of(scene)?;
-        let mut advice = scene.advise(&units)?;
-        advice.extend(scene.slips(units.time_step));
-        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-        let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
-        let mut start = start(scene, &units)?;
-        let changing = |(face, boundary): (Face, &Boundary)| match boundary {
-            Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
-            _ => None,
-        };
-        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = async {
-            let mut lattice = Lattice::new(device, setup)?;
-            let observer = Observer::new(device, &lattice)?;
-            let coupled = match scene.has_blocks() {
-                true => {
-                    let blocks = block_setup(scene)?;
-                    let scene = (scene, &units);
-                    let made = Coupled::new(device, queue, &lattice, scene, blocks).await?;
-                    countable(units.time_step, made.blocks())?;
-                    Some(made)
-                }
-                false => None,
-            };
-            if let Some(coupled) = &coupled {
-                advice.extend(coupled.advise(scene));
-                coupled.set_interior_velocity(&scene.domain, &mut start);
+        match Kind::of(scene) {
+            Kind::Rock => Self::of_rock(Some((device, queue)), scene, block_setup(scene)?).await,
+            Kind::Particles => Self::of_water(device, queue, scene).await,
+            Kind::Lattice => {
+                let units = Units::of(scene)?;
+                let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+                let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
+                Self::of_lattice(device, queue, scene, setup).await
             }
-            lattice.start(device, queue, &start, true)?;
-            Ok((lattice, observer, coupled))
-        };
-        let made = made.await;
-        // What a buffer that is none is bound to is not valid either: memory is the cause.
-        let [validity, memory] = [validity.pop(), memory.pop()];
-        let refused = (validity.await, memory.await);
-        let (lattice, observer, coupled) = made?;
-        if let Some(error) = refused.1.or(refused.0) {
-            let bytes: u64 = lattice.bytes().iter().map(|(_, bytes)| bytes).sum();
-            return Err(Error::Device(format!(
-                "it does not hold {} cells, {bytes} bytes in its buffers ({}); use a larger cell or 16-bit storage",
-                lattice.grid().cell_count(),
-                told(&error)
-            )));
         }
+    }
+
+    /// The same with the [`Needs`] of the scene, which have the setup of its lattice: it is not made again.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::new`].
+    pub async fn with_needs(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        needs: &Needs,
+    ) -> Result<Self> {
+        match &needs.lattice {
+            Some(lattice) => Self::of_lattice(device, queue, scene, lattice.setup.clone()).await,
+            None => Self::new(device, queue, scene).await,
+        }
+    }
+
+    /// A scene of blocks without a fluid, as [`block_setup`] makes them. Pairs are searched on the host without a `device`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the scene has a fluid, or no time step; those of [`Rock::new`].
+    pub async fn of_rock(
+        device: Option<(&wgpu::Device, &wgpu::Queue)>,
+        scene: &Scene,
+        setup: BlockSetup,
+    ) -> Result<Self> {
+        if Kind::of(scene) != Kind::Rock {
+            let message = "the scene has a fluid, which needs a device; use Simulation::new";
+            return Err(Error::argument("fluid", message));
+        }
+        let rock = Rock::new(device, scene, setup, None).await?;
+        let time_step = rock_step(scene, rock.blocks())?;
         Ok(Self {
-            device: device.clone(),
-            queue: queue.clone(),
-            coupled,
-            scene: scene.clone(),
-            units,
-            advice,
-            lattice,
-            observer,
-            changing: scene.boundaries.iter().filter_map(changing).collect(),
+            scene: Arc::new(scene.clone()),
+            advice: scene.slips(time_step),
+            rock: Some(rock),
+            fluid: None,
+            time_step,
+            step: 0,
         })
     }
 
-    /// Takes `steps` steps and looks at the guard.
+    async fn of_water(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
+        let (fluid, rock, time_step) = SphFluid::new(device, queue, scene).await?;
+        Ok(Self {
+            scene: Arc::new(scene.clone()),
+            advice: scene.slips(time_step),
+            rock: Some(rock),
+            fluid: Some(Fluid::Particles(Box::new(fluid))),
+            time_step,
+            step: 0,
+        })
+    }
+
+    async fn of_lattice(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        setup: Setup,
+    ) -> Result<Self> {
+        let units = Units::of(scene)?;
+        let mut advice = scene.advise(&units)?;
+        advice.extend(scene.slips(units.time_step));
+        let scene = Arc::new(scene.clone());
+        let (fluid, rock, of_blocks) =
+            LatticeFluid::new(device, queue, (&scene, units), setup).await?;
+        advice.extend(of_blocks);
+        Ok(Self {
+            scene,
+            advice,
+            rock,
+            fluid: Some(Fluid::Lattice(Box::new(fluid))),
+            time_step: units.time_step,
+            step: 0,
+        })
+    }
+
+    /// Takes `steps` steps, and checks that the fluid is within the range of the method.
     ///
     /// # Errors
-    /// [`Error::Diverged`] if the flow left the range of the method; those of the blocks; a lost device. If the
-    /// blocks cannot move, they are where they were at the last exchange, and the fluid is at the end of the
-    /// step; a checkpoint leads back to a state from which all can go on.
+    /// [`Error::Diverged`] and [`Error::ParticleLost`] if the fluid left the range of the method; those of
+    /// [`Blocks::advance`](crate::rock::Blocks::advance); [`Error::DeviceLost`]. Blocks without a fluid then are where they
+    /// were after the last whole step. Blocks in a fluid are where they were at the last exchange, and the fluid is
+    /// beyond; [`Simulation::restore`] leads back to a state from which all can go on.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
-        let end = (self.step() + steps) as f64 * self.units.time_step;
-        let (mut flow, rock) = self.flow_and_rock();
-        let done = match rock {
-            Some(rock) => coupling::run(&mut flow, rock, end).await,
-            None => flow.run(end).await,
-        };
-        let fault = self
-            .observer
-            .fault(&self.device, &self.queue, &self.lattice)
-            .await?;
-        // What the flow did wrong reaches the blocks: it is the cause of what they complain of.
-        if let Some(fault) = fault {
-            return Err(self.diverged(fault));
+        let last = self.step() + steps;
+        while self.step() < last {
+            // A lattice records as many steps as it can in one go; the others keep to the steps of the scene.
+            let next = match &self.fluid {
+                Some(Fluid::Lattice(_)) => last,
+                _ => self.step + 1,
+            };
+            let done = self.advance_to(next as f64 * self.time_step).await;
+            match &mut self.fluid {
+                Some(Fluid::Lattice(fluid)) => fluid.check(self.rock.as_ref(), done).await?,
+                _ => done?,
+            }
+            self.step = next;
         }
-        done?;
-        self.check_suga().await
+        Ok(())
     }
 
-    /// The fluid, and the blocks in it.
-    fn flow_and_rock(&mut self) -> (Flow<'_>, Option<&mut Rock>) {
-        let (rock, coupling) = self
-            .coupled
-            .as_mut()
-            .map(Coupled::rock_and_coupling)
-            .unzip();
-        let flow = Flow {
-            device: &self.device,
-            queue: &self.queue,
-            scene: &self.scene,
-            units: &self.units,
-            lattice: &mut self.lattice,
-            changing: &self.changing,
-            coupling,
-        };
-        (flow, rock)
+    /// Advances to the time `end` (s).
+    async fn advance_to(&mut self, end: f64) -> Result<()> {
+        if let Some(Fluid::Particles(fluid)) = &mut self.fluid {
+            // Checkpoints lie between steps.
+            fluid.begin(self.step as f64 * self.time_step);
+        }
+        match (&mut self.fluid, &mut self.rock) {
+            (Some(fluid), Some(rock)) => coupling::run(fluid, rock, end).await,
+            (Some(Fluid::Lattice(fluid)), None) => fluid.run(end).await,
+            (None, Some(rock)) => rock.advance(end).await,
+            // Free water always has a rock, of no blocks if the scene has none.
+            (Some(Fluid::Particles(_)) | None, None) => Ok(()),
+        }
     }
 
-    /// The published operator is unstable where WALE lifts the relaxation time over its bound.
-    async fn check_suga(&mut self) -> Result<()> {
-        let setup = self.lattice.setup();
-        if setup.collision != Collision::Suga || setup.wale.is_none() {
-            return Ok(());
+    /// Times the phases of steps from now on; this costs a readback at each exchange.
+    pub fn time_phases(&mut self) {
+        if let Some(Fluid::Lattice(fluid)) = &mut self.fluid {
+            let phases = Phases::new(&fluid.device, &fluid.queue);
+            fluid.phases.get_or_insert(phases);
         }
-        let tau = setup.tau();
-        let (device, queue) = (&self.device, &self.queue);
-        let viscosity = self
-            .observer
-            .derived(device, queue, &mut self.lattice, Derived::EddyViscosity)
-            .await?;
-        let largest = viscosity.into_iter().fold(0.0, f32::max);
-        let effective = tau + 3.0 * f64::from(largest);
-        let bound = 0.5 + SUGA_EXCESS.end();
-        if effective <= bound {
-            return Ok(());
+        if let Some(rock) = &mut self.rock {
+            rock.time_phases();
         }
-        Err(Error::scene(
-            "numerics.collision",
-            format!(
-                "in step {} WALE lifts the relaxation time to {effective:.3}, and `suga` is unstable above \
-                 {bound}; use collision = \"hermite\", or a time step of {:.2e} s",
-                self.step(),
-                self.units.time_step * (bound - 0.5) / (effective - 0.5)
-            ),
-        ))
+    }
+
+    /// The phases of steps that have been timed since [`Simulation::time_phases`]: passes of a lattice fluid, the wait for
+    /// its loads, and the phases of the steps of blocks.
+    pub fn phases(&self) -> Vec<Phase> {
+        let mut phases = match &self.fluid {
+            Some(Fluid::Lattice(fluid)) => fluid.phases.as_ref().map(Phases::times),
+            _ => None,
+        }
+        .unwrap_or_default()
+        .to_vec();
+        let times = self
+            .rock
+            .as_ref()
+            .and_then(|rock| rock.blocks().step_times());
+        if let Some(times) = times {
+            let phase = |name: &str, seconds| Phase {
+                name: name.into(),
+                count: times.steps,
+                seconds,
+            };
+            phases.extend([
+                phase("broadphase", times.broadphase),
+                phase("contact", times.contact),
+                phase("integrate", times.integrate),
+            ]);
+        }
+        phases
+    }
+
+    /// Blocks, a lattice, or free water.
+    pub fn kind(&self) -> Kind {
+        Kind::of(&self.scene)
     }
 
     /// Steps done.
     pub fn step(&self) -> u64 {
-        self.lattice.step()
+        match &self.fluid {
+            // After an error it may be within an advance.
+            Some(Fluid::Lattice(fluid)) => fluid.lattice.step(),
+            _ => self.step,
+        }
+    }
+
+    /// Steps of the fluid done; free water takes several in a step of the scene.
+    pub fn fluid_steps(&self) -> u64 {
+        self.particles().map_or(self.step(), SphSolver::steps)
+    }
+
+    /// Length of a step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
     }
 
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
-        self.step() as f64 * self.units.time_step
+        self.step() as f64 * self.time_step
     }
 
     /// The scene.
@@ -216,29 +296,102 @@ impl Simulation {
         &self.scene
     }
 
-    /// Its units.
-    pub fn units(&self) -> &Units {
-        &self.units
-    }
-
-    /// What may disappoint in it.
+    /// Warnings about the scene; those about free water, which have to read it, are in [`Simulation::advise_water`].
     pub fn advice(&self) -> &Advice {
         &self.advice
     }
 
-    /// The fluid.
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
+    /// The blocks, if there are any.
+    pub fn rock(&self) -> Option<&Rock> {
+        self.rock.as_ref()
     }
 
-    /// The blocks in it, if there are any.
-    pub fn coupled(&self) -> Option<&Coupled> {
-        self.coupled.as_ref()
+    /// The fluid, if it is one on a lattice.
+    pub fn lattice(&self) -> Option<&Lattice> {
+        Some(&self.lattice_fluid().ok()?.lattice)
     }
 
-    /// Which cells are solid, x fastest; empty where there are none.
+    /// The units of the lattice, if there is one.
+    pub fn units(&self) -> Option<&Units> {
+        Some(&self.lattice_fluid().ok()?.units)
+    }
+
+    /// Which cells of the lattice are solid, x fastest; empty where there are none.
     pub fn solid(&self) -> &[bool] {
-        &self.lattice.setup().solid
+        self.lattice_fluid().map_or(&[], LatticeFluid::solid)
+    }
+
+    /// The blocks in a lattice, if there are both.
+    pub fn coupled(&self) -> Option<Coupled<'_>> {
+        self.lattice_fluid().ok()?.coupled(self.rock())
+    }
+
+    /// The solver of free water, if there is any.
+    pub fn particles(&self) -> Option<&SphSolver> {
+        Some(&self.sph_fluid().ok()?.particles)
+    }
+
+    /// The present state of free water.
+    ///
+    /// # Errors
+    /// If the scene has none, or the device is lost.
+    pub async fn water(&mut self) -> Result<Water> {
+        match &mut self.fluid {
+            Some(Fluid::Particles(fluid)) => fluid.water().await,
+            _ => Err(no_water()),
+        }
+    }
+
+    /// Warnings about free water that particles resolve poorly, at its start; none without free water.
+    ///
+    /// # Errors
+    /// If the device is lost; those of the search for gaps.
+    pub async fn advise_water(&mut self) -> Result<Advice> {
+        match (&mut self.fluid, &self.rock) {
+            (Some(Fluid::Particles(fluid)), Some(rock)) => fluid.advise(&self.scene, rock).await,
+            _ => Ok(Advice::new()),
+        }
+    }
+
+    /// Energy ledger of `water`, the present state.
+    ///
+    /// # Errors
+    /// If the scene has no free water.
+    pub fn ledger(&self, water: &Water) -> Result<WaterLedger> {
+        let work = self.rock.as_ref().map_or(0.0, |rock| rock.work_on_fluid);
+        Ok(self.sph_fluid()?.ledger(water, work))
+    }
+
+    /// Measurement of the pressure sensor `name` in free water; `None` if there is no such probe.
+    pub fn sensor(&self, name: &str) -> Option<Reading> {
+        self.sph_fluid().ok()?.sensor(name)
+    }
+
+    /// Steps of free water that sorted the particles and rebuilt the neighbour lists, if there are any; zero without free
+    /// water.
+    pub fn sorts(&self) -> u64 {
+        self.sph_fluid().map_or(0, |fluid| fluid.sorts)
+    }
+
+    fn lattice_fluid(&self) -> Result<&LatticeFluid> {
+        match &self.fluid {
+            Some(Fluid::Lattice(fluid)) => Ok(fluid),
+            _ => Err(no_lattice()),
+        }
+    }
+
+    fn lattice_and_rock(&mut self) -> Result<(&mut LatticeFluid, Option<&Rock>)> {
+        match &mut self.fluid {
+            Some(Fluid::Lattice(fluid)) => Ok((fluid, self.rock.as_ref())),
+            _ => Err(no_lattice()),
+        }
+    }
+
+    fn sph_fluid(&self) -> Result<&SphFluid> {
+        match &self.fluid {
+            Some(Fluid::Particles(fluid)) => Ok(fluid),
+            _ => Err(no_water()),
+        }
     }
 
     /// The present state, for a later [`Simulation::restore`].
@@ -246,76 +399,67 @@ impl Simulation {
     /// # Errors
     /// If the device is lost.
     pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
-        let blocks = match &mut self.coupled {
-            Some(coupled) => Some(coupled.state().await?),
+        // The coupling of a lattice waits for loads in flight, before the blocks are read.
+        let fluid = match &mut self.fluid {
+            Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?)),
+            Some(Fluid::Particles(fluid)) => {
+                Some(FluidState::Particles(fluid.state(&self.scene).await?))
+            }
             None => None,
         };
-        let (device, queue) = (&self.device, &self.queue);
-        let lattice = &mut self.lattice;
         Ok(Checkpoint {
-            inside: self.observer.inside(device, queue, lattice).await?,
-            time_step: self.units.time_step,
-            cell: self.units.cell,
-            populations: self.lattice.populations(device, queue).await?,
-            blocks,
+            step: self.step(),
+            time_step: self.time_step,
+            rock: self.rock.as_ref().map(Rock::state),
+            fluid,
         })
     }
 
-    /// Goes on from a checkpoint of the same scene.
+    /// Restores a checkpoint of the same scene: the next steps give the same bits as they did from there.
     ///
     /// # Errors
-    /// If it is of another grid or time step.
+    /// [`Error::Scene`] if it is of another kind, time step, grid, or number of particles or blocks.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b;
-        let Units {
-            cell, time_step, ..
-        } = self.units;
-        if !same(checkpoint.time_step, time_step) || !same(checkpoint.cell, cell) {
-            return Err(Error::scene(
-                "restart",
-                format!(
-                    "the checkpoint has a time step of {:e} s and cells of {:e} m, the scene {:e} s \
-                     and {:e} m; restart with the scene that wrote it",
-                    checkpoint.time_step, checkpoint.cell, time_step, cell
-                ),
-            ));
-        }
-        // All is looked at before anything is changed.
-        self.lattice.check_populations(&checkpoint.populations)?;
-        checkpoint.inside.check(self.lattice.grid())?;
-        match (&mut self.coupled, &checkpoint.blocks) {
-            (Some(coupled), Some(state)) => coupled.restore(state)?,
-            (None, None) => {}
-            (coupled, _) => {
-                let has = |some: bool| if some { "has blocks" } else { "has none" };
-                return Err(Error::scene(
-                    "restart",
-                    format!(
-                        "the checkpoint {} and the scene {}; restart with the scene that wrote it",
-                        has(checkpoint.blocks.is_some()),
-                        has(coupled.is_some())
-                    ),
-                ));
+        checkpoint.check(self.kind(), self.time_step)?;
+        // All is checked before the first change.
+        match (&self.fluid, &checkpoint.fluid) {
+            (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
+                fluid.check_state(state)?;
             }
+            (Some(Fluid::Particles(fluid)), Some(FluidState::Particles(state))) => {
+                fluid.check_state(&self.scene, state)?;
+            }
+            // The kinds agree.
+            _ => {}
         }
-        self.lattice
-            .set_populations(&self.device, &self.queue, &checkpoint.populations)?;
-        self.observer
-            .keep_inside(&self.device, &self.lattice, &checkpoint.inside)?;
-        self.flow_and_rock().0.set_faces()
+        match (&mut self.rock, &checkpoint.rock) {
+            (Some(rock), Some(state)) => rock.restore(state)?,
+            (None, None) => {}
+            (Some(_), None) => return Err(other_scene("no blocks", "blocks")),
+            (None, Some(_)) => return Err(other_scene("blocks", "no blocks")),
+        }
+        match (&mut self.fluid, &checkpoint.fluid) {
+            (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
+                fluid.restore(state)?;
+            }
+            (Some(Fluid::Particles(fluid)), Some(FluidState::Particles(state))) => {
+                fluid.restore(state)?;
+            }
+            _ => {}
+        }
+        self.step = checkpoint.step;
+        Ok(())
     }
 }
 
-/// The initial state in lattice units; cells of static solids are at rest.
-fn start(scene: &Scene, units: &Units) -> Result<State> {
-    let fields = scene.initial_fields()?;
-    let excess = |p: &f32| (units.pressure_to_lattice((*p).into()) - 1.0) as f32;
-    let speed = |u: &f32| units.velocity_to_lattice((*u).into()) as f32;
-    Ok(State {
-        excess: fields.pressure.iter().map(excess).collect(),
-        velocity: fields
-            .velocity
-            .each_ref()
-            .map(|u| u.iter().map(speed).collect()),
-    })
+fn no_lattice() -> Error {
+    let message = "the scene has no fluid on a lattice, whose cells alone have these fields; give it fluid.viscosity";
+    Error::argument("fluid", message)
+}
+
+fn no_water() -> Error {
+    Error::argument(
+        "particles",
+        "the scene has no free water; add [particles] and [[water]]",
+    )
 }

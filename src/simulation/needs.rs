@@ -1,24 +1,33 @@
-//! What a scene asks of a device.
+//! Needs of a scene on an adapter.
 
 use crate::{
     Result,
-    lattice::{Grid, Memory, Setup, memory},
-    psm,
+    lattice::{self, Grid, Memory, memory},
+    psm, rock,
     scene::{Scene, build::lattice_setup},
+    simulation::checkpoint::Kind,
+    sph,
     units::Units,
 };
 
-/// Features, limits and bytes of a scene on an adapter.
+/// Features and limits that a scene needs on an adapter.
 #[derive(Clone, Debug)]
 pub struct Needs {
     /// Features to request.
     pub features: wgpu::Features,
     /// Limits to request: the least that the scene runs with.
     pub limits: wgpu::Limits,
-    /// Bytes and bindings of the fluid.
+    /// The fluid, if it is one on a lattice.
+    pub lattice: Option<LatticeNeeds>,
+}
+
+/// Needs of a fluid on a lattice.
+#[derive(Clone, Debug)]
+pub struct LatticeNeeds {
+    /// Bytes and bindings.
     pub memory: Memory,
-    /// The lattice fluid that will run.
-    pub setup: Setup,
+    /// The setup of the fluid, for [`Simulation::with_needs`](super::Simulation::with_needs).
+    pub setup: lattice::Setup,
 }
 
 impl Needs {
@@ -27,34 +36,53 @@ impl Needs {
     /// # Errors
     /// What the scene lacks, or [`crate::Error::Limit`] if the adapter cannot hold it.
     pub fn of(scene: &Scene, adapter: &wgpu::Adapter) -> Result<Self> {
+        let has = adapter.limits();
+        let kind = Kind::of(scene);
+        let lattice = match kind {
+            Kind::Lattice => Some(LatticeNeeds::of(scene, adapter)?),
+            Kind::Rock | Kind::Particles => None,
+        };
+        let mut limits = wgpu::Limits::downlevel_defaults().using_alignment(has.clone());
+        let mut buffers = limits.max_storage_buffers_per_shader_stage;
+        if let Some(LatticeNeeds { memory, .. }) = &lattice {
+            let binding = memory
+                .largest_binding
+                .max(limits.max_storage_buffer_binding_size);
+            limits.max_storage_buffer_binding_size =
+                binding.min(has.max_storage_buffer_binding_size);
+            limits.max_buffer_size = binding.max(limits.max_buffer_size).min(has.max_buffer_size);
+            buffers = buffers.max(memory.most_bindings);
+        }
+        if scene.has_blocks() || kind != Kind::Lattice {
+            // The bytes of blocks in cells, of pairs and of neighbours are known at run time, and vary.
+            limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
+            limits.max_buffer_size = has.max_buffer_size;
+            buffers = buffers.max(rock::broadphase::MAX_STORAGE_BUFFERS);
+            buffers = buffers.max(match kind {
+                Kind::Lattice => psm::MOST_BINDINGS,
+                Kind::Particles => sph::MAX_STORAGE_BUFFERS,
+                Kind::Rock => 0,
+            });
+        }
+        limits.max_storage_buffers_per_shader_stage =
+            buffers.min(has.max_storage_buffers_per_shader_stage);
+        let features = lattice.as_ref().map_or(wgpu::Features::empty(), |lattice| {
+            (adapter.features() & wgpu::Features::TIMESTAMP_QUERY) | lattice.setup.features()
+        });
+        Ok(Self {
+            features,
+            limits,
+            lattice,
+        })
+    }
+}
+
+impl LatticeNeeds {
+    fn of(scene: &Scene, adapter: &wgpu::Adapter) -> Result<Self> {
         let units = Units::of(scene)?;
         let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let setup = lattice_setup(scene, &units, software.then(|| adapter.features()))?;
-        let grid = Grid::new(&setup)?;
-        let has = adapter.limits();
-        let memory = memory(&setup, &grid, &has)?;
-        let mut limits = wgpu::Limits::downlevel_defaults().using_alignment(has.clone());
-        let binding = memory
-            .largest_binding
-            .max(limits.max_storage_buffer_binding_size);
-        limits.max_storage_buffer_binding_size = binding.min(has.max_storage_buffer_binding_size);
-        limits.max_buffer_size = binding.max(limits.max_buffer_size).min(has.max_buffer_size);
-        let mut bindings = memory
-            .most_bindings
-            .max(limits.max_storage_buffers_per_shader_stage);
-        if scene.has_blocks() {
-            bindings = bindings.max(psm::MOST_BINDINGS);
-            // What they take is known once they are placed, and changes as they move.
-            limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
-            limits.max_buffer_size = has.max_buffer_size;
-        }
-        limits.max_storage_buffers_per_shader_stage =
-            bindings.min(has.max_storage_buffers_per_shader_stage);
-        Ok(Self {
-            features: (adapter.features() & wgpu::Features::TIMESTAMP_QUERY) | setup.features(),
-            limits,
-            memory,
-            setup,
-        })
+        let memory = memory(&setup, &Grid::new(&setup)?, &adapter.limits())?;
+        Ok(Self { memory, setup })
     }
 }

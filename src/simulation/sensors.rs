@@ -8,6 +8,7 @@ use glam::DVec3;
 
 /// Measurement of a sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reading {
     /// Mean pressure on its patch over the last time step, Pa.
     pub pressure: f64,

@@ -11,7 +11,7 @@
 //! where a flow separates from a smooth surface is uncertain. Pressure, and with it the drag of bodies with
 //! edges at which the flow separates anyway, does not depend on it much.
 
-use super::{Simulation, beside::BesideWall};
+use super::{Simulation, beside::BesideWall, lattice_fluid::LatticeFluid};
 use crate::{Result, scene::Field};
 use glam::DVec3;
 
@@ -46,9 +46,10 @@ impl Simulation {
     /// that to their distance.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// If the scene has no fluid on a lattice, or the device is lost.
     pub async fn wall_units(&mut self) -> Result<WallUnits> {
-        let beside = self.cells_beside();
+        let fluid = self.lattice_fluid()?;
+        let beside = fluid.cells_beside(self.coupled());
         let cells: Vec<u32> = beside.iter().map(|beside| beside.cell).collect();
         if cells.is_empty() {
             return Ok(WallUnits::default());
@@ -58,7 +59,7 @@ impl Simulation {
         let mut found = WallUnits::default();
         for (beside, velocity) in beside.iter().zip(values) {
             let velocity = DVec3::from_array([0, 1, 2].map(|a| f64::from(velocity[a])));
-            let cell = self.first_cell(beside, velocity);
+            let cell = self.lattice_fluid()?.first_cell(beside, velocity);
             let place = match beside.block {
                 None => &mut found.walls,
                 Some(_) => &mut found.blocks,
@@ -69,7 +70,9 @@ impl Simulation {
         }
         Ok(found)
     }
+}
 
+impl LatticeFluid {
     fn first_cell(&self, beside: &BesideWall, velocity: DVec3) -> FirstCell {
         let cell = self.units.cell;
         let nu = self.scene.fluid.viscosity;

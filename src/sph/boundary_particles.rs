@@ -1,10 +1,10 @@
 //! Boundary (dummy) particles inside walls and blocks.
 
 use super::{
+    Side,
     convex_part::ConvexPart,
-    fill::no_particles,
-    lattice::Lattice,
     layer_polygon::{LayerBounds, LayerEdge, LayerPoint, LayerPolygon},
+    particle_lattice::ParticleLattice,
     solid::{Faces, Solid, solids},
     spatial_hash::SpatialHash,
 };
@@ -12,7 +12,6 @@ use crate::{
     Error, Result,
     geometry::{Form, HalfSpace},
     rock::{Block, Motion},
-    scene::{Boundary, Face, Scene, build::BlockSetup},
 };
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
@@ -31,7 +30,8 @@ const GAP_DEPTH_TOLERANCE: f64 = 0.25;
 /// The golden angle between successive points of a Fibonacci spiral.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// Boundary particles of each block of `setup`, one list per block: positions relative to its centroid in its own frame, m.
+/// Boundary particles of each of the `blocks`, one list per block, those from the index `walls` on being the walls of the
+/// domain: positions relative to its centroid in its own frame, m.
 ///
 /// Each layer (k + ½) Δx below the surface of a convex part is filled face by face with rows of points. The points
 /// belong to the lattice of the fluid where the part spans the domain. Rows continue across the internal face between two
@@ -41,25 +41,17 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// farther beyond the domain than those of its walls.
 ///
 /// # Errors
-/// [`Error::Scene`] if the scene has no particles, a block is thinner than Δx, or a block of a planar scene is not a prism
-/// across the domain.
-pub fn boundary_particles(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<DVec3>>> {
-    let Some(particles) = &scene.particles else {
-        return Err(no_particles());
-    };
-    let lattice = Lattice::of(scene, particles);
-    let blocks = &setup.setup.blocks;
-    let walls = setup.in_fluid + scene.solids.len();
-    let faces: Vec<Face> = scene
-        .boundaries
-        .iter()
-        .filter(|(_, boundary)| matches!(boundary, Boundary::Wall { .. } | Boundary::FreeSlip))
-        .map(|(face, _)| face)
-        .collect();
+/// [`Error::Argument`] if a block is thinner than Δx, or a block of a planar lattice is not a prism across the domain.
+pub fn boundary_particles(
+    lattice: &ParticleLattice,
+    blocks: &[Block],
+    walls: usize,
+) -> Result<Vec<Vec<DVec3>>> {
+    let faces: Vec<(usize, bool)> = lattice.faces_of(Side::Wall).collect();
     for block in &blocks[..walls.min(blocks.len())] {
-        check(block, &ConvexPart::of_block(block), &lattice)?;
+        check(block, &ConvexPart::of_block(block), lattice)?;
     }
-    let solids = solids(blocks, &lattice);
+    let solids = solids(blocks, lattice);
     let fixed: Vec<usize> = (0..blocks.len())
         .filter(|index| blocks[*index].motion == Motion::Fixed)
         .collect();
@@ -78,13 +70,13 @@ pub fn boundary_particles(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<D
             block,
         }
     };
-    let mut occupied = SpatialHash::new(&lattice);
+    let mut occupied = SpatialHash::new(lattice);
     let mut rejected = Vec::new();
     let mut particles = Vec::with_capacity(blocks.len());
     for (index, block) in blocks.iter().enumerate() {
         let points = match faces.get(index.wrapping_sub(walls)) {
-            Some(face) => wall(&lattice, *face),
-            None => layers(block, &solids[index], &lattice),
+            Some(face) => wall(lattice, *face),
+            None => layers(block, &solids[index], lattice),
         };
         let positions = points.iter().map(|point| point.at);
         if block.motion == Motion::Fixed {
@@ -99,13 +91,13 @@ pub fn boundary_particles(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<D
             }
             particles.push(kept);
         } else {
-            let mut own = SpatialHash::new(&lattice);
+            let mut own = SpatialHash::new(lattice);
             particles.push(positions.filter(|point| own.insert(*point)).collect());
         }
     }
     for (index, point) in rejected {
         let depths = |x: DVec3| lattice.is_within(x).then(|| depths(index, x));
-        if let Some((position, block)) = gap(point, depths, &occupied, &lattice)
+        if let Some((position, block)) = gap(point, depths, &occupied, lattice)
             && occupied.insert(position)
         {
             particles[block].push(position);
@@ -121,16 +113,14 @@ pub fn boundary_particles(scene: &Scene, setup: &BlockSetup) -> Result<Vec<Vec<D
 }
 
 /// Lattice points outside the domain behind one of its faces, corners included.
-fn wall(lattice: &Lattice, face: Face) -> Vec<LayerPoint> {
-    let normal = face.axis().index();
+fn wall(lattice: &ParticleLattice, (normal, is_upper): (usize, bool)) -> Vec<LayerPoint> {
     if lattice.plane && normal == 1 {
         return Vec::new();
     }
-    let outward = face.outward();
-    let plane = if face.is_max() {
-        lattice.high
+    let (plane, outward) = if is_upper {
+        (lattice.high, 1.0)
     } else {
-        lattice.low
+        (lattice.low, -1.0)
     };
     let rows: [Vec<f64>; 3] = std::array::from_fn(|axis| {
         if axis == normal {
@@ -156,7 +146,7 @@ fn wall(lattice: &Lattice, face: Face) -> Vec<LayerPoint> {
 
 /// Points of the layers of a block, the outermost layer of all faces first, and the continuations behind re-entrant edges
 /// last.
-fn layers(block: &Block, solids: &[Solid], lattice: &Lattice) -> Vec<LayerPoint> {
+fn layers(block: &Block, solids: &[Solid], lattice: &ParticleLattice) -> Vec<LayerPoint> {
     let fixed = block.motion == Motion::Fixed;
     let (mut points, mut behind) = (Vec::new(), Vec::new());
     let deepest = |x: DVec3| {
@@ -215,7 +205,7 @@ struct Part<'a> {
 
 impl Part<'_> {
     /// The polygons of the layer at `depth` (m) below the exposed faces.
-    fn layer_polygons(&self, depth: f64, lattice: &Lattice) -> Vec<LayerPolygon> {
+    fn layer_polygons(&self, depth: f64, lattice: &ParticleLattice) -> Vec<LayerPolygon> {
         let Self {
             block,
             faces,
@@ -286,8 +276,8 @@ fn spans(faces: &Faces, axis: usize) -> bool {
 }
 
 /// Checks that a block can carry boundary particles.
-fn check(block: &Block, parts: &[ConvexPart<'_>], lattice: &Lattice) -> Result<()> {
-    let refuse = |message: String| Err(Error::scene(format!("block {}", block.name), message));
+fn check(block: &Block, parts: &[ConvexPart<'_>], lattice: &ParticleLattice) -> Result<()> {
+    let refuse = |message: String| Err(Error::argument(format!("block {}", block.name), message));
     if lattice.plane {
         for part in parts {
             let Form::Convex(_) = part.form else {
@@ -365,7 +355,7 @@ fn gap(
     rejected: LayerPoint,
     depths: impl Fn(DVec3) -> Option<Depths>,
     occupied: &SpatialHash<'_>,
-    lattice: &Lattice,
+    lattice: &ParticleLattice,
 ) -> Option<(DVec3, usize)> {
     let spacing = lattice.spacing;
     let distance = |x: DVec3| {

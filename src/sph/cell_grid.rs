@@ -47,7 +47,7 @@ impl CellGrid {
     /// The grid of a setup.
     ///
     /// # Errors
-    /// [`Error::Scene`] if a periodic axis is not a whole number of spacings or shorter than five cells, or if the
+    /// [`Error::Argument`] if a periodic axis is not a whole number of spacings or shorter than five cells, or if the
     /// domain has too many spacings.
     pub fn new(setup: &Setup) -> Result<Self> {
         setup.check()?;
@@ -66,8 +66,8 @@ impl CellGrid {
         let longest = (spacings + 2.0 * margin).max_element();
         let bits = (COORDINATE_BITS - longest.log2().ceil() as i32).min(MAX_SPACING_BITS);
         if bits < MIN_SPACING_BITS {
-            return Err(Error::scene(
-                "particles.spacing",
+            return Err(Error::argument(
+                "spacing",
                 format!(
                     "the domain is {longest:.0} spacings long and coordinates have {COORDINATE_BITS} bits; use a larger \
                      spacing, or a smaller domain"
@@ -103,7 +103,7 @@ impl CellGrid {
                 }
                 [Side::Periodic, _] | [_, Side::Periodic] => {
                     let message = "one of two opposite faces is periodic; make both periodic";
-                    return Err(Error::scene("boundaries", message));
+                    return Err(Error::argument("faces", message));
                 }
                 sides => {
                     grid.origin[axis] = setup.origin[axis] - margin * setup.spacing;
@@ -120,7 +120,7 @@ impl CellGrid {
         let cells = grid.cells.map(f64::from);
         if cells.iter().product::<f64>() >= f64::from(u32::MAX >> 2) {
             let message = "the neighbour search has over a billion cells; use a larger spacing";
-            return Err(Error::scene("particles.spacing", message));
+            return Err(Error::argument("spacing", message));
         }
         Ok(grid)
     }
@@ -130,8 +130,8 @@ impl CellGrid {
         let name = ["x", "y", "z"][axis];
         let whole = length.round();
         if (length - whole).abs() > 1e-6 * whole {
-            return Err(Error::scene(
-                "domain.size",
+            return Err(Error::argument(
+                "size",
                 format!(
                     "{name} is periodic and {length:.6} spacings long; make it a whole number of spacings"
                 ),
@@ -148,8 +148,8 @@ impl CellGrid {
             .rev()
             .find_map(|cells| Some((cells, fits(cells)?)));
         let Some((cells, edge)) = found else {
-            return Err(Error::scene(
-                "domain.size",
+            return Err(Error::argument(
+                "size",
                 format!(
                     "{name} is periodic and {whole} spacings long, and a pair of particles must interact once only; \
                      make it at least {} spacings, or use particles.plane",

@@ -1,6 +1,6 @@
 //! Convex parts of blocks and of bodies of water at their initial positions.
 
-use super::lattice::Lattice;
+use super::particle_lattice::ParticleLattice;
 use crate::{
     geometry::{Form, HalfSpace, Shape},
     rock::Block,
@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3};
 
 /// A convex part in the world frame.
 #[derive(Clone, Debug)]
-pub(super) struct ConvexPart<'a> {
+pub(crate) struct ConvexPart<'a> {
     pub form: &'a Form,
     /// Its centroid, m.
     pub centre: DVec3,
@@ -50,9 +50,9 @@ impl<'a> ConvexPart<'a> {
     }
 
     /// The parts of a block and their periodic images that overlap the domain.
-    pub fn with_images(block: &'a Block, lattice: &Lattice) -> Vec<Self> {
+    pub fn with_images(block: &'a Block, lattice: &ParticleLattice) -> Vec<Self> {
         let mut parts = Self::of_block(block);
-        for axis in (0..3).filter(|axis| lattice.periodic[*axis]) {
+        for axis in (0..3).filter(|axis| lattice.is_periodic(*axis)) {
             let period = DVec3::AXES[axis] * (lattice.high[axis] - lattice.low[axis]);
             let shifted = |shift: DVec3| {
                 let images = parts.iter().map(move |part| Self {

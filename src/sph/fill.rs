@@ -1,18 +1,11 @@
 //! Initial fluid particles.
 
 use super::{
-    convex_part::ConvexPart, hydrostatic_start::HydrostaticStart, lattice::Lattice,
-    spatial_hash::MIN_DISTANCE,
+    Side, convex_part::ConvexPart, hydrostatic_start::HydrostaticStart,
+    particle_lattice::ParticleLattice, spatial_hash::MIN_DISTANCE,
 };
-use crate::{
-    Error, Result,
-    geometry::Shape,
-    scene::{
-        Boundary, Face, Scene,
-        build::{self, BlockSetup},
-    },
-};
-use glam::DVec3;
+use crate::{Error, Result, geometry::Shape, rock::Block};
+use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 /// Most particles of a body of water, far more than a device holds: a larger number is an input error.
@@ -35,60 +28,62 @@ pub struct Start {
     pub pressures: Vec<f64>,
 }
 
-/// The error of a scene without particles.
-pub(super) fn no_particles() -> Error {
-    Error::scene(
-        "particles",
-        "the scene has no particles; add [particles] with a spacing",
-    )
+impl Start {
+    /// Displaces particles under pressure by at most `disorder` spacings along each axis, because a regular lattice under
+    /// pressure resists shear, and adapts their pressures with the specific `weight` (N/m³).
+    pub fn add_disorder(&mut self, disorder: f64, lattice: &ParticleLattice, weight: DVec3) {
+        let pressures = self.pressures.iter_mut().enumerate();
+        for (index, pressure) in pressures.filter(|(_, pressure)| **pressure > 0.0) {
+            let displacement = disorder * lattice.jitter(index);
+            self.positions[index] += displacement;
+            *pressure += weight.dot(displacement);
+        }
+    }
 }
 
-/// A body of water and its pose.
-struct WaterBody {
-    shape: Shape,
-    centre: DVec3,
-    rotation: glam::DQuat,
+/// A body of water at the time 0.
+#[derive(Clone, Debug)]
+pub struct WaterBody {
+    /// Shape, about its centroid.
+    pub shape: Shape,
+    /// Centroid, m.
+    pub centre: DVec3,
+    /// From the frame of the shape to the world.
+    pub rotation: DQuat,
+    /// Velocity, m/s.
+    pub velocity: DVec3,
 }
 
-/// The fluid particles of `scene` at the time 0: the lattice points inside a body of water, and at least Δx/10 outside of
-/// all blocks. The lattice starts at the lower corner of the domain; a planar scene has one row in the middle.
+/// The fluid particles at the time 0: the points of `lattice` inside a body of water, and at least Δx/10 outside of
+/// all `blocks`. A planar lattice has one row in the middle. The pressure is hydrostatic for a fluid of `density` (kg/m³)
+/// in `gravity` (m/s², 0 along periodic axes).
 ///
 /// # Errors
-/// [`Error::Scene`] if the scene has no particles, or a body of water is outside the domain, overlaps another one, touches
-/// an open face through which it would fall, or has no space for a particle.
-pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
-    let Some(particles) = &scene.particles else {
-        return Err(no_particles());
-    };
-    let lattice = Lattice::of(scene, particles);
-    let blocks = &setup.setup.blocks;
+/// [`Error::Argument`] naming `water[index]` if a body is outside the domain, overlaps another one, touches an open face
+/// through which it would fall, or has no space for a particle.
+pub fn fill(
+    lattice: &ParticleLattice,
+    bodies: &[WaterBody],
+    blocks: &[Block],
+    density: f64,
+    gravity: DVec3,
+) -> Result<Start> {
     let parts = blocks
         .iter()
-        .flat_map(|block| ConvexPart::with_images(block, &lattice));
+        .flat_map(|block| ConvexPart::with_images(block, lattice));
     let solids: Vec<ConvexPart<'_>> = parts.collect();
-    let mut bodies = Vec::with_capacity(scene.water.len());
-    for (index, water) in scene.water.iter().enumerate() {
-        let (shape, centroid) = build::shape(scene, &format!("water[{index}]"), &water.shape)?;
-        let rotation = build::rotation(&water.rotation);
-        bodies.push(WaterBody {
-            shape,
-            centre: DVec3::from(water.position) + rotation * centroid,
-            rotation,
-        });
-    }
     let waters: Vec<Vec<ConvexPart<'_>>> = bodies
         .iter()
         .map(|body| ConvexPart::of_shape(&body.shape, body.centre, body.rotation))
         .collect();
-    let gravity = gravity(scene);
     let mut start = Start::default();
     let mut filled = Vec::with_capacity(waters.len());
     for (index, water) in waters.iter().enumerate() {
         let key = format!("water[{index}]");
-        check_inside(&key, water, &lattice)?;
-        let mut points = points(&key, water, &solids, &lattice)?;
+        check_inside(&key, water, lattice)?;
+        let mut points = points(&key, water, &solids, lattice)?;
         if points.is_empty() {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 "no particle fits into it between the blocks; enlarge it, or use a smaller particles.spacing",
             ));
@@ -100,15 +95,15 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
                 .fold(f64::NEG_INFINITY, f64::max)
         };
         if let Some(point) = points.iter().find(|x| deepest(x) > lattice.tolerance()) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!("it overlaps other water at {point} m; move one of them, or cut it"),
             ));
         }
         // A point on the face between two bodies belongs to the first.
         points.retain(|x| deepest(x) < 0.0);
-        check_open(scene, &key, &points, &lattice, gravity)?;
-        let velocity = DVec3::from(scene.water[index].velocity);
+        check_open(&key, &points, lattice, gravity)?;
+        let velocity = bodies[index].velocity;
         start
             .velocities
             .extend(std::iter::repeat_n(velocity, points.len()));
@@ -119,7 +114,7 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
         waters: &waters,
         solids: &solids,
         spacing: lattice.spacing,
-        weight: scene.fluid.density * gravity,
+        weight: density * gravity,
     };
     start.pressures = hydrostatic.pressures();
     start.positions = filled.concat();
@@ -130,23 +125,16 @@ pub fn fill(scene: &Scene, setup: &BlockSetup) -> Result<Start> {
 /// the threshold of the warning (an oblique plane cuts N points with an error of N^(−2/3), 4e-4).
 const SAMPLES: u32 = 1 << 17;
 
-/// Volume of all bodies of water of `scene` without the volume that blocks displace, m³. It is exact for a body whose
+/// Volume of all bodies of water without the volume that `blocks` displace, m³. It is exact for a body whose
 /// bounding box meets no block, and sampled otherwise.
-pub(super) fn volume(scene: &Scene, setup: &BlockSetup) -> Result<f64> {
-    let Some(particles) = &scene.particles else {
-        return Err(no_particles());
-    };
-    let lattice = Lattice::of(scene, particles);
-    let blocks = setup.setup.blocks.iter();
-    let solids = blocks.flat_map(|block| ConvexPart::with_images(block, &lattice));
+pub fn water_volume(lattice: &ParticleLattice, bodies: &[WaterBody], blocks: &[Block]) -> f64 {
+    let blocks = blocks.iter();
+    let solids = blocks.flat_map(|block| ConvexPart::with_images(block, lattice));
     let solids: Vec<ConvexPart<'_>> = solids.collect();
     let slack = lattice.tolerance();
     let mut volume = 0.0;
-    for (index, water) in scene.water.iter().enumerate() {
-        let (shape, centroid) = build::shape(scene, &format!("water[{index}]"), &water.shape)?;
-        let rotation = build::rotation(&water.rotation);
-        let centre = DVec3::from(water.position) + rotation * centroid;
-        let parts = ConvexPart::of_shape(&shape, centre, rotation);
+    for body in bodies {
+        let parts = ConvexPart::of_shape(&body.shape, body.centre, body.rotation);
         let overlaps = |solid: &&ConvexPart<'_>| {
             let overlap = |part: &ConvexPart<'_>| {
                 (solid.low + slack).cmplt(part.high).all()
@@ -160,9 +148,9 @@ pub(super) fn volume(scene: &Scene, setup: &BlockSetup) -> Result<f64> {
         } else {
             free_fraction(&parts, &near)
         };
-        volume += fraction * shape.volume();
+        volume += fraction * body.shape.volume();
     }
-    Ok(volume)
+    volume
 }
 
 /// Fraction of a body of water outside all solids, by the low-discrepancy sequence of the generalised golden ratio
@@ -190,18 +178,12 @@ fn free_fraction(water: &[ConvexPart<'_>], solids: &[&ConvexPart<'_>]) -> f64 {
     f64::from(free) / f64::from(wet.max(1))
 }
 
-/// The acceleration that the hydrostatic pressure balances, m/s²; 0 along periodic axes.
-fn gravity(scene: &Scene) -> DVec3 {
-    let (_, gradient) = scene.hydrostatic();
-    DVec3::from(gradient) / scene.fluid.density
-}
-
 /// The lattice points of a body of water, z slowest.
 fn points(
     key: &str,
     water: &[ConvexPart<'_>],
     solids: &[ConvexPart<'_>],
-    lattice: &Lattice,
+    lattice: &ParticleLattice,
 ) -> Result<Vec<DVec3>> {
     let low = water
         .iter()
@@ -211,8 +193,8 @@ fn points(
         .fold(DVec3::NEG_INFINITY, |high, part| high.max(part.high));
     let size = ((high - low) / lattice.spacing).max(DVec3::ONE);
     if size.x * size.y * size.z > MAX_PARTICLES {
-        return Err(Error::scene(
-            "particles.spacing",
+        return Err(Error::argument(
+            "spacing",
             format!(
                 "{key} would have about {:.1e} particles, and at most {MAX_PARTICLES:.0e} are possible; use a larger spacing",
                 size.x * size.y * size.z
@@ -246,12 +228,12 @@ fn points(
 }
 
 /// Checks that the water is inside the domain.
-fn check_inside(key: &str, water: &[ConvexPart<'_>], lattice: &Lattice) -> Result<()> {
+fn check_inside(key: &str, water: &[ConvexPart<'_>], lattice: &ParticleLattice) -> Result<()> {
     let slack = lattice.tolerance();
     for part in water {
         let outside = part.low.cmplt(lattice.low - slack) | part.high.cmpgt(lattice.high + slack);
         if outside.any() {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!(
                     "it extends from {} to {} m, and the domain from {} to {} m; cut it, or enlarge the domain",
@@ -265,26 +247,27 @@ fn check_inside(key: &str, water: &[ConvexPart<'_>], lattice: &Lattice) -> Resul
 
 /// Checks that no water touches an open face that is not above it.
 fn check_open(
-    scene: &Scene,
     key: &str,
     points: &[DVec3],
-    lattice: &Lattice,
+    lattice: &ParticleLattice,
     gravity: DVec3,
 ) -> Result<()> {
-    for (face, boundary) in scene.boundaries.iter() {
-        let axis = face.axis().index();
-        if *boundary != Boundary::Open || face.outward() * gravity[axis] < 0.0 {
+    for (axis, is_upper) in lattice.faces_of(Side::Open) {
+        let (at, outward, end) = match is_upper {
+            true => (lattice.high[axis], 1.0, "max"),
+            false => (lattice.low[axis], -1.0, "min"),
+        };
+        if outward * gravity[axis] < 0.0 {
             continue;
         }
-        let at = scene.domain.face_position(face);
         let touches = |x: &DVec3| (x[axis] - at).abs() < lattice.spacing;
         if points.iter().any(touches) {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 key,
                 format!(
-                    "it touches the open face {}, through which it would leave at once; give that face kind = \
+                    "it touches the open face {}_{end}, through which it would leave at once; give that face kind = \
                      \"wall\", or end the water before it",
-                    Face::name(face)
+                    ["x", "y", "z"][axis]
                 ),
             ));
         }

@@ -22,8 +22,8 @@ pub(super) fn check_loop_iterations(device: &wgpu::Device, hulls: &[Hull]) -> Re
     if !software || iterations <= MAX_LOOP_ITERATIONS {
         return Ok(());
     }
-    Err(Error::scene(
-        "blocks",
+    Err(Error::argument(
+        "bodies",
         format!(
             "the penalty force of {} convex parts takes {iterations} loop iterations, and a software adapter has \
              {MAX_LOOP_ITERATIONS}; use a GPU, or fewer and simpler fixed blocks",

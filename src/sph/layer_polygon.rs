@@ -1,7 +1,7 @@
 //! The polygon of a layer of boundary particles parallel to a face, its edges at internal faces, and rows of points on
 //! it.
 
-use super::{lattice::Lattice, solid::Solid};
+use super::{particle_lattice::ParticleLattice, solid::Solid};
 use crate::geometry::HalfSpace;
 use glam::DVec3;
 
@@ -123,7 +123,7 @@ impl LayerPolygon {
     }
 
     /// Whether its end at `at` (m) along a direction is an inset edge.
-    fn ends_at_inset_edge(&self, lattice: &Lattice, direction: DVec3, at: f64) -> bool {
+    fn ends_at_inset_edge(&self, lattice: &ParticleLattice, direction: DVec3, at: f64) -> bool {
         let at_end = |c: &&DVec3| (c.dot(direction) - at).abs() < lattice.tolerance();
         let mut corners = self.corners.iter().filter(at_end);
         corners.all(|corner| {
@@ -152,7 +152,7 @@ impl LayerPolygon {
     }
 
     /// Whether it is parallel to an axis and extends beyond the lower and the upper end of the domain along it.
-    fn passes_ends(&self, lattice: &Lattice, axis: usize) -> [bool; 2] {
+    fn passes_ends(&self, lattice: &ParticleLattice, axis: usize) -> [bool; 2] {
         let [low, high] = self.extent(DVec3::AXES[axis]);
         let along = self.plane.normal[axis].abs() < PARALLEL;
         [
@@ -162,7 +162,7 @@ impl LayerPolygon {
     }
 
     /// Whether it is parallel to an axis and spans the domain.
-    fn spans(&self, lattice: &Lattice, axis: usize) -> bool {
+    fn spans(&self, lattice: &ParticleLattice, axis: usize) -> bool {
         self.passes_ends(lattice, axis) == [true; 2]
     }
 
@@ -170,7 +170,7 @@ impl LayerPolygon {
     /// of the fluid and the ends of a period. Between one end of the domain and an edge of the polygon they are
     /// lattice points too, which match those of the wall. Along other directions they are evenly spaced from edge to
     /// edge, both included.
-    pub fn points(&self, lattice: &Lattice) -> Vec<LayerPoint> {
+    pub fn points(&self, lattice: &ParticleLattice) -> Vec<LayerPoint> {
         let spanned = (0..3).find(|axis| self.spans(lattice, *axis));
         let along = match spanned {
             Some(axis) => DVec3::AXES[axis],
@@ -273,7 +273,7 @@ impl LayerEdge {
         plane: &HalfSpace,
         internal: &HalfSpace,
         solids: &[&Solid],
-        lattice: &Lattice,
+        lattice: &ParticleLattice,
     ) -> f64 {
         let half = 0.5 * lattice.spacing;
         let slack = 1e3 * lattice.tolerance();

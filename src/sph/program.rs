@@ -41,6 +41,19 @@ pub const KERNELS: [&str; 22] = [
     "advance_clock",
 ];
 
+/// Those of [`KERNELS`] that a setup runs.
+pub fn kernels_of(setup: &Setup) -> impl Iterator<Item = &'static str> {
+    let delta = matches!(setup.scheme, Scheme::Delta);
+    let lists = setup.neighbours == NeighbourSearch::Lists;
+    KERNELS.into_iter().filter(move |kernel| match *kernel {
+        "neighbour_lists" | "check_capacity" => lists,
+        "boundary_neighbour_lists" => delta && lists,
+        "accelerate" | "drift" | "apply_penalty" | "body_load" | "boundary_position"
+        | "boundary_pressure" | "boundary_force" => delta,
+        other => !(delta && other.starts_with("mueller_")),
+    })
+}
+
 /// The program of a kernel. Slots that the kernel does not use have no effect.
 pub fn program(setup: &Setup, grid: &CellGrid, kernel: &str) -> Program {
     let periodic = grid.period.iter().any(|period| *period > 0);

@@ -1,7 +1,7 @@
 //! Setup of a particle simulation.
 
 use super::{EquationOfState, Solid};
-use crate::{Error, Result, scene};
+use crate::{Error, Result};
 use glam::DVec3;
 
 /// Largest Courant number at which water in tanks stays stable for every smoothing length.
@@ -65,7 +65,8 @@ pub struct Body {
     pub free_slip: bool,
 }
 
-/// Domain, fluid properties and numerical parameters, SI.
+/// Domain, fluid properties and numerical parameters, SI. Made by [`Setup::tank`]; then fields are changed.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// Lower corner of the domain, m.
@@ -129,6 +130,12 @@ impl Setup {
         }
     }
 
+    /// Speed of sound over the largest speed: density then varies by about a hundredth.
+    pub const SOUND_RATIO: f64 = 10.0;
+
+    /// Stiffness of the scheme `mueller` over the square of the largest speed.
+    pub const STIFFNESS_RATIO: f64 = 5.0;
+
     /// Layers of boundary particles that fill the support of the kernel behind a wall.
     pub fn layers(&self) -> u32 {
         (2.0 * self.smoothing).ceil() as u32
@@ -137,8 +144,8 @@ impl Setup {
     /// Largest flow speed at which the default Mach number is met, m/s.
     pub fn largest_speed(&self) -> f64 {
         let ratio = match self.scheme {
-            Scheme::Delta => scene::Particles::SOUND,
-            Scheme::Mueller { .. } => scene::Particles::STIFFNESS.sqrt(),
+            Scheme::Delta => Self::SOUND_RATIO,
+            Scheme::Mueller { .. } => Self::STIFFNESS_RATIO.sqrt(),
         };
         self.sound_speed / ratio
     }
@@ -180,7 +187,7 @@ impl Setup {
     /// Checks the parameters and bodies.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the first value that is out of range.
+    /// [`Error::Argument`] naming the first value that is out of range.
     pub(super) fn check(&self) -> Result<()> {
         let positive = [
             ("spacing", self.spacing),
@@ -195,7 +202,7 @@ impl Setup {
         for (name, value) in positive {
             if !(value > 0.0 && value.is_finite()) {
                 let message = format!("is {value}; give a positive number");
-                return Err(Error::scene(format!("particles.{name}"), message));
+                return Err(Error::argument(name, message));
             }
         }
         if self.courant > MAX_COURANT {
@@ -203,34 +210,31 @@ impl Setup {
                 "is {}, and the scheme may become unstable beyond {MAX_COURANT}; give less, such as 0.7",
                 self.courant
             );
-            return Err(Error::scene("particles.courant", message));
+            return Err(Error::argument("courant", message));
         }
         let mueller = match self.scheme {
             Scheme::Delta => 0.0,
             Scheme::Mueller { viscosity } => viscosity,
         };
         let not_negative = [
-            ("fluid.viscosity", self.laminar_viscosity),
-            ("particles.scheme.viscosity", mueller),
-            ("particles.artificial_viscosity", self.artificial_viscosity),
-            ("particles.density_diffusion", self.density_diffusion),
+            ("laminar_viscosity", self.laminar_viscosity),
+            ("scheme.viscosity", mueller),
+            ("artificial_viscosity", self.artificial_viscosity),
+            ("density_diffusion", self.density_diffusion),
         ];
         for (key, value) in not_negative {
             if !(value >= 0.0 && (value as f32).is_finite()) {
                 let message = format!("is {value}; give a number from 0");
-                return Err(Error::scene(key, message));
+                return Err(Error::argument(key, message));
             }
         }
         if !(self.gravity.is_finite() && self.origin.is_finite()) {
-            return Err(Error::scene(
-                "particles",
-                "gravity and origin must be finite",
-            ));
+            return Err(Error::argument("gravity, origin", "must be finite"));
         }
         if self.plane && self.gravity.y != 0.0 {
             let message = "gravity has a component along y, and a planar scene (particles.plane) has no motion along \
                            y; set the component to 0, or remove plane";
-            return Err(Error::scene("fluid.acceleration", message));
+            return Err(Error::argument("gravity", message));
         }
         let mut bodies = self.bodies.iter().enumerate();
         bodies.try_for_each(|(index, body)| body.check(&format!("bodies[{index}]"), self.spacing))
@@ -239,7 +243,7 @@ impl Setup {
     /// Checks that the equation of state has a positive density at the pressure (Pa) of particle `id`.
     ///
     /// # Errors
-    /// [`Error::Scene`] if not.
+    /// [`Error::Argument`] if not.
     pub(super) fn check_pressure(&self, id: usize, pressure: f64) -> Result<()> {
         let excess = self.excess(pressure) as f32;
         if excess.is_finite() && excess > -1.0 {
@@ -250,7 +254,7 @@ impl Setup {
             "particle {id} has {pressure} Pa, at which it has no density; give more than {least:.3e} Pa, the pressure at \
              zero density"
         );
-        Err(Error::scene("water", message))
+        Err(Error::argument("positions", message))
     }
 }
 
@@ -259,7 +263,7 @@ impl Body {
     fn check(&self, key: &str, spacing: f64) -> Result<()> {
         let refuse = |list: &str, index: usize| {
             let message = "is not finite; give coordinates and lengths in m";
-            Err(Error::scene(format!("{key}.{list}[{index}]"), message))
+            Err(Error::argument(format!("{key}.{list}[{index}]"), message))
         };
         let is_finite = |x: DVec3| (x / spacing).as_vec3().is_finite();
         if let Some(bad) = self.boundary.iter().position(|x| !is_finite(*x)) {

@@ -1,6 +1,8 @@
 //! Convex parts of bodies, with their faces classed as exposed or internal.
 
-use super::{convex_part::ConvexPart, lattice::Lattice, layer_polygon::LayerPolygon};
+use super::{
+    convex_part::ConvexPart, layer_polygon::LayerPolygon, particle_lattice::ParticleLattice,
+};
 use crate::{
     geometry::{Form, HalfSpace, Shape},
     rock::{Block, Motion},
@@ -35,7 +37,7 @@ pub struct Faces {
 }
 
 /// The parts of each of the `blocks` in the world frame.
-pub(super) fn solids(blocks: &[Block], lattice: &Lattice) -> Vec<Vec<Solid>> {
+pub(super) fn solids(blocks: &[Block], lattice: &ParticleLattice) -> Vec<Vec<Solid>> {
     let of = |block: &Block| {
         let parts = ConvexPart::of_block(block);
         let fixed = block.motion == Motion::Fixed;
@@ -47,7 +49,11 @@ pub(super) fn solids(blocks: &[Block], lattice: &Lattice) -> Vec<Vec<Solid>> {
 }
 
 /// Marks the faces at which fixed blocks cover each other as internal: no water can emerge there.
-pub(super) fn mark_covered_faces(blocks: &[Block], solids: &mut [Vec<Solid>], lattice: &Lattice) {
+pub(super) fn mark_covered_faces(
+    blocks: &[Block],
+    solids: &mut [Vec<Solid>],
+    lattice: &ParticleLattice,
+) {
     let parts: Vec<_> = blocks.iter().map(ConvexPart::of_block).collect();
     let slack = lattice.spacing;
     for (index, block) in blocks.iter().enumerate() {
@@ -134,7 +140,7 @@ impl Solid {
 
     /// A part without the faces at both ends of a period that it spans, and if it is `fixed`, without the faces at or
     /// beyond the faces of the domain.
-    pub(super) fn of(part: &ConvexPart<'_>, lattice: &Lattice, fixed: bool) -> Self {
+    pub(super) fn of(part: &ConvexPart<'_>, lattice: &ParticleLattice, fixed: bool) -> Self {
         let tolerance = lattice.tolerance();
         let ends = [0, 1, 2].map(|axis| {
             let low = part.low[axis] <= lattice.low[axis] + tolerance;

@@ -36,6 +36,7 @@ pub struct ExchangeResult {
 
 /// Work on the water since the start, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct ExternalWork {
     /// Work of moving bodies with loads: minus the load on them along their motion in the steps of the water.
     pub bodies: f64,
@@ -49,6 +50,7 @@ pub struct ExternalWork {
 
 /// State of the solver in a checkpoint, without the particles.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct SphState {
     /// Longest next step, in the unit of the device.
     pub step_limit: f32,
@@ -96,7 +98,7 @@ impl SphSolver {
     /// A solver for particles with these positions (m), velocities (m/s) and pressures (Pa) at the time 0.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the setup or the particles are invalid; [`Error::Limit`] if the device cannot hold them.
+    /// [`Error::Argument`] if the setup or the particles are invalid; [`Error::Limit`] if the device cannot hold them.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -108,12 +110,12 @@ impl SphSolver {
         let grid = CellGrid::new(&setup)?;
         if positions.len() != velocities.len() || positions.len() != pressures.len() {
             let message = "positions, velocities and pressures differ in number; give one of each for each particle";
-            return Err(Error::scene("water", message));
+            return Err(Error::argument("positions", message));
         }
         let particle_count = |count: usize| {
             u32::try_from(count).map_err(|_| {
                 let message = format!("{count} particles are too many; use a larger spacing");
-                Error::scene("particles.spacing", message)
+                Error::argument("spacing", message)
             })
         };
         let mut order: Vec<usize> = (0..setup.bodies.len()).collect();
@@ -144,7 +146,7 @@ impl SphSolver {
         check_loop_iterations(device, &hull_set.hulls)?;
         if positions.is_empty() {
             let message = "there is no particle; give one at least, or leave the water out";
-            return Err(Error::scene("water", message));
+            return Err(Error::argument("positions", message));
         }
         let kernels = Kernels::new(device, queue, &setup, &grid, counts, &hull_set)?;
         let mut particles = Vec::with_capacity(positions.len());
@@ -155,8 +157,8 @@ impl SphSolver {
                 && grid.velocity(velocity).as_vec3().is_finite()
                 && pressure.is_finite();
             if !(finite && grid.contains(at)) {
-                return Err(Error::scene(
-                    "water",
+                return Err(Error::argument(
+                    "positions",
                     format!(
                         "particle {id} at {position} m with {velocity} m/s and {pressure} Pa is outside the domain or \
                          not finite; give finite values inside the domain"
@@ -265,7 +267,7 @@ impl SphSolver {
     /// [`SphSolver::advance`] does all of it.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the number of poses differs from that of the bodies, a pose is not finite or its deformation
+    /// [`Error::Argument`] if the number of poses differs from that of the bodies, a pose is not finite or its deformation
     /// not invertible, or the time is not greater than 0.
     pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) -> Result<()> {
         check_exchange(poses, self.setup.bodies.len(), time)?;
@@ -370,7 +372,7 @@ impl SphSolver {
     /// water covers less than that.
     ///
     /// # Errors
-    /// [`Error::Scene`] if a position is not finite; [`Error::Limit`] if the device cannot hold the probes.
+    /// [`Error::Argument`] if a position is not finite; [`Error::Limit`] if the device cannot hold the probes.
     pub fn set_probes(
         &mut self,
         device: &wgpu::Device,
@@ -381,7 +383,7 @@ impl SphSolver {
         let mut all = in_water.iter().chain(on_walls.iter().map(|(x, _)| x));
         if let Some(bad) = all.position(|x| !x.is_finite()) {
             let message = "is not finite; give a position in m";
-            return Err(Error::scene(format!("probes[{bad}]"), message));
+            return Err(Error::argument(format!("probes[{bad}]"), message));
         }
         let probe = |(x, weight): (DVec3, f32)| {
             let [x, y, z] = self.grid.quantise(x);
@@ -522,12 +524,12 @@ impl SphSolver {
     /// Checks that the number of particles is that of this solver.
     ///
     /// # Errors
-    /// [`Error::Scene`] if not.
+    /// [`Error::Argument`] if not.
     pub fn check(&self, particles: &[Particle]) -> Result<()> {
         if particles.len() == self.counts.fluid as usize {
             return Ok(());
         }
-        Err(Error::scene(
+        Err(Error::argument(
             "restart",
             format!(
                 "the checkpoint has {} particles and the scene {}; restart with the scene that wrote it",
@@ -540,7 +542,7 @@ impl SphSolver {
     /// Restores a state bit-identically.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the number of particles differs.
+    /// [`Error::Argument`] if the number of particles differs.
     pub fn restore(
         &mut self,
         queue: &wgpu::Queue,
@@ -611,17 +613,17 @@ impl SphSolver {
 /// Checks that there is a valid pose for each of `bodies` bodies, and that `time` (s) is positive.
 ///
 /// # Errors
-/// [`Error::Scene`] naming the first invalid value.
+/// [`Error::Argument`] naming the first invalid value.
 fn check_exchange(poses: &[Pose], bodies: usize, time: f64) -> Result<()> {
     if poses.len() != bodies {
         let message = format!("{} poses for {bodies} bodies; give one each", poses.len());
-        return Err(Error::scene("poses", message));
+        return Err(Error::argument("poses", message));
     }
     for (body, pose) in poses.iter().enumerate() {
         let key = || format!("poses[{body}]");
         if !pose.is_finite() {
             let message = "is not finite; check the motion of this body";
-            return Err(Error::scene(key(), message));
+            return Err(Error::argument(key(), message));
         }
         pose.check_volume(key)?;
     }
@@ -629,7 +631,7 @@ fn check_exchange(poses: &[Pose], bodies: usize, time: f64) -> Result<()> {
         return Ok(());
     }
     let message = format!("is {time} s; give a number greater than 0");
-    Err(Error::scene("time", message))
+    Err(Error::argument("time", message))
 }
 
 /// Longest first step of water at `max_speed` (m/s) that only gravity accelerates, in units of the device.

@@ -1,6 +1,6 @@
 //! Spatial hash of points with a least distance.
 
-use super::lattice::Lattice;
+use super::particle_lattice::ParticleLattice;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ pub(super) const MIN_DISTANCE: f64 = 0.6;
 
 /// Points of which no two are closer than [`MIN_DISTANCE`] spacings, periodic images included.
 pub(super) struct SpatialHash<'a> {
-    lattice: &'a Lattice,
+    lattice: &'a ParticleLattice,
     distance: f64,
     /// Edge of a cell, m.
     edge: f64,
@@ -18,7 +18,7 @@ pub(super) struct SpatialHash<'a> {
 }
 
 impl<'a> SpatialHash<'a> {
-    pub fn new(lattice: &'a Lattice) -> Self {
+    pub fn new(lattice: &'a ParticleLattice) -> Self {
         Self {
             lattice,
             // Points at exactly this distance are both kept.
@@ -63,7 +63,7 @@ impl<'a> SpatialHash<'a> {
             let period = high[axis] - low[axis];
             let near = |end: f64| (point[axis] - end).abs() < self.edge;
             let image = |exists: bool, shift: f64| if exists { shift } else { 0.0 };
-            let periodic = self.lattice.periodic[axis];
+            let periodic = self.lattice.is_periodic(axis);
             [
                 0.0,
                 image(periodic && near(low[axis]), period),

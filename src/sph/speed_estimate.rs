@@ -13,7 +13,7 @@ const SAMPLES: u32 = 1000;
 
 /// Energies and times that determine the speeds of water and blocks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SpeedEstimate {
+pub struct SpeedEstimate {
     gravity: DVec3,
     /// Work of gravity on a unit of mass from the origin to the top and to the bottom of the water, m²/s².
     top: f64,

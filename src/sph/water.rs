@@ -1,10 +1,6 @@
 //! The state of the fluid particles in SI units, its totals, and the point cloud for files.
 
 use super::{CellGrid, Particle, Setup};
-use crate::{
-    output::{Array, Cloud},
-    scene::Field,
-};
 use glam::{DVec3, Vec3};
 
 /// Fluid particles inside the domain, sorted by id.
@@ -104,34 +100,5 @@ impl Totals {
     /// Sum of kinetic, potential and compression energy, J.
     pub fn energy(&self) -> f64 {
         self.kinetic_energy + self.potential_energy + self.compression_energy
-    }
-}
-
-/// The particles of `water` as points with their ids and `fields`: velocity (m/s), pressure (Pa) and density (kg/m³).
-/// Particles carry no other field.
-pub fn point_cloud(water: &Water, fields: &[Field]) -> Cloud {
-    let scalar = |values: &[f64]| values.iter().map(|v| *v as f32).collect();
-    let array = |field: &Field| {
-        let values: Vec<f32> = match field {
-            Field::Velocity => water.velocities.iter().flat_map(|v| v.to_array()).collect(),
-            Field::Pressure => scalar(&water.pressures),
-            Field::Density => scalar(&water.densities),
-            _ => return None,
-        };
-        Some(Array {
-            name: field.name().into(),
-            components: field.components(),
-            values,
-        })
-    };
-    let mut arrays: Vec<Array> = fields.iter().filter_map(array).collect();
-    arrays.push(Array {
-        name: "id".into(),
-        components: 1,
-        values: water.ids.iter().map(|id| *id as f32).collect(),
-    });
-    Cloud {
-        points: water.positions.iter().map(|x| x.to_array()).collect(),
-        arrays,
     }
 }

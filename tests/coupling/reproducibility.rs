@@ -1,7 +1,10 @@
 //! The same bits twice, and from wherever a run was cut.
 
 use crate::fixture::{World, fluid, material};
-use riprap::{scene::Field, simulation::checkpoint::Checkpoint};
+use riprap::{
+    scene::Field,
+    simulation::checkpoint::{Checkpoint, FluidState, LatticeState},
+};
 
 /// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.
 fn scene(interval: u32, average: bool) -> String {
@@ -149,6 +152,13 @@ fn a_restart_shows_what_the_run_showed() {
     }
 }
 
+fn lattice(checkpoint: &mut Checkpoint) -> &mut LatticeState {
+    match &mut checkpoint.fluid {
+        Some(FluidState::Lattice(state)) => state,
+        _ => panic!("no fluid on a lattice"),
+    }
+}
+
 #[test]
 fn checkpoints_of_other_scenes_leave_everything_as_it_is() {
     let mut world = World::new(&scene(1, true));
@@ -165,13 +175,14 @@ fn checkpoints_of_other_scenes_leave_everything_as_it_is() {
     assert!(error.contains("blocks"), "{error}");
     assert!(world.bits() == bits);
     let mut dry = state.clone();
-    dry.blocks = None;
+    dry.rock = None;
+    lattice(&mut dry).coupling = None;
     let error = world.sim.restore(&dry).unwrap_err().to_string();
-    assert!(error.contains("has none"), "{error}");
+    assert!(error.contains("without blocks"), "{error}");
     let mut broken = world.rig.wait(world.sim.checkpoint()).unwrap();
     let mut outside = broken.clone();
-    broken.populations.values.truncate(27);
-    outside.inside.cells[0] = u32::MAX;
+    lattice(&mut broken).populations.values.truncate(27);
+    lattice(&mut outside).inside.cells[0] = u32::MAX;
     world.advance(3);
     let bits = world.bits();
     for bad in [broken, outside] {

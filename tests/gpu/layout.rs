@@ -95,7 +95,7 @@ fn directions() {
 #[test]
 fn the_guard() {
     let setup = Setup::periodic([4; 3], 0.1);
-    let linked = riprap::lattice::collide_stream(&setup, 1, riprap::lattice::Reach::All)
+    let linked = riprap::lattice::collide_stream(&setup, 1, riprap::lattice::BrickKind::All)
         .link()
         .unwrap();
     let fields = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];

@@ -4,7 +4,7 @@ use kit::Rig;
 use riprap::{
     Error, Result,
     scene::Scene,
-    simulation::{FreeSurface, Simulation, checkpoint::Checkpoint},
+    simulation::{Simulation, checkpoint::Checkpoint},
 };
 use std::time::Duration;
 
@@ -81,7 +81,7 @@ fn a_flow_with_blocks_says_that_its_device_is_lost() {
 fn free_water_says_that_its_device_is_lost() {
     let rig = Rig::new();
     let scene = scene(WATER);
-    let made = FreeSurface::new(&rig.device, &rig.queue, &scene);
+    let made = Simulation::new(&rig.device, &rig.queue, &scene);
     let mut water = rig.wait(made).unwrap();
     rig.wait(water.advance(2)).unwrap();
     rig.device.destroy();
@@ -97,7 +97,7 @@ fn a_scene_is_not_set_up_on_a_device_that_is_lost() {
     assert!(made.is_err());
     let made = wait(
         &rig,
-        FreeSurface::new(&rig.device, &rig.queue, &scene(WATER)),
+        Simulation::new(&rig.device, &rig.queue, &scene(WATER)),
     );
     assert!(made.is_err());
 }

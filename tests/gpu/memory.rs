@@ -1,12 +1,7 @@
 //! Devices that are too small or full: an error that names what does not fit, how large it is, and what to change.
 
 use kit::{Rig, gpu};
-use riprap::{
-    Error, Result,
-    scene::Scene,
-    simulation::{FreeSurface, Simulation},
-    wgpu,
-};
+use riprap::{Error, Result, scene::Scene, simulation::Simulation, wgpu};
 use std::time::Duration;
 
 /// 16 × 16 × 16 cells, with a block if `blocks` is one.
@@ -64,7 +59,7 @@ fn made_flow(rig: &Rig, scene: &Scene) -> Result<()> {
 
 fn made_water(rig: &Rig) -> Result<()> {
     let scene = water();
-    let made = FreeSurface::new(&rig.device, &rig.queue, &scene);
+    let made = Simulation::new(&rig.device, &rig.queue, &scene);
     gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
 }
 

@@ -2,7 +2,7 @@
 
 use riprap::{
     gpu::timer::{self, Timer},
-    lattice::{Lattice, Setup, State, StreamOnly},
+    lattice::{Lattice, Setup, State},
     wgpu,
 };
 use std::time::Duration;
@@ -26,14 +26,13 @@ fn every_timed_pass_takes_a_positive_time() {
     let mut lattice = Lattice::new(&device, setup).unwrap();
     let state = State::rest(32 * 32 * 32);
     lattice.start(&device, &queue, &state, true).unwrap();
-    let mut streaming = StreamOnly::new(&device, lattice).unwrap();
     let mut timer = Timer::new(&device, &queue, 2).unwrap();
     for _round in 0..2 {
         let mut encoder = device.create_command_encoder(&Default::default());
         for label in ["first", "second", "beyond the capacity"] {
             let mut pass = encoder.begin_compute_pass(&timer.pass(label));
             for _ in 0..4 {
-                streaming.record(&mut pass);
+                lattice.record(&mut pass);
             }
         }
         timer.resolve(&mut encoder);

@@ -330,41 +330,41 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         assert!(told.starts_with(&format!("{place}: ")), "{place}: {told}");
     };
     for nu in [NAN, 0.0, -1.0, 1e300, 1e-300] {
-        refused("fluid.viscosity", &|s| s.nu = nu);
+        refused("nu", &|s| s.nu = nu);
     }
     for bad in [NAN, f64::INFINITY, 1e300] {
-        refused("fluid.acceleration", &|s| {
+        refused("force", &|s| {
             s.force = Force::Constant([0.0, bad, 0.0]);
         });
-        refused("fluid.acceleration", &|s| {
+        refused("force", &|s| {
             s.force = Force::Field(vec![[bad as f32; 3]; 64]);
         });
         refused("max_speed", &|s| s.max_speed = bad);
-        refused("boundaries.y_min", &closed(Face::Wall([bad, 0.0, 0.0])));
+        refused("faces.y_min", &closed(Face::Wall([bad, 0.0, 0.0])));
         let inlet = Face::Velocity(vec![[0.0, bad as f32, 0.0]; 16]);
-        refused("boundaries.y_min", &closed(inlet));
+        refused("faces.y_min", &closed(inlet));
     }
     for bad in [NAN, 0.0, -1.0, 2.1, 5.0] {
         refused("rates.s4", &|s| s.rates = Rates::equal(bad));
         refused("rates.s26", &|s| s.rates.s26 = bad);
     }
     for bad in [NAN, -1.0, 0.0, f64::INFINITY] {
-        refused("numerics.lambda", &|s| s.lambda = Some(bad));
-        refused("numerics.wall_lambda", &|s| s.wall_lambda = Some(bad));
-        refused("numerics.solid_lambda", &|s| s.solid_lambda = Some(bad));
+        refused("lambda", &|s| s.lambda = Some(bad));
+        refused("wall_lambda", &|s| s.wall_lambda = Some(bad));
+        refused("solid_lambda", &|s| s.solid_lambda = Some(bad));
         let density = bad;
-        refused("boundaries.y_min", &closed(Face::Pressure { density }));
-        refused("boundaries.y_min", &closed(Face::Outflow { density }));
+        refused("faces.y_min", &closed(Face::Pressure { density }));
+        refused("faces.y_min", &closed(Face::Outflow { density }));
     }
     for bad in [NAN, -1.0, 2.0] {
-        refused("numerics.odd_rate_floor", &|s| s.odd_rate_floor = bad);
+        refused("odd_rate_floor", &|s| s.odd_rate_floor = bad);
     }
     for bad in [NAN, -1.0, f64::INFINITY] {
-        refused("numerics.wale_constant", &|s| s.wale = Some(bad));
+        refused("wale", &|s| s.wale = Some(bad));
     }
     refused("max_speed", &|s| s.max_speed = -1.0);
     // It would push water into the domain, or out of it.
-    refused("boundaries.y_min", &closed(Face::Wall([0.0, 0.1, 0.0])));
+    refused("faces.y_min", &closed(Face::Wall([0.0, 0.1, 0.0])));
     refused("brick", &|s| s.brick = [u32::MAX; 3]);
     refused("brick", &|s| s.brick = [1 << 31, 1 << 31, 1 << 7]);
 }
@@ -400,8 +400,8 @@ fn velocities_of_faces_that_are_none_are_refused() {
     for (axis, side, value, told) in [
         (5, 0, 0.02, "axes are 0 to 2"),
         (0, 2, 0.02, "axes are 0 to 2"),
-        (0, 1, 0.02, "boundaries.x_max"),
-        (0, 0, f32::NAN, "boundaries.x_min: contains NaN"),
+        (0, 1, 0.02, "faces.x_max"),
+        (0, 0, f32::NAN, "faces.x_min: contains NaN"),
     ] {
         let message = set(axis, side, value).unwrap_err().to_string();
         assert!(message.contains(told), "{message}");

@@ -3,7 +3,7 @@
 use kit::Rig;
 use riprap::{
     lattice::{Face, Force, Inside, Lattice, Populations, Setup, State, Storage},
-    simulation::checkpoint::Checkpoint,
+    simulation::checkpoint::{Checkpoint, FluidState, LatticeState},
     wgpu,
 };
 
@@ -93,10 +93,8 @@ fn words_of_64_bits_change_no_bit() {
     for storage in [Storage::F32, Storage::F16] {
         let mut narrow = setup();
         (narrow.storage, narrow.lanes, narrow.force) = (storage, 4, field.clone());
-        let wide = Setup {
-            wide: true,
-            ..narrow.clone()
-        };
+        let mut wide = narrow.clone();
+        wide.wide = true;
         let expected = bits(&run(&rig, narrow, 51).1);
         assert!(bits(&run(&rig, wide, 51).1) == expected, "{storage:?}");
     }
@@ -111,6 +109,31 @@ fn words_that_the_device_has_not_are_refused() {
     assert!(error.contains("SHADER_INT64"), "{error}");
 }
 
+/// A file's worth of a fluid, with velocities in two cells of a solid.
+fn checkpoint(populations: Populations) -> Checkpoint {
+    Checkpoint {
+        step: populations.step,
+        time_step: 1e-3,
+        rock: None,
+        fluid: Some(FluidState::Lattice(LatticeState {
+            cell: 1e-2,
+            populations,
+            inside: Inside {
+                cells: vec![3, 17],
+                velocity: vec![0.1, -0.2, 0.3, -0.4, 0.5, -0.6],
+            },
+            coupling: None,
+        })),
+    }
+}
+
+fn populations(checkpoint: &Checkpoint) -> &Populations {
+    match &checkpoint.fluid {
+        Some(FluidState::Lattice(state)) => &state.populations,
+        _ => panic!("no fluid on a lattice"),
+    }
+}
+
 #[test]
 fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
     let rig = Rig::new();
@@ -120,22 +143,13 @@ fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
             let mut setup = setup();
             (setup.storage, setup.lanes) = (storage, if storage == Storage::F32 { 1 } else { 2 });
             let whole = run(&rig, setup.clone(), 100).1;
-            let saved = Checkpoint {
-                time_step: 1e-3,
-                cell: 1e-2,
-                populations: run(&rig, setup.clone(), stop).1,
-                inside: Inside {
-                    cells: vec![3, 17],
-                    velocity: vec![0.1, -0.2, 0.3, -0.4, 0.5, -0.6],
-                },
-                blocks: None,
-            };
+            let saved = checkpoint(run(&rig, setup.clone(), stop).1);
             saved.write(&file).unwrap();
             let read = Checkpoint::read(&file).unwrap();
             assert_eq!(read, saved);
             let mut lattice = Lattice::new(&rig.device, setup).unwrap();
             lattice
-                .set_populations(&rig.device, &rig.queue, &read.populations)
+                .set_populations(&rig.device, &rig.queue, populations(&read))
                 .unwrap();
             rig.run(&mut lattice, 100 - stop);
             let resumed = rig.populations(&mut lattice);
@@ -168,13 +182,7 @@ fn a_checkpoint_changes_lanes_and_bindings() {
 fn broken_checkpoints_are_refused() {
     let rig = Rig::new();
     let file = std::env::temp_dir().join(format!("riprap-broken-{}.riprap", std::process::id()));
-    let saved = Checkpoint {
-        time_step: 1.0,
-        cell: 1.0,
-        populations: run(&rig, setup(), 2).1,
-        inside: Inside::default(),
-        blocks: None,
-    };
+    let saved = checkpoint(run(&rig, setup(), 2).1);
     saved.write(&file).unwrap();
     let bytes = std::fs::read(&file).unwrap();
     let changed = |at: usize, to: u8| {
@@ -189,7 +197,8 @@ fn broken_checkpoints_are_refused() {
         (&bytes[..14], "cut short"),
         (&bytes[..3], "not a checkpoint"),
         (&changed(middle, !bytes[middle]), "damaged"),
-        (&changed(14, b'2'), "version 2 of its format"),
+        (&changed(17, 9), "version 9 of its format"),
+        (&b"riprap state  4\n"[..], "version 4 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {
         std::fs::write(&file, content).unwrap();
@@ -199,7 +208,7 @@ fn broken_checkpoints_are_refused() {
     std::fs::remove_file(&file).unwrap();
     let mut lattice = Lattice::new(&rig.device, Setup::periodic([4, 4, 4], 0.1)).unwrap();
     let error = lattice
-        .set_populations(&rig.device, &rig.queue, &saved.populations)
+        .set_populations(&rig.device, &rig.queue, populations(&saved))
         .unwrap_err();
     assert!(error.to_string().contains("[11, 7, 8]"), "{error}");
 }

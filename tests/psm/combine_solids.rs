@@ -4,8 +4,8 @@ use crate::tiling::{Noise, Placed, Tiling, centre, grid, split};
 use glam::{DMat3, DVec3};
 use kit::{POISON, Workbench};
 use riprap::psm::{
-    DEEP, DEEP_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, WHOLE, Walk, constants,
-    saturate_cells,
+    INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, WHOLE, Walk,
+    combine_parts, constants,
 };
 use std::collections::BTreeSet;
 
@@ -73,7 +73,7 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Noise) -> Vec<f32> {
                 (None, _) | (_, 0..3) => 0.0,
                 (_, 8) => TOUCHES,
                 (_, 3) => NEAR,
-                (_, 4) => DEEP,
+                (_, 4) => INTERIOR,
                 (_, 5) => 1.0,
                 _ => noise.next() as f32,
             }
@@ -100,7 +100,7 @@ fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f6
             touching += moving[tile.block as usize].at(centre(cell));
             touched += 1.0;
         }
-        deep |= share == DEEP;
+        deep |= share == INTERIOR;
         let fraction = f64::from(share.clamp(0.0, 1.0));
         if fraction > 0.0 {
             let cell = tiling.cell(tile, local as usize).unwrap();
@@ -109,7 +109,7 @@ fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f6
         }
     }
     match (sum > 0.0, near) {
-        (true, _) if deep => (sum + f64::from(DEEP_SUM), flux / sum),
+        (true, _) if deep => (sum + f64::from(INTERIOR_SUM), flux / sum),
         (true, _) if met.len() > 1 && sum > 0.9 => {
             // Those that touch count as the joint closes.
             let tight = ((sum - 0.9) / 0.098).min(1.0);
@@ -156,16 +156,16 @@ fn shares_add_and_velocities_are_their_mean() {
             ("motions", &bench.buffer(&motions)),
             ("lane_first", &bench.buffer(&lane_first)),
             ("lane_tiles", &bench.buffer(&lane_tiles)),
-            ("shares", &bench.buffer(&shares)),
-            ("saturation", &saturation),
+            ("solid_fractions", &bench.buffer(&shares)),
+            ("psm_planes", &saturation),
         ];
         // Either walk.
         let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];
-        let program = saturate_cells(&tiling.grid, walk);
+        let program = combine_parts(&tiling.grid, walk);
         let numbers = constants(&tiling.grid);
         bench.run(
             &program,
-            "saturate_cells",
+            "combine_parts",
             &numbers,
             &buffers,
             64 * work.len(),

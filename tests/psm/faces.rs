@@ -27,7 +27,7 @@ struct Case {
 }
 
 impl Case {
-    /// `shares` as they may be; or exact ones, with fluid around, all of it at a density of 1.03.
+    /// `solid_fractions` as they may be; or exact ones, with fluid around, all of it at a density of 1.03.
     fn new(tiling: Tiling, shares: Option<Vec<f32>>, noise: &mut Noise) -> Self {
         let blocks = tiling.placed.iter().map(|p| p.block).max().unwrap() + 1;
         let near = tiling.placed[0].centre;
@@ -186,8 +186,8 @@ impl Case {
             ("parts", &bench.buffer(&self.tiling.parts)),
             ("faces", &bench.buffer(&self.tiling.faces)),
             ("motions", &bench.buffer(&motions)),
-            ("shares", &bench.buffer(&self.shares)),
-            ("saturation", &bench.buffer(&self.saturation)),
+            ("solid_fractions", &bench.buffer(&self.shares)),
+            ("psm_planes", &bench.buffer(&self.saturation)),
             ("face_first", &bench.buffer(&face_first)),
             ("face_partials", &partials),
             ("face_loads", &loads),

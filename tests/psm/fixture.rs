@@ -142,8 +142,8 @@ impl Subject {
     pub fn fill(&mut self, bricks: &[u32]) {
         let grid = *self.lattice.grid();
         let (device, queue) = (&self.rig.device, &self.rig.queue);
-        self.lattice.set_saturated(device, queue, bricks).unwrap();
-        let buffer = self.lattice.saturation().unwrap();
+        self.lattice.set_psm_bricks(device, queue, bricks).unwrap();
+        let buffer = self.lattice.psm_planes().unwrap();
         let mut values = vec![f32::NAN; (buffer.size() / 4) as usize];
         for slot in 0..bricks.len() {
             let first = place(&grid, slot, 0, 0, 0);
@@ -176,8 +176,8 @@ impl Subject {
     }
 
     /// What the fluid kernel left of the saturation.
-    pub fn saturation(&self) -> Vec<f32> {
-        let buffer = self.lattice.saturation().unwrap();
+    pub fn psm_planes(&self) -> Vec<f32> {
+        let buffer = self.lattice.psm_planes().unwrap();
         let count = (buffer.size() / 4) as usize;
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         let mut readback = Readback::default();
@@ -189,7 +189,7 @@ impl Subject {
     /// Largest error of B and of the force on one of two blocks in a cell, over the cells of these bricks; the twin is
     /// where the last step began.
     pub fn force_error(&self, bricks: &[u32]) -> f64 {
-        let (grid, found) = (self.lattice.grid(), self.saturation());
+        let (grid, found) = (self.lattice.grid(), self.psm_planes());
         let nu_t = self.twin.nu_t();
         let mut worst: f64 = 0.0;
         for (slot, local, lane, cell) in places(grid, bricks) {

@@ -7,8 +7,8 @@ use riprap::{
     },
     lattice::Grid,
     psm::{
-        DEEP, DEEP_SUM, FACE_LOAD, FaceJob, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES, Tile,
-        WRENCH, reduce_faces,
+        FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
+        Tile, WRENCH, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -93,11 +93,11 @@ fn constants() {
         let value = values.next().unwrap().trim_end_matches(['u', ';']);
         value.parse().unwrap()
     };
-    assert_eq!(there("DEEP"), DEEP);
+    assert_eq!(there("INTERIOR"), INTERIOR);
     assert_eq!(there("NEAR"), NEAR);
     assert_eq!(there("NEAR_SUM"), NEAR);
     assert_eq!(there("TOUCHES"), TOUCHES);
-    assert_eq!(there("DEEP_SUM"), DEEP_SUM);
+    assert_eq!(there("INTERIOR_SUM"), INTERIOR_SUM);
     assert_eq!(there("JOINT_SUM"), JOINT_SUM);
     assert_eq!(there("PLANES"), PLANES as f32);
     assert_eq!(there("WRENCH"), WRENCH as f32);

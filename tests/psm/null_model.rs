@@ -41,15 +41,14 @@ fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
         let mut alone = Subject::new(&plain);
         alone.rig.run(&mut alone.lattice, 7);
         let expected = alone.rig.populations(&mut alone.lattice).values;
-        let mut with = Subject::new(&Setup {
-            solid_operator: Some(SolidOperator::Holdych),
-            ..plain
-        });
+        let mut plain = plain;
+        plain.solid_operator = Some(SolidOperator::Holdych);
+        let mut with = Subject::new(&plain);
         let listed = with.some_bricks();
         // None listed at first, then some, then none again.
         for (bricks, steps) in [(&[][..], 2), (&listed[..], 3), (&[], 2)] {
             let (device, queue) = (&with.rig.device, &with.rig.queue);
-            with.lattice.set_saturated(device, queue, bricks).unwrap();
+            with.lattice.set_psm_bricks(device, queue, bricks).unwrap();
             with.rig.run(&mut with.lattice, steps);
         }
         let found = with.rig.populations(&mut with.lattice).values;
@@ -85,7 +84,7 @@ fn neither_the_order_of_bricks_nor_a_step_in_two_submissions_changes_a_bit() {
             let mut encoder = split.rig.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             match rest {
-                false => split.lattice.record_saturated(&mut pass),
+                false => split.lattice.record_psm(&mut pass),
                 true => split.lattice.record_rest(&mut pass),
             }
             drop(pass);
@@ -101,16 +100,15 @@ fn lists_of_bricks_that_cannot_be_are_refused() {
     let list = subject.some_bricks();
     let refusal = |subject: &mut Subject, bricks: &[u32]| {
         let (device, queue) = (&subject.rig.device, &subject.rig.queue);
-        let refused = subject.lattice.set_saturated(device, queue, bricks);
+        let refused = subject.lattice.set_psm_bricks(device, queue, bricks);
         refused.unwrap_err().to_string()
     };
     let error = refusal(&mut subject, &list);
     assert!(error.contains("solid operator"), "{error}");
 
-    let mut subject = Subject::new(&Setup {
-        solid_operator: Some(SolidOperator::Holdych),
-        ..busy(Storage::F32, 1)
-    });
+    let mut setup = busy(Storage::F32, 1);
+    setup.solid_operator = Some(SolidOperator::Holdych);
+    let mut subject = Subject::new(&setup);
     let error = refusal(&mut subject, &[list[0], 1000]);
     assert!(error.contains("brick 1000"), "{error}");
     let error = refusal(&mut subject, &[list[0], list[1], list[0]]);

@@ -210,7 +210,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
         let mut encoder = device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
         immersed.record_cells(&mut pass);
-        subject.lattice.record_saturated(&mut pass);
+        subject.lattice.record_psm(&mut pass);
         immersed.record_loads(&mut pass);
         subject.lattice.record_rest(&mut pass);
         drop(pass);

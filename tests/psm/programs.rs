@@ -4,7 +4,7 @@ use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::Grid,
     psm::{
-        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
         voxelise_edges,
     },
 };
@@ -25,23 +25,30 @@ fn bindings_by_name() {
         brick: [4; 3],
     };
     assert_eq!(
-        names(&voxelise(&grid, Walk::Serial), "voxelise"),
-        ["work", "tiles", "parts", "shares", "edges", "faces"]
+        names(&voxelise(&grid, Walk::Serial, Forms::ALL), "voxelise"),
+        [
+            "work",
+            "tiles",
+            "parts",
+            "solid_fractions",
+            "edges",
+            "faces"
+        ]
     );
     assert_eq!(
-        names(&voxelise_edges(&grid), "voxelise_edges"),
-        ["tiles", "parts", "shares", "edges", "faces"]
+        names(&voxelise_edges(&grid, Forms::ALL), "voxelise_edges"),
+        ["tiles", "parts", "solid_fractions", "edges", "faces"]
     );
     assert_eq!(
-        names(&saturate_cells(&grid, Walk::Parallel), "saturate_cells"),
+        names(&combine_parts(&grid, Walk::Parallel), "combine_parts"),
         [
             "work",
             "tiles",
             "motions",
             "lane_first",
             "lane_tiles",
-            "shares",
-            "saturation"
+            "solid_fractions",
+            "psm_planes"
         ]
     );
     for walk in [Walk::Serial, Walk::Parallel] {
@@ -50,8 +57,8 @@ fn bindings_by_name() {
             [
                 "tiles",
                 "motions",
-                "shares",
-                "saturation",
+                "solid_fractions",
+                "psm_planes",
                 "block_first",
                 "partials"
             ]
@@ -62,8 +69,8 @@ fn bindings_by_name() {
         [
             "tiles",
             "motions",
-            "shares",
-            "saturation",
+            "solid_fractions",
+            "psm_planes",
             "jobs",
             "parts",
             "faces",

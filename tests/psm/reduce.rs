@@ -6,7 +6,9 @@ use crate::{
 };
 use glam::DVec3;
 use kit::{POISON, Workbench};
-use riprap::psm::{DEEP, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles};
+use riprap::psm::{
+    INTERIOR, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
+};
 
 const BLOCKS: u32 = 9;
 
@@ -78,7 +80,11 @@ impl Case {
                 if share <= 0.0 || !tiling.reach(tile).contains(&local) {
                     continue;
                 }
-                let e = if share == DEEP { 1.0 } else { f64::from(share) };
+                let e = if share == INTERIOR {
+                    1.0
+                } else {
+                    f64::from(share)
+                };
                 let point = centre(tiling.cell(tile, local).unwrap());
                 let r = (point - moving.centre).to_array();
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
@@ -125,8 +131,8 @@ impl Case {
         let buffers = [
             ("tiles", &bench.buffer(&listed)),
             ("motions", &bench.buffer(&motions)),
-            ("shares", &bench.buffer(&self.shares)),
-            ("saturation", &bench.buffer(&self.saturation)),
+            ("solid_fractions", &bench.buffer(&self.shares)),
+            ("psm_planes", &bench.buffer(&self.saturation)),
             ("block_first", &bench.buffer(&self.tiling.by_block(BLOCKS))),
             ("partials", &partials),
             ("wrenches", &wrenches),

@@ -1,7 +1,7 @@
 //! Solid fractions against exact volumes.
 
 use crate::{
-    exact::{ball_share, hull_share},
+    exact::{ball_fraction, hull_fraction},
     shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
     tiling::{Noise, Placed, Tiling, centre, grid},
 };
@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3};
 use kit::{POISON, Workbench};
 use riprap::{
     geometry::HalfSpace,
-    psm::{DEEP, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
+    psm::{Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
 };
 
 /// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
@@ -32,13 +32,13 @@ fn walked(bench: &Workbench, tiling: &Tiling, work: &[u32], walk: Walk) -> Vec<f
         ("tiles", &bench.buffer(&tiling.tiles)),
         ("parts", &bench.buffer(&tiling.parts)),
         ("faces", &bench.buffer(&tiling.faces)),
-        ("shares", &shares),
+        ("solid_fractions", &shares),
         ("edges", &edges),
     ];
     let numbers = constants(&tiling.grid);
-    let program = voxelise(&tiling.grid, walk);
+    let program = voxelise(&tiling.grid, walk, Forms::ALL);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * work.len());
-    let program = voxelise_edges(&tiling.grid);
+    let program = voxelise_edges(&tiling.grid, Forms::ALL);
     // Fewer invocations than there are cells at edges: each does several.
     bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
     bench.read(&shares)
@@ -84,9 +84,9 @@ fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
         ((-5.0 - height) * w, ((height - 3.0) * w).max(box_gap - 1.5))
     };
     if inside > EDGE {
-        assert_eq!(share, DEEP, "{r} is deep");
+        assert_eq!(share, INTERIOR, "{r} is deep");
     } else if inside < -EDGE {
-        assert_ne!(share, DEEP, "{r} is not deep");
+        assert_ne!(share, INTERIOR, "{r} is not deep");
     }
     if far > EDGE {
         assert_eq!(share, 0.0, "{r} is far");
@@ -133,11 +133,11 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
             let exact = match placed.faces.is_empty() {
                 _ if outside => 0.0,
                 true if (r.abs() + 0.5).length() <= placed.radius => 1.0,
-                true => ball_share(placed.radius, r),
-                false => hull_share(&placed.faces, r),
+                true => ball_fraction(placed.radius, r),
+                false => hull_fraction(&placed.faces, r),
             };
             check_marks(placed, r, share, exact);
-            let marks = [DEEP, NEAR, TOUCHES];
+            let marks = [INTERIOR, NEAR, TOUCHES];
             let known = marks.contains(&share) || (0.0..=1.0).contains(&share);
             assert!(known, "{share}");
             let most = if cuts(placed, r) > 7 { COLUMNS } else { most };

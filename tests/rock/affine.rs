@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use riprap::rock::{
-    integrate::{Affine, Pull},
+    integrate::{Affine, Wrench},
     law::Elastic,
 };
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ const ROCK: Elastic = Elastic {
     youngs_modulus: 1e9,
     poissons_ratio: 0.25,
 };
-const NONE: Pull = Pull {
+const NONE: Wrench = Wrench {
     force: DVec3::ZERO,
     moment: DMat3::ZERO,
 };

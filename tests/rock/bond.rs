@@ -177,14 +177,17 @@ fn a_restart_goes_on_with_the_same_bits() {
     slowly(&mut setup);
     let mut whole = blocks(setup.clone());
     run(&mut whole, 0.06);
-    let bytes = whole.snapshot().to_bytes();
+    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
     let mut other = blocks(setup);
-    let read = Snapshot::from_bytes(&bytes).expect("it is one");
+    let read = postcard::from_bytes::<Snapshot>(&bytes).expect("it is one");
     other.restore(&read).expect("the same blocks");
     run(&mut whole, 0.15);
     run(&mut other, 0.15);
     assert!(whole.contacts().all(|contact| contact.bonded));
-    assert_eq!(whole.snapshot().to_bytes(), other.snapshot().to_bytes());
+    assert_eq!(
+        postcard::to_allocvec(&whole.snapshot()).unwrap(),
+        postcard::to_allocvec(&other.snapshot()).unwrap()
+    );
 }
 
 #[test]

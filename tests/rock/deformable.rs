@@ -350,10 +350,10 @@ fn the_bits_depend_neither_on_threads_nor_on_where_a_run_was_cut() {
     let mut whole = blocks(wall());
     run(&mut whole, 0.02);
     assert_eq!(whole.snapshot(), one);
-    let bytes = one.to_bytes();
+    let bytes = postcard::to_allocvec(&one).unwrap();
     run(&mut whole, 0.04);
     let mut resumed = blocks(wall());
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     resumed.restore(&snapshot).expect("the same blocks");
     run(&mut resumed, 0.04);
     assert_eq!(resumed.snapshot(), whole.snapshot());

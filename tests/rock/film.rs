@@ -178,10 +178,10 @@ fn a_restart_amid_films_gives_the_same_bits() {
     let setup = with_film(list, 1e3, 1e-3);
     let mut whole = blocks(setup.clone());
     run(&mut whole, 0.05);
-    let bytes = whole.snapshot().to_bytes();
+    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
     run(&mut whole, 0.2);
     let mut again = blocks(setup);
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     again.restore(&snapshot).expect("of the same blocks");
     run(&mut again, 0.2);
     assert!(whole.ledger().film > 0.0);

@@ -6,7 +6,7 @@ use riprap::{
     geometry::{Polyhedron, Shape},
     rock::{
         Block, Blocks, Material, Setup, Snapshot,
-        broadphase::{Broadphase, Item},
+        broadphase::{Aabb, Broadphase},
         law::Joint,
     },
 };
@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub struct AllPairs;
 
 impl Broadphase for AllPairs {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
+    async fn pairs(&mut self, items: &[Aabb]) -> Result<Vec<[u32; 2]>> {
         let n = items.len();
         let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
         let near =

@@ -68,9 +68,9 @@ fn it_strikes_another_and_stays_on_its_rail() {
     let error = (ledger.balance() - start.balance()).abs();
     assert!(error < 1e-3 * start.kinetic, "{error} J of {ledger:?}");
     let mut again = blocks(guided(list()));
-    let bytes = middle.to_bytes();
+    let bytes = postcard::to_allocvec(&middle).unwrap();
     again
-        .restore(&Snapshot::from_bytes(&bytes).expect("a snapshot"))
+        .restore(&postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot"))
         .expect("the same blocks");
     run(&mut again, 0.8);
     assert_eq!(again.snapshot(), whole.snapshot());

@@ -20,11 +20,11 @@ const SECTION: Section = Section {
     area: 2.0,
     elastic_area: 2.0,
     rolls: false,
-    gape: 0.0,
+    opening: 0.0,
 };
 
 const REST: Motion = Motion {
-    way: DVec3::ZERO,
+    displacement: DVec3::ZERO,
     velocity: DVec3::ZERO,
     spin: DVec3::ZERO,
     frame: DQuat::IDENTITY,
@@ -32,9 +32,9 @@ const REST: Motion = Motion {
     mass: 1000.0,
 };
 
-fn slid(joint: &Joint, way: f64, history: &History) -> Force {
+fn slid(joint: &Joint, displacement: f64, history: &History) -> Force {
     let motion = Motion {
-        way: DVec3::X * way,
+        displacement: DVec3::X * displacement,
         ..REST
     };
     force(joint, &SECTION, &motion, history)
@@ -153,9 +153,9 @@ fn a_corner_is_as_stiff_as_its_elastic_area_and_as_strong_as_its_own() {
         cohesion: 1e6,
         ..JOINT
     };
-    let moved = |way: f64| {
+    let moved = |displacement: f64| {
         let motion = Motion {
-            way: DVec3::X * way,
+            displacement: DVec3::X * displacement,
             ..REST
         };
         force(&joint, &corner, &motion, &History::default()).total()
@@ -179,10 +179,10 @@ fn a_bond_breaks_where_it_bends_the_most_or_has_slipped_as_far_as_it_opens() {
         bonded: true,
         ..History::default()
     };
-    let open = |overlap: f64, gape: f64| {
+    let open = |overlap: f64, opening: f64| {
         let section = Section {
             overlap,
-            gape,
+            opening,
             ..SECTION
         };
         force(&joint, &section, &REST, &bond)

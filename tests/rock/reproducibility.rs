@@ -5,7 +5,10 @@ use glam::{DQuat, DVec3};
 use riprap::{
     geometry::{Form, Part, Polyhedron, Shape},
     rock::{Block, Blocks, Setup, Snapshot},
+    scene::{Scene, build::block_setup},
+    simulation::{Simulation, checkpoint::Checkpoint},
 };
+use std::path::Path;
 
 /// A wall of five courses of sixteen, laid crookedly: more contacts than one thread takes at a time.
 fn wall() -> Setup {
@@ -43,19 +46,18 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
 fn a_snapshot_goes_on_with_the_same_bits() {
     let mut whole = blocks(wall());
     run(&mut whole, 0.06);
-    let bytes = whole.snapshot().to_bytes();
+    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
     run(&mut whole, 0.12);
 
     let mut resumed = blocks(wall());
-    let snapshot = Snapshot::from_bytes(&bytes).expect("a snapshot");
+    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
     resumed.restore(&snapshot).expect("the same blocks");
     assert_eq!(resumed.snapshot(), snapshot);
     run(&mut resumed, 0.12);
     assert_eq!(resumed.snapshot(), whole.snapshot());
     assert_eq!(resumed.ledger(), whole.ledger());
 
-    assert!(Snapshot::from_bytes(&bytes[..bytes.len() - 1]).is_err());
-    assert!(Snapshot::from_bytes(&bytes[1..]).is_err());
+    assert!(postcard::from_bytes::<Snapshot>(&bytes[..bytes.len() - 1]).is_err());
     let mut other = blocks(Setup {
         blocks: wall().blocks[..7].to_vec(),
         ..wall()
@@ -84,7 +86,7 @@ fn five_fixed_blocks_and_a_moving_one_cost_what_one_costs() {
     let (one, five) = (slider(1), slider(5));
     assert!(one.counts().pairs > 100);
     assert_eq!(one.counts(), five.counts());
-    assert_eq!(five.candidates(), 1);
+    assert_eq!(five.candidate_pair_count(), 1);
 }
 
 /// As many blocks and parts, but another one of the blocks is the compound: its contacts are not of these parts.
@@ -113,4 +115,60 @@ fn a_snapshot_of_other_compounds_is_refused() {
     let message = of(0).restore(&upper.snapshot()).expect_err("other parts");
     assert!(message.to_string().contains("another scene"), "{message}");
     of(1).restore(&upper.snapshot()).expect("the same parts");
+}
+
+const SCENE: &str = r#"
+    run = { duration = 1 }
+    materials = [{ name = "rock", density = 2650, normal_stiffness = 1e8, friction = 35, damping = 0.2 }]
+    [[blocks]]
+    kind = "box"
+    size = [20, 20, 1]
+    position = [0, 0, -0.5]
+    motion = "fixed"
+    [[blocks]]
+    kind = "box"
+    size = [1, 1, 1]
+    position = [0, 0, 0.6]
+    repeat = { count = 3, step = [0.1, 0.03, 1.05] }
+"#;
+
+/// Blocks without a fluid, on the host.
+fn simulation() -> Simulation {
+    let scene = Scene::from_toml(SCENE, Path::new(""), "scene.toml").expect("a scene");
+    let setup = block_setup(&scene).expect("blocks");
+    pollster::block_on(Simulation::of_rock(None, &scene, setup))
+        .expect("blocks that do not overlap")
+}
+
+#[test]
+fn a_scene_goes_on_from_a_file_without_a_device() {
+    let file = std::env::temp_dir().join(format!("riprap_rock_{}.state", std::process::id()));
+    let mut whole = simulation();
+    pollster::block_on(whole.advance(7)).expect("steps");
+    let state = pollster::block_on(whole.checkpoint()).expect("a state");
+    state.write(&file).expect("a folder to write to");
+    pollster::block_on(whole.advance(9)).expect("steps");
+    let mut rest = simulation();
+    let read = Checkpoint::read(&file).expect("a checkpoint");
+    std::fs::remove_file(&file).expect("the file");
+    assert_eq!(read, state);
+    rest.restore(&read).expect("the same scene");
+    pollster::block_on(rest.advance(9)).expect("steps");
+    assert_eq!(rest.step(), 16);
+    let states = [&mut whole, &mut rest].map(|one| pollster::block_on(one.checkpoint()));
+    let [expected, found] = states.map(|state| state.expect("a state"));
+    assert!(found == expected && expected != state);
+    // Of another scene.
+    let mut longer = state.clone();
+    longer.time_step *= 2.0;
+    let error = rest.restore(&longer).expect_err("other steps").to_string();
+    assert!(
+        error.contains("steps of") && error.contains("restart with"),
+        "{error}"
+    );
+    let mut wet = state;
+    wet.rock = None;
+    let error = rest.restore(&wet).expect_err("no blocks").to_string();
+    assert!(error.contains("no blocks"), "{error}");
+    assert!(pollster::block_on(rest.checkpoint()).expect("a state") == expected);
 }

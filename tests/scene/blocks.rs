@@ -65,7 +65,7 @@ sleep = { speed = 1e-4, time = 0.2 }
 largest_overlap = 0.3
 corner_area = 0.25
 relax = true
-search = "device"
+broadphase = "device"
 [[materials]]
 name = "a"
 density = 2700
@@ -175,7 +175,7 @@ animation = false
 "#,
     )
     .unwrap();
-    assert_eq!(scene.rock.search, Search::Device);
+    assert_eq!(scene.rock.broadphase, Search::Device);
     assert_eq!(scene.views[0].size, [640, 480]);
     let setup = block_setup(&scene).unwrap().setup;
     let names: Vec<_> = setup.blocks.iter().map(|b| b.name.as_str()).collect();

@@ -2,7 +2,7 @@
 //! over its face as it pushes the block.
 
 use kit::Rig;
-use riprap::simulation::FreeSurface;
+use riprap::simulation::Simulation;
 
 const TANK: &str = r#"
     [fluid]
@@ -18,9 +18,9 @@ const TANK: &str = r#"
     every = 0.01
 "#;
 
-fn pool(rig: &Rig, rest: &str) -> FreeSurface {
+fn pool(rig: &Rig, rest: &str) -> Simulation {
     let scene = kit::scene::read(&format!("{TANK}{rest}")).unwrap();
-    rig.wait(FreeSurface::new(&rig.device, &rig.queue, &scene))
+    rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
         .unwrap()
 }
 
@@ -115,7 +115,7 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let (mut pushed, mut cut) = (0.0, None);
     while pool.time() < 0.8 {
         rig.wait(pool.advance(1)).unwrap();
-        pushed += pool.external_load()[0].flow.force.x * pool.time_step();
+        pushed += pool.rock().unwrap().external_load()[0].flow.force.x * pool.time_step();
         if cut.is_none() && pool.time() > 0.5 {
             cut = Some((pool.step(), rig.wait(pool.checkpoint()).unwrap()));
         }

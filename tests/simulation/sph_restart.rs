@@ -1,7 +1,7 @@
 //! Free water with blocks that fall, rest in closed joints and float goes on from a file to the same bits.
 
 use kit::Rig;
-use riprap::simulation::{FreeSurface, checkpoint::WaterCheckpoint};
+use riprap::simulation::{Simulation, checkpoint::Checkpoint};
 
 /// A slab on the floor, whose joint carries the pressure of the water at its rim; a stone on it; one that falls, and a
 /// driven one; an obstacle.
@@ -65,13 +65,13 @@ const SCENE: &str = r#"
 const STEPS: u64 = 17;
 const CUT: u64 = 6;
 
-fn pool(rig: &Rig) -> FreeSurface {
+fn pool(rig: &Rig) -> Simulation {
     let scene = kit::scene::read(SCENE).unwrap();
-    rig.wait(FreeSurface::new(&rig.device, &rig.queue, &scene))
+    rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
         .unwrap()
 }
 
-fn state(rig: &Rig, pool: &mut FreeSurface) -> WaterCheckpoint {
+fn state(rig: &Rig, pool: &mut Simulation) -> Checkpoint {
     rig.wait(pool.checkpoint()).unwrap()
 }
 
@@ -88,13 +88,15 @@ fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     // Everything anew, as in another process.
     let rig = Rig::new();
     let mut rest = pool(&rig);
-    rest.restore(&WaterCheckpoint::read(&file).unwrap())
-        .unwrap();
+    rest.restore(&Checkpoint::read(&file).unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
     rig.wait(rest.advance(STEPS - CUT)).unwrap();
     let found = state(&rig, &mut rest);
     assert!(found == expected, "the states differ");
     // Something has happened between: water and blocks moved, the stone has a contact, and the joint is known.
-    assert!(expected != start && expected.blocks != start.blocks);
-    assert!(whole.blocks().contacts().count() > 0, "nothing touches");
+    assert!(expected != start && expected.rock != start.rock);
+    assert!(
+        whole.rock().unwrap().blocks().contacts().count() > 0,
+        "nothing touches"
+    );
 }

@@ -4,7 +4,7 @@ use crate::start::{DX, scene, tank};
 use riprap::rock::Blocks;
 use riprap::scene::build::block_setup;
 use riprap::scene::{BlockShape, Scene};
-use riprap::{scene::build::particle_setup, sph::advise};
+use riprap::{coupling::particle_advice, scene::build::particle_setup};
 
 fn warnings(scene: &Scene) -> Vec<String> {
     let blocks = block_setup(scene).unwrap();
@@ -12,7 +12,7 @@ fn warnings(scene: &Scene) -> Vec<String> {
     let mut timed = blocks.setup.clone();
     timed.time_step.get_or_insert(1e-5);
     let state = Blocks::new(timed).unwrap();
-    let advice = advise(scene, &blocks, &state, &setup, &start.positions);
+    let advice = particle_advice(scene, &blocks, &state, &setup, &start.positions);
     let advice = pollster::block_on(advice).unwrap();
     advice.iter().map(ToString::to_string).collect()
 }

@@ -3,7 +3,10 @@
 use crate::start::DX;
 use glam::{DVec3, Vec3};
 use riprap::scene::Field;
-use riprap::sph::{Gauges, Setup, Side, Totals, Water, point_cloud};
+use riprap::{
+    simulation::point_cloud,
+    sph::{Gauges, Setup, Side, Totals, Water},
+};
 
 /// A tank of 1 × 1 × 1 m with water below a height (m) that depends on (x, y).
 fn water(height: impl Fn(f64, f64) -> f64) -> (Setup, Vec<DVec3>) {

@@ -46,19 +46,17 @@ fn invalid_parameters_are_refused_by_name() {
     };
     assert!(solver(tank(), MIDDLE, DVec3::ZERO, 0.0).is_ok());
     for bad in [NAN, -1.0, f64::INFINITY, 1e300] {
-        refused("particles.artificial_viscosity", &|s| {
+        refused("artificial_viscosity", &|s| {
             s.artificial_viscosity = bad;
         });
-        refused("particles.density_diffusion", &|s| {
-            s.density_diffusion = bad
-        });
-        refused("fluid.viscosity", &|s| s.laminar_viscosity = bad);
-        refused("particles.scheme.viscosity", &|s| {
+        refused("density_diffusion", &|s| s.density_diffusion = bad);
+        refused("laminar_viscosity", &|s| s.laminar_viscosity = bad);
+        refused("scheme.viscosity", &|s| {
             s.scheme = Scheme::Mueller { viscosity: bad };
         });
     }
     for bad in [NAN, 0.0, -1.0, 1.5, f64::INFINITY] {
-        refused("particles.courant", &|s| s.courant = bad);
+        refused("courant", &|s| s.courant = bad);
     }
     refused("bodies[0].boundary[1]", &|s| {
         s.bodies[0].boundary.push(DVec3::NAN);
@@ -77,7 +75,7 @@ fn invalid_particles_are_refused() {
     let none = SphSolver::new(&device, &queue, tank(), &[], &[], &[]);
     let message = none.unwrap_err().to_string();
     assert!(
-        message.starts_with("water: there is no particle"),
+        message.starts_with("positions: there is no particle"),
         "{message}"
     );
     let message = |state: EquationOfState, at: DVec3, velocity: DVec3, pressure: f64| {

@@ -3,7 +3,10 @@
 use glam::DVec3;
 use riprap::scene::Scene;
 use riprap::scene::build::{BlockSetup, block_setup};
-use riprap::sph::{Start, boundary_particles, fill};
+use riprap::{
+    scene::build::{boundary_particles, fill},
+    sph::Start,
+};
 use std::path::Path;
 
 /// Δx of all scenes, m.

@@ -53,10 +53,9 @@ fn base(plane: bool, periodic: bool) -> Setup {
 /// One step of disturbed water with walls and a rotated body of boundary particles.
 fn check(setup: Setup) {
     for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
-        check_with(Setup {
-            neighbours,
-            ..setup.clone()
-        });
+        let mut setup = setup.clone();
+        setup.neighbours = neighbours;
+        check_with(setup);
     }
 }
 
@@ -309,10 +308,9 @@ fn with_the_equation_of_state_of_tait() {
 fn with_laminar_viscosity() {
     // In space viscosity bounds the step, in a plane sound does.
     for (plane, laminar_viscosity) in [(false, 3.0), (true, 0.5)] {
-        check(Setup {
-            laminar_viscosity,
-            ..base(plane, true)
-        });
+        let mut setup = base(plane, true);
+        setup.laminar_viscosity = laminar_viscosity;
+        check(setup);
     }
 }
 
@@ -337,10 +335,8 @@ fn lists_grow_where_particles_are_dense() {
     let (device, queue) = (&rig.device, &rig.queue);
     let mut results = Vec::new();
     for neighbours in [NeighbourSearch::Lists, NeighbourSearch::Cells] {
-        let setup = Setup {
-            neighbours,
-            ..setup.clone()
-        };
+        let mut setup = setup.clone();
+        setup.neighbours = neighbours;
         let pressures = vec![0.0; positions.len()];
         let mut particles =
             SphSolver::new(device, queue, setup, &positions, &still, &pressures).unwrap();
@@ -389,10 +385,8 @@ fn lists_are_valid_for_several_steps() {
     let (device, queue) = (&rig.device, &rig.queue);
     let mut results = Vec::new();
     for neighbours in [NeighbourSearch::Lists, NeighbourSearch::Cells] {
-        let setup = Setup {
-            neighbours,
-            ..setup.clone()
-        };
+        let mut setup = setup.clone();
+        setup.neighbours = neighbours;
         let mut particles =
             SphSolver::new(device, queue, setup, &positions, &velocities, &pressures).unwrap();
         let (mut sorts, mut steps, mut time, mut load) = (0, 0, 0.0, DVec3::ZERO);

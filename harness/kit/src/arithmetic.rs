@@ -24,6 +24,11 @@ pub struct Arithmetic {
     groups: u32,
 }
 
+/// The program of the kernel `multiply_add`.
+pub fn program() -> Program {
+    Program::new("multiply_add").text("multiply_add", include_str!("kernels/multiply_add.wgsl"))
+}
+
 impl Arithmetic {
     /// The kernel and its numbers.
     ///
@@ -34,7 +39,7 @@ impl Arithmetic {
             true => CPU_GROUPS,
             false => GROUPS,
         };
-        let linked = Program::new("multiply_add").link()?;
+        let linked = program().link()?;
         let kernel = Kernel::new(
             device,
             &linked,

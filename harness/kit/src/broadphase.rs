@@ -1,6 +1,6 @@
 //! Boxes to search: scattered, crowded, of one size and of many.
 
-use riprap::rock::broadphase::Item;
+use riprap::rock::broadphase::Aabb;
 
 /// Knuth's MMIX generator: the same scenes everywhere.
 pub struct Random(pub u64);
@@ -27,8 +27,8 @@ impl Random {
 }
 
 /// A box from its lower corner and edges.
-pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Item {
-    Item {
+pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Aabb {
+    Aabb {
         min,
         max: [0, 1, 2].map(|a| min[a] + edges[a]),
         group,
@@ -37,7 +37,7 @@ pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Item {
 
 /// `count` boxes of sizes from 1 to `ratio` cm, evenly on a logarithmic scale, in a domain of half
 /// their volume; each eighth is fixed.
-pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Item> {
+pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Aabb> {
     let mut random = Random(seed);
     let sizes: Vec<f64> = (0..count)
         .map(|_| 0.01 * ratio.powf(random.unit()))
@@ -54,7 +54,7 @@ pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Item> {
 }
 
 /// Every pair tried, from the definition.
-pub fn brute_force(items: &[Item]) -> Vec<[u32; 2]> {
+pub fn brute_force(items: &[Aabb]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for j in 0..items.len() {
         for i in 0..j {

@@ -17,11 +17,23 @@ pub enum Method {
     Kernel(usize),
 }
 
-/// Files of the copy kernels, and the bytes that a workgroup of each copies.
-const KERNELS: [(&str, u64); 3] = [
-    ("copy_scalar", 64 * 4),
-    ("copy_vector", 64 * 16),
-    ("copy_four_vectors", 256 * 16),
+/// Entry points and texts of the copy kernels, and the bytes that a workgroup of each copies.
+const KERNELS: [(&str, &str, u64); 3] = [
+    (
+        "copy_scalar",
+        include_str!("kernels/copy_scalar.wgsl"),
+        64 * 4,
+    ),
+    (
+        "copy_vector",
+        include_str!("kernels/copy_vector.wgsl"),
+        64 * 16,
+    ),
+    (
+        "copy_four_vectors",
+        include_str!("kernels/copy_four_vectors.wgsl"),
+        256 * 16,
+    ),
 ];
 
 /// All ways, first those that are fastest on most adapters.
@@ -56,12 +68,15 @@ impl Copy {
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
         // Whole workgroups of every kernel.
-        let unit = KERNELS[2].1;
+        let unit = KERNELS[2].2;
         let count = bytes.div_ceil(largest - largest % unit).max(1);
         let size = bytes.div_ceil(count).next_multiple_of(unit);
         let kernels = KERNELS
             .iter()
-            .map(|(file, _)| Kernel::new(device, &Program::new(file).link()?, file, &[]))
+            .map(|(entry, text, _)| {
+                let linked = Program::new(entry).text(entry, *text).link()?;
+                Kernel::new(device, &linked, entry, &[])
+            })
             .collect::<Result<Vec<_>, _>>()?;
         let buffer = |label| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -108,7 +123,7 @@ impl Copy {
     pub fn record(&self, method: Method, pass: &mut wgpu::ComputePass<'_>) {
         let Method::Kernel(n) = method else { return };
         for piece in &self.pieces {
-            let groups = piece.original.size().div_ceil(KERNELS[n].1) as u32;
+            let groups = piece.original.size().div_ceil(KERNELS[n].2) as u32;
             self.kernels[n].record(pass, &piece.binds[n], groups);
         }
     }

@@ -12,6 +12,7 @@ pub mod gpu;
 pub mod pile;
 mod rig;
 pub mod scene;
+pub mod stream_only;
 pub mod subject;
 pub mod tank;
 pub mod twin;

@@ -132,7 +132,7 @@ impl Pile {
 fn find_pairs(blocks: &mut Blocks) -> Result<bool> {
     let wanted = blocks.wants_pairs();
     if wanted {
-        let pairs = pollster::block_on(HostBroadphase.pairs(&blocks.items()))?;
+        let pairs = pollster::block_on(HostBroadphase.pairs(&blocks.aabbs()))?;
         blocks.set_pairs(pairs)?;
     }
     Ok(wanted)

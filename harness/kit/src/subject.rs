@@ -3,10 +3,11 @@
 use super::{
     arithmetic::Arithmetic,
     copy::{Copy, Method},
+    stream_only::StreamOnly,
 };
 use riprap::{
     gpu::timer::{self, Timer},
-    lattice::{Lattice, StreamOnly},
+    lattice::Lattice,
     wgpu,
 };
 

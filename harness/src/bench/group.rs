@@ -10,11 +10,12 @@ use kit::{
     clock::{Clock, Spent},
     copy::{Copy, METHODS},
     flow::sheared_noise,
+    stream_only::StreamOnly,
     subject::Subject,
 };
 use riprap::{
     Error,
-    lattice::{Lattice, StreamOnly, bytes_a_step},
+    lattice::{Lattice, bytes_a_step},
 };
 
 /// Rows of the group, in its order, printed as they are done.

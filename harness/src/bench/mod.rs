@@ -11,15 +11,18 @@ mod targets;
 mod unused;
 mod variant;
 mod water;
+mod work;
 
 pub use kit::copy::copy_bandwidth;
 pub use report::Machine;
+pub use work::Work;
 
 use kit::{clock::Clock, gpu};
 use report::Row;
 use riprap::wgpu;
 use serde::Serialize;
 use std::path::PathBuf;
+use targets::Target;
 
 /// What to measure, and on what.
 #[derive(clap::Args, Clone, Debug)]
@@ -76,6 +79,17 @@ enum Measured {
     Water(water::Row),
     Solids(solids::Row),
     Table(table::Row),
+    Target(Judged),
+}
+
+/// A target in the file, with where it was measured.
+#[derive(Serialize)]
+struct Judged {
+    part: &'static str,
+    #[serde(flatten)]
+    target: Target,
+    #[serde(flatten)]
+    machine: Machine,
 }
 
 /// Measures, prints a table as it goes, and writes the file.
@@ -104,10 +118,12 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     println!("{machine}");
     let asked = |part| !args.all && args.only.is_none_or(|only| only == part);
     let mut measured: Vec<Measured> = Vec::new();
+    let mut targets = Vec::new();
     if let Some((_, device, queue)) = &device
         && asked(Part::Fluid)
     {
-        let rows = fluid(&args, &machine, device, queue)?;
+        let (rows, judged) = fluid(&args, &machine, device, queue)?;
+        targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Fluid));
     }
     if asked(Part::Rock) {
@@ -115,7 +131,8 @@ pub fn run(args: Args) -> anyhow::Result<()> {
             .as_ref()
             .map(|(_, device, queue)| rock::Gpu { device, queue });
         let plan = rock::Plan::new(args.quick, args.full);
-        let rows = rock::measure(&plan, gpu.as_ref(), &machine)?;
+        let (rows, judged) = rock::measure(&plan, gpu.as_ref(), &machine)?;
+        targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Rock));
     }
     if let Some((_, device, queue)) = &device
@@ -127,13 +144,15 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     if let Some((_, device, queue)) = &device
         && asked(Part::Solids)
     {
-        let rows = solids::measure((args.quick, args.full), device, queue, &machine)?;
+        let (rows, judged) = solids::measure((args.quick, args.full), device, queue, &machine)?;
+        targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Solids));
     }
     if let Some((_, device, queue)) = &device
         && asked(Part::Unused)
     {
-        let rows = unused::measure(args.quick, device, queue, &machine)?;
+        let (rows, judged) = unused::measure(args.quick, device, queue, &machine)?;
+        targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Solids));
     }
     if let Some((_, device, queue)) = &device
@@ -145,6 +164,12 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         let rows = table::measure(device, queue, &machine, most)?;
         measured.extend(rows.into_iter().map(Measured::Table));
     }
+    let judged = targets.into_iter().map(|target| Judged {
+        part: "target",
+        target,
+        machine: machine.clone(),
+    });
+    measured.extend(judged.map(Measured::Target));
     if let Some(path) = &args.json {
         let text = serde_json::to_string_pretty(&measured)?;
         std::fs::write(path, text + "\n").map_err(|e| riprap::Error::file(path, e))?;
@@ -158,10 +183,11 @@ fn fluid(
     machine: &Machine,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-) -> anyhow::Result<Vec<Row>> {
+) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let mut clock = Clock::new(device, queue, machine.software);
     let budget = budget(args.memory, machine.software);
     let mut rows: Vec<Row> = Vec::new();
+    let mut judged = Vec::new();
     for grid in grids(args) {
         if let Some(why) = too_slow(args, grid, &rows) {
             println!("\n{grid}³: left out, {why}");
@@ -172,9 +198,9 @@ fn fluid(
             rows.extend(group::measure(&mut clock, machine, group, args.quick)?);
         }
         report::explain(grid, &rows);
-        targets::print(grid, &rows, machine.software);
+        judged.extend(targets::print(grid, &rows, machine.software));
     }
-    Ok(rows)
+    Ok((rows, judged))
 }
 
 fn grids(args: &Args) -> Vec<u32> {

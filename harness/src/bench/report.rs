@@ -50,6 +50,15 @@ impl Machine {
         }
     }
 
+    /// A name for files: adapter, backend and cores, such as `llvmpipe_vulkan_2_cores`.
+    pub fn slug(&self) -> String {
+        let name = self.adapter.split('(').next().unwrap_or_default();
+        let text = format!("{name} {} {} cores", self.backend, self.cores).to_lowercase();
+        let words = text.split(|c: char| !c.is_ascii_alphanumeric());
+        let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+        words.join("_")
+    }
+
     /// This machine without an adapter, now.
     pub fn host() -> Self {
         let git = std::process::Command::new("git")

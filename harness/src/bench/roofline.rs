@@ -1,6 +1,7 @@
 //! Where the time of a step goes: to the bytes that it must move, to their places, to arithmetic, to the rest
 //! (Williams, Waterman & Patterson 2009, Commun. ACM 52:65).
 
+use super::work::Work;
 use riprap::lattice::Lattice;
 use serde::Serialize;
 use std::fmt;
@@ -11,7 +12,8 @@ pub fn flops_a_step(lattice: &Lattice) -> u64 {
     let kernels = lattice.kernels(false);
     kernels
         .map(|(kernel, groups)| {
-            kernel.work().flops * u64::from(kernel.invocations()) * u64::from(groups)
+            let work = Work::of(kernel.linked(), kernel.entry());
+            work.flops * u64::from(kernel.invocations()) * u64::from(groups)
         })
         .sum()
 }
@@ -92,13 +94,12 @@ impl fmt::Display for Parts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kit::arithmetic::FLOPS;
-    use riprap::gpu::{link::Program, work::Work};
+    use kit::arithmetic::{FLOPS, program};
 
     #[test]
     fn the_ceiling_has_the_operations_that_are_counted() {
-        let linked = Program::new("multiply_add").link().unwrap();
-        let work = Work::of(&linked, "multiply_add").unwrap();
+        let linked = program().link().unwrap();
+        let work = Work::of(&linked, "multiply_add");
         // A turn of the loop, and seven sums of four components at the end.
         assert_eq!((work.flops, work.loops), (FLOPS + 28, 1));
     }

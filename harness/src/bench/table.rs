@@ -303,7 +303,7 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 immersed.record_cells(&mut pass);
-                lattice.record_saturated(&mut pass);
+                lattice.record_psm(&mut pass);
                 immersed.record_loads(&mut pass);
             }
             queue.submit([encoder.finish()]);

@@ -1,38 +1,57 @@
 //! Which of the aims are met.
 
 use super::{report::Row, variant};
+use serde::Serialize;
 
 /// An aim: what it says, what was found, and whether that is enough.
+#[derive(Clone, Debug, Serialize)]
 pub struct Target {
+    /// Grid or part that it is of.
+    pub of: String,
     /// What it says.
     pub says: &'static str,
     /// What was found.
     pub found: f64,
+    /// The bound.
+    pub limit: f64,
     /// Whether that is enough.
     pub met: bool,
 }
 
 impl Target {
+    fn of(says: &'static str, found: f64, limit: f64, met: bool) -> Self {
+        Self {
+            of: String::new(),
+            says,
+            found,
+            limit,
+            met,
+        }
+    }
+
     /// An aim that `found` reaches.
     pub fn at_least(says: &'static str, found: f64, limit: f64) -> Self {
         let met = found >= limit;
-        Self { says, found, met }
+        Self::of(says, found, limit, met)
     }
 
     /// An aim that `found` does not exceed.
     pub fn at_most(says: &'static str, found: f64, limit: f64) -> Self {
         let met = found <= limit;
-        Self { says, found, met }
+        Self::of(says, found, limit, met)
     }
 }
 
-/// Prints one line about the aims of the fluid on a grid.
-pub fn print(grid: u32, rows: &[Row], software: bool) {
-    show(&format!("{grid}³"), &targets(grid, rows, software));
+/// Prints one line about the aims of the fluid on a grid, and returns them.
+pub fn print(grid: u32, rows: &[Row], software: bool) -> Vec<Target> {
+    show(&format!("{grid}³"), targets(grid, rows, software))
 }
 
-/// Prints one line about the aims of something.
-pub fn show(of: &str, all: &[Target]) {
+/// Prints one line about the aims of something, and returns them as those of it.
+pub fn show(of: &str, mut all: Vec<Target>) -> Vec<Target> {
+    for target in &mut all {
+        target.of = of.into();
+    }
     let (met, missed): (Vec<_>, Vec<_>) = all.iter().partition(|t| t.met);
     let list = |some: &[&Target]| {
         let each = some.iter().map(|t| format!("{} ({:.3})", t.says, t.found));
@@ -46,6 +65,7 @@ pub fn show(of: &str, all: &[Target]) {
         if missed.is_empty() { "" } else { "; missed: " },
         list(&missed)
     );
+    all
 }
 
 fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Target> {

@@ -39,7 +39,7 @@ pub fn measure(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     machine: &Machine,
-) -> anyhow::Result<Vec<Row>> {
+) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let (n, rounds) = match (machine.software, quick) {
         (true, true) => (32, 5),
         (true, false) => (48, 21),
@@ -124,9 +124,9 @@ pub fn measure(
         growth,
         "",
     );
-    show(
+    let targets = show(
         "unused",
-        &[
+        vec![
             Target::at_most("what is unused costs ≤ 3 % beyond noise", worst, NOISE),
             Target::at_most(
                 "moving blocks cost the same in any box, within 1.5",
@@ -135,7 +135,7 @@ pub fn measure(
             ),
         ],
     );
-    Ok(rows)
+    Ok((rows, targets))
 }
 
 fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
@@ -182,8 +182,9 @@ fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
 fn same_kernels(worlds: &[World; 2]) -> bool {
     let kernels = |world: &World| {
         let of = |simulation: &Simulation| {
-            let all = simulation.lattice().kernels(false);
-            all.map(|(kernel, groups)| {
+            let lattice = simulation.lattice()?;
+            let all = lattice.kernels(false);
+            let all = all.map(|(kernel, groups)| {
                 let bindings: Vec<_> = kernel.bindings().iter().map(|b| b.name.clone()).collect();
                 (
                     kernel.file().to_owned(),
@@ -191,10 +192,10 @@ fn same_kernels(worlds: &[World; 2]) -> bool {
                     bindings,
                     groups,
                 )
-            })
-            .collect::<Vec<_>>()
+            });
+            Some(all.collect::<Vec<_>>())
         };
-        world.simulation.as_ref().map(of)
+        world.simulation.as_ref().and_then(of)
     };
     kernels(&worlds[0]) == kernels(&worlds[1])
 }

@@ -12,7 +12,8 @@ use riprap::{
 use serde::Serialize;
 
 /// The report that ships.
-const MEASURED: &str = include_str!("../../results/report_lavapipe_2_cores/report.csv");
+const MEASURED: &str =
+    include_str!("../../results/records/llvmpipe_vulkan_2_cores/report/report.csv");
 /// Classes of blocks in it with their Reynolds numbers.
 const BLOCKS: [(&str, f64, &str); 3] = [
     ("sphere-array", 0.0, "sphere arrays"),
@@ -71,8 +72,11 @@ impl Accuracy {
     /// Of the blocks in a fluid, and of the walls beside it; `speed` (m/s) is that of the fluid.
     pub fn all(simulation: &Simulation, speed: Option<f64>) -> Vec<Self> {
         let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
+        let (Some(lattice), Some(units)) = (simulation.lattice(), simulation.units()) else {
+            return Vec::new();
+        };
         let scene = simulation.scene();
-        let tau = simulation.lattice().setup().tau();
+        let tau = lattice.setup().tau();
         let cell = scene.domain.cell;
         let narrowest = simulation.coupled().and_then(|coupled| coupled.narrowest());
         let blocks = narrowest.and_then(|width| {
@@ -106,7 +110,7 @@ impl Accuracy {
         let narrow = walls.map(|axis| scene.cells()[axis.index()]).min();
         let walls = narrow.and_then(|cells| of_walls(&rows, f64::from(cells), tau));
         // The formula of a pressure that is not finite has been refused.
-        let compression = scene.compression(simulation.units()).unwrap_or_default();
+        let compression = scene.compression(units).unwrap_or_default();
         let all = blocks.into_iter().chain(walls);
         all.map(|found| found.compressed(compression)).collect()
     }

@@ -1,6 +1,7 @@
 //! The blocks of a scene, with or without a fluid around them.
 
-use super::super::{print::bytes, search::left_out};
+use super::lines::Lines;
+use crate::{print::bytes, search::left_out};
 use riprap::{
     geometry::{Form, Shape},
     rock::{Block, Blocks, Motion},
@@ -84,39 +85,39 @@ impl BlockFacts {
             left_out: left_out(left).collect(),
             mass: free.iter().map(mass).fold(0.0, |sum, mass| sum + mass),
             lightest: lightest.map(|block| (blocks.name(*block).into(), mass(block))),
-            pairs: blocks.candidates(),
+            pairs: blocks.candidate_pair_count(),
             contacts: blocks.contacts().count(),
             skin: blocks.skin(),
             sub_step: blocks.time_step().min(time_step),
             sub_steps: sub_steps.max(1.0) as u64,
-            host_memory: blocks.snapshot().to_bytes().len() as u64
+            host_memory: blocks.snapshot().bytes()
                 + shapes.values().map(|shape| size(shape)).sum::<u64>(),
         }
     }
 
     /// Lines of a name and what there is of it.
-    pub fn lines(&self, line: &mut impl FnMut(&str, String)) {
-        line(
+    pub fn lines(&self, lines: &mut Lines) {
+        lines.add(
             "blocks",
-            format!(
+            format_args!(
                 "{}: {} free, {} driven, {} fixed",
                 self.blocks, self.free, self.driven, self.fixed
             ),
         );
-        line(
+        lines.add(
             "shapes",
-            format!(
+            format_args!(
                 "{} different ones; {} convex parts, {} of them spheres; {} faces",
                 self.shapes, self.parts, self.spheres, self.faces
             ),
         );
         for left_out in &self.left_out {
-            line("left out", left_out.clone());
+            lines.add("left out", left_out);
         }
         let lightest = self.lightest.as_ref();
-        line(
+        lines.add(
             "mass",
-            format!(
+            format_args!(
                 "{:.4e} kg free{}",
                 self.mass,
                 lightest.map_or(String::new(), |(name, mass)| format!(
@@ -124,21 +125,21 @@ impl BlockFacts {
                 ))
             ),
         );
-        line(
+        lines.add(
             "contacts",
-            format!(
+            format_args!(
                 "{} in {} pairs within {:.3e} m",
                 self.contacts, self.pairs, self.skin
             ),
         );
-        line(
+        lines.add(
             "sub-steps",
-            format!(
+            format_args!(
                 "{} of at most {:.4e} s a step",
                 self.sub_steps, self.sub_step
             ),
         );
-        line("on the host", bytes(self.host_memory));
+        lines.add("on the host", bytes(self.host_memory));
     }
 }
 

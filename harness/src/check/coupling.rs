@@ -1,6 +1,6 @@
 //! Where blocks and fluid meet, before a run.
 
-use super::BlockFacts;
+use super::{BlockFacts, lines::Lines};
 use crate::{print::bytes, run::Coupling};
 use riprap::{
     coupling::{Coupled, Gap},
@@ -51,7 +51,7 @@ impl Immersion {
         let shown = coupled.in_fluid() + scene.solids.len();
         let setup = coupled.setup();
         let shown = &setup.setup.blocks[..shown];
-        let time_step = simulation.units().time_step;
+        let time_step = simulation.time_step();
         let mut open: Vec<&Gap> = coupled.gaps().iter().collect();
         open.retain(|gap| !gap.is_closed(cell));
         open.sort_by(|a, b| a.width.total_cmp(&b.width));
@@ -65,29 +65,29 @@ impl Immersion {
             narrowest: open
                 .iter()
                 .take(LISTED)
-                .map(|gap| Narrow::of(coupled, gap, cell))
+                .map(|gap| Narrow::of(&coupled, gap, cell))
                 .collect(),
         })
     }
 
     /// Lines of a name and what there is of it.
-    pub fn lines(&self, line: &mut impl FnMut(&str, String)) {
-        self.facts.lines(line);
-        line(
+    pub fn lines(&self, lines: &mut Lines) {
+        self.facts.lines(lines);
+        lines.add(
             "in the fluid",
-            format!("{} blocks: {}", self.cells.in_fluid, self.cells.kinds()),
+            format_args!("{} blocks: {}", self.cells.in_fluid, self.cells.kinds()),
         );
-        line(
+        lines.add(
             "",
-            format!(
+            format_args!(
                 "{} on the device; they meet the fluid every {} steps",
                 bytes(self.cells.bytes),
                 self.interval
             ),
         );
-        line(
+        lines.add(
             "gaps",
-            format!(
+            format_args!(
                 "{} pairs closer than a cell, {} of them touch; {} lubrication",
                 self.narrow_gaps,
                 self.closed_gaps,
@@ -97,13 +97,16 @@ impl Immersion {
         for gap in &self.narrowest {
             let [a, b] = &gap.blocks;
             let Narrow { width, cells, .. } = gap;
-            line("", format!("{a} and {b}: {width:.3e} m, {cells:.2} cells"));
+            lines.add(
+                "",
+                format_args!("{a} and {b}: {width:.3e} m, {cells:.2} cells"),
+            );
         }
     }
 }
 
 impl Narrow {
-    fn of(coupled: &Coupled, gap: &Gap, cell: f64) -> Self {
+    fn of(coupled: &Coupled<'_>, gap: &Gap, cell: f64) -> Self {
         Self {
             blocks: gap.blocks.map(|block| coupled.blocks().name(block).into()),
             width: gap.width,

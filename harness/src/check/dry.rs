@@ -1,18 +1,10 @@
 //! What a scene of blocks alone will run.
 
-use super::BlockFacts;
-use crate::{
-    print::duration,
-    search::{self, Finder},
-};
-use anyhow::Result;
-use riprap::{scene::Scene, simulation::Dry};
+use super::{BlockFacts, lines::Lines};
+use crate::{print::duration, run::SceneRun};
+use anyhow::{Context, Result};
 use serde::Serialize;
-use std::{
-    fmt::Write,
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// Length of the trial.
 const TRIAL: Duration = Duration::from_millis(400);
@@ -45,31 +37,32 @@ pub struct RockReport {
     pub trial_steps: u64,
 }
 
-/// Makes the blocks of `scene`, which was read from `file`, and tries a few steps.
+/// Tries a few steps of a scene of blocks alone.
 ///
 /// # Errors
-/// What the scene lacks.
-pub fn report(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<RockReport> {
-    let mut simulation = search::open(scene, file, adapter)?;
-    let time_step = simulation.time_step();
-    let steps = scene.run.count(time_step);
-    let (trial, spent) = try_out(&mut simulation, steps)?;
-    let shown = &simulation.setup().blocks;
-    let (blocks, left_out) = (simulation.blocks(), simulation.left_out());
+/// Those of its steps.
+pub fn report(run: &mut SceneRun) -> Result<RockReport> {
+    let time_step = run.time_step();
+    let steps = run.scene().run.count(time_step);
+    let (trial, spent) = try_out(run, steps)?;
+    let scene = run.scene();
+    let rock = run.simulation.rock().context("the scene has no blocks")?;
+    let setup = rock.setup();
     let step = spent / trial as f64;
     Ok(RockReport {
         title: scene.title.clone(),
-        facts: BlockFacts::of(shown, blocks, left_out, time_step),
-        search: simulation.finder().describe(),
+        facts: BlockFacts::of(
+            &setup.setup.blocks,
+            rock.blocks(),
+            &setup.left_out,
+            time_step,
+        ),
+        search: run.describe_device(),
         time_step,
         given: scene.rock.time_step.is_some(),
         steps,
         duration: scene.run.length(time_step),
-        warnings: scene
-            .slips(time_step)
-            .iter()
-            .map(ToString::to_string)
-            .collect(),
+        warnings: run.warnings.clone(),
         step_seconds: step,
         run_seconds: step * steps as f64,
         trial_steps: trial,
@@ -77,13 +70,13 @@ pub fn report(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<RockR
 }
 
 /// Steps for less than half a second, at least one: how many, and how long they took, s.
-fn try_out(simulation: &mut Dry<Finder>, most: u64) -> Result<(u64, f64)> {
+fn try_out(run: &mut SceneRun, most: u64) -> Result<(u64, f64)> {
     // The first step finds all pairs and their contacts anew.
-    search::drive(simulation, 1)?;
+    run.advance(1)?;
     let start = Instant::now();
     let mut done = 0;
     while done == 0 || (done < most && start.elapsed() < TRIAL) {
-        search::drive(simulation, 1)?;
+        run.advance(1)?;
         done += 1;
     }
     Ok((done, start.elapsed().as_secs_f64()))
@@ -92,39 +85,33 @@ fn try_out(simulation: &mut Dry<Finder>, most: u64) -> Result<(u64, f64)> {
 impl RockReport {
     /// The report in lines of a name and what there is of it.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
-        let mut line = |name: &str, what: String| {
-            // A String takes all that is written to it.
-            let _ = writeln!(text, "{name:12} {what}");
-        };
-        self.facts.lines(&mut line);
-        line("search", self.search.clone());
-        line(
+        let mut lines = Lines::titled(&self.title);
+        self.facts.lines(&mut lines);
+        lines.add("search", &self.search);
+        lines.add(
             "time",
-            format!(
+            format_args!(
                 "{} steps of {:.4e} s = {:.4} s",
                 self.steps, self.time_step, self.duration
             ),
         );
-        line(
+        lines.add(
             "stability",
             match self.given {
-                true => "the time step is the scene's; one too long is refused".into(),
-                false => "sub-steps take half of the longest stable one".into(),
+                true => "the time step is the scene's; one too long is refused",
+                false => "sub-steps take half of the longest stable one",
             },
         );
-        line(
+        lines.add(
             "run",
-            format!(
+            format_args!(
                 "about {} without output: {:.3e} s a step ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
                 self.trial_steps
             ),
         );
-        for warning in &self.warnings {
-            line("warning", warning.clone());
-        }
-        text
+        lines.warnings(&self.warnings);
+        lines.text()
     }
 }

@@ -4,6 +4,8 @@ mod accuracy;
 mod blocks;
 mod coupling;
 mod dry;
+mod kernels;
+mod lines;
 mod report;
 mod text;
 mod trial;
@@ -16,12 +18,10 @@ pub use dry::RockReport;
 pub use report::Report;
 pub use water::WaterReport;
 
-use crate::{adapters::Adapter, gpu, print, search::located};
+use crate::{adapters::Adapter, gpu, print, run::SceneRun};
 use anyhow::Result;
-use riprap::{
-    scene::Scene,
-    simulation::{Needs, Simulation},
-};
+use riprap::{scene::Scene, simulation::Kind};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Shows what a scene will run and how long it will take; computes a few steps of it.
@@ -35,6 +35,9 @@ pub struct Args {
     /// Print JSON; numbers are in SI, sizes in bytes.
     #[arg(long)]
     json: bool,
+    /// Write the linked WGSL of each kernel of the fluid to this folder.
+    #[arg(long, value_name = "DIR")]
+    kernels: Option<PathBuf>,
 }
 
 /// Prints the report.
@@ -43,38 +46,42 @@ pub struct Args {
 /// What the scene lacks, or what the adapter cannot hold.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
-    if scene.has_particles() {
-        let (report, ended) = water::report(&scene, &args.scene, args.adapter.as_deref())?;
-        if args.json {
-            print::print_json(&report)?;
-        } else {
-            print::print(&report.text())?;
+    let name = args.adapter.as_deref();
+    let mut run = SceneRun::open(&scene, &args.scene, name)?;
+    // What ends the trial is reported after all that was known before it.
+    let ended = match run.simulation.kind() {
+        Kind::Rock => {
+            let report = dry::report(&mut run)?;
+            show(args, &report, RockReport::text)?;
+            Ok(())
         }
-        // What the trial met is told after all that was known before it.
-        return Ok(ended?);
+        Kind::Particles => {
+            let adapter = Adapter::of(&gpu::pick(name)?, name.is_none());
+            let (report, ended) = water::report(&mut run, adapter);
+            report.map_or(Ok(()), |report| show(args, &report, WaterReport::text))?;
+            ended
+        }
+        Kind::Lattice => {
+            let adapter = Adapter::of(&gpu::pick(name)?, name.is_none());
+            let (time, ended) = trial::time(&mut run);
+            if let Some(lattice) = run.lattice() {
+                let report = Report::of(&run.simulation, lattice, adapter, time)?;
+                show(args, &report, Report::text)?;
+            }
+            ended
+        }
+    };
+    if let Some(folder) = &args.kernels {
+        kernels::write(folder, &run.simulation)?;
     }
-    if !scene.has_fluid() {
-        let report = dry::report(&scene, &args.scene, args.adapter.as_deref())?;
-        return if args.json {
-            print::print_json(&report)
-        } else {
-            print::print(&report.text())
-        };
-    }
-    let adapter = gpu::pick(args.adapter.as_deref())?;
-    let needs = Needs::of(&scene, &adapter)?;
-    let (device, queue) = gpu::open(&adapter, needs.features, needs.limits.clone())?;
-    let made = Simulation::new(&device, &queue, &scene);
-    let made = gpu::drive(&device, trial::PATIENCE, "compiling the kernels", made)?;
-    let mut simulation = made.map_err(|error| located(error, &args.scene))?;
-    let (time, ended) = trial::time(&mut simulation, &device);
-    let adapter = Adapter::of(&adapter, args.adapter.is_none());
-    let report = Report::of(&simulation, adapter, time)?;
-    if args.json {
-        print::print_json(&report)?;
-    } else {
-        print::print(&report.text())?;
-    }
-    // What the trial met is told after all that was known before it.
     Ok(ended?)
+}
+
+/// Prints a report as text or JSON.
+fn show<T: Serialize>(args: &Args, report: &T, text: impl Fn(&T) -> String) -> Result<()> {
+    if args.json {
+        print::print_json(report)
+    } else {
+        print::print(&text(report))
+    }
 }

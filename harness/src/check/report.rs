@@ -3,11 +3,12 @@
 use super::{Accuracy, Immersion};
 use crate::{
     adapters::Adapter,
+    bench::Work,
     run::{Coupling, LeftOut},
 };
 use anyhow::Result;
 use riprap::{
-    coupling::Coupled, lattice::Lattice, psm::SolidCells, simulation::Simulation, units::Units,
+    lattice::Lattice, psm::SolidCells, scene::Scene, simulation::Simulation, units::Units,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -145,13 +146,17 @@ impl Report {
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
-    pub fn of(simulation: &Simulation, adapter: Adapter, time: Time) -> Result<Self> {
-        let solid_cells = simulation.coupled().map(Coupled::solid_cells);
-        let lattice = simulation.lattice();
+    pub fn of(
+        simulation: &Simulation,
+        (lattice, units): (&Lattice, &Units),
+        adapter: Adapter,
+        time: Time,
+    ) -> Result<Self> {
+        let solid_cells = simulation.coupled().map(|coupled| coupled.solid_cells());
         let scene = simulation.scene();
         let warnings = simulation.advice().iter().map(ToString::to_string);
         let cells = Coupling::of(simulation, simulation.step());
-        let numerics = Numerics::of(simulation, simulation.units())?;
+        let numerics = Numerics::of(scene, lattice, units)?;
         Ok(Self {
             title: scene.title.clone(),
             adapter,
@@ -214,6 +219,7 @@ impl Memory {
 
 impl Kernel {
     fn of((kernel, workgroups): (&riprap::gpu::kernel::Kernel, u32)) -> Self {
+        let work = Work::of(kernel.linked(), kernel.entry());
         Self {
             file: kernel.file().into(),
             entry: kernel.entry().into(),
@@ -221,17 +227,17 @@ impl Kernel {
             bindings: kernel.bindings().iter().map(|b| b.name.clone()).collect(),
             workgroups,
             invocations: kernel.invocations(),
-            flops: kernel.work().flops,
-            read: kernel.work().read,
-            written: kernel.work().written,
-            loops: kernel.work().loops,
+            flops: work.flops,
+            read: work.read,
+            written: work.written,
+            loops: work.loops,
         }
     }
 }
 
 impl Numerics {
-    fn of(simulation: &Simulation, units: &Units) -> Result<Self> {
-        let (scene, setup) = (simulation.scene(), simulation.lattice().setup());
+    fn of(scene: &Scene, lattice: &Lattice, units: &Units) -> Result<Self> {
+        let setup = lattice.setup();
         let given = scene.numerics.velocity_scale.unwrap_or_default();
         let speed = Some(given.max(scene.sampled_speed()?)).filter(|speed| *speed > 0.0);
         Ok(Self {

@@ -1,55 +1,47 @@
 //! The report as one reads it.
 
-use super::{Report, report::Kernel};
-use crate::print::{bytes, duration};
-use std::fmt::Write;
+use super::{Report, lines::Lines, report::Kernel};
+use crate::{
+    print::{bytes, duration},
+    run::LeftOut,
+};
 
 impl Report {
     /// The report in lines of a name and what there is of it.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
-        let mut line = |name: &str, what: String| {
-            // A String takes all that is written to it.
-            let _ = writeln!(text, "{name:12} {what}");
-        };
-        let adapter = &self.adapter;
-        line(
-            "adapter",
-            format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver),
-        );
-        self.grid(&mut line);
-        self.memory(&mut line);
+        let mut lines = Lines::titled(&self.title);
+        lines.adapter(&self.adapter);
+        self.grid(&mut lines);
+        self.memory(&mut lines);
         for kernel in &self.kernels {
             let groups = kernel.workgroups;
-            line(
+            lines.add(
                 "kernel",
-                format!("{} ({}), {groups} groups", kernel.file, kernel.entry),
+                format_args!("{} ({}), {groups} groups", kernel.file, kernel.entry),
             );
             if !kernel.slots.is_empty() {
                 let mut slots: Vec<_> = kernel.slots.values().map(String::as_str).collect();
                 slots.sort_unstable();
-                line("", format!("slots: {}", slots.join(", ")));
+                lines.add("", format_args!("slots: {}", slots.join(", ")));
             }
-            line("", format!("buffers: {}", shorten(&kernel.bindings)));
-            line("", kernel.work());
+            lines.add("", format_args!("buffers: {}", shorten(&kernel.bindings)));
+            lines.add("", kernel.work());
         }
-        for left_out in &self.left_out {
-            line("runs", left_out.to_string());
+        if let Some(left_out) = LeftOut::line(&self.left_out) {
+            lines.add("runs", left_out);
         }
-        self.numerics(&mut line);
+        self.numerics(&mut lines);
         if let Some(blocks) = &self.blocks {
-            blocks.lines(&mut line);
+            blocks.lines(&mut lines);
         }
         for accuracy in &self.accuracy {
-            line("accuracy", accuracy.text());
+            lines.add("accuracy", accuracy.text());
         }
-        for warning in &self.warnings {
-            line("warning", warning.clone());
-        }
+        lines.warnings(&self.warnings);
         let time = &self.time;
-        line(
+        lines.add(
             "run",
-            format!(
+            format_args!(
                 "about {} without output: {:.3e} s a step, {:.2} million cells a second \
                  ({} steps tried)",
                 duration(time.run),
@@ -58,63 +50,65 @@ impl Report {
                 time.trial_steps
             ),
         );
-        text
+        lines.text()
     }
 
-    fn grid(&self, line: &mut impl FnMut(&str, String)) {
+    fn grid(&self, lines: &mut Lines) {
         let cells = &self.cells;
         let [x, y, z] = cells.size;
-        line(
+        lines.add(
             "cells",
-            format!(
+            format_args!(
                 "{x} × {y} × {z}: {} fluid, {} solid; {} an invocation",
                 cells.fluid, cells.solid, cells.lanes
             ),
         );
-        line(
+        lines.add(
             "bricks",
-            format!(
+            format_args!(
                 "{} plain, {} mixed, {} never dispatched",
                 cells.plain_bricks, cells.mixed_bricks, cells.idle_bricks
             ),
         );
-        line(
+        lines.add(
             "boundaries",
-            format!(
+            format_args!(
                 "{} links, {} cells at moving walls and velocity faces, {} at pressure faces",
                 cells.links, cells.moving, cells.open
             ),
         );
     }
 
-    fn memory(&self, line: &mut impl FnMut(&str, String)) {
+    fn memory(&self, lines: &mut Lines) {
         let memory = &self.memory;
-        line("memory", bytes(memory.total));
+        lines.add("memory", bytes(memory.total));
         for (kind, size) in &memory.kinds {
             let spread = match kind.as_str() {
                 "populations" => format!(" in {} bindings", memory.population_bindings),
                 _ => String::new(),
             };
-            line("", format!("{kind}: {}{spread}", bytes(*size)));
+            lines.add("", format_args!("{kind}: {}{spread}", bytes(*size)));
         }
     }
 
-    fn numerics(&self, line: &mut impl FnMut(&str, String)) {
+    fn numerics(&self, lines: &mut Lines) {
         let n = &self.numerics;
-        line(
+        lines.add(
             "time",
-            format!(
+            format_args!(
                 "{} steps of {:.4e} s = {:.4} s",
                 n.steps, n.time_step, n.duration
             ),
         );
-        line("τ", format!("{:.6}", n.tau));
+        lines.add("τ", format_args!("{:.6}", n.tau));
         match (n.speed, n.mach, n.cell_reynolds) {
-            (Some(speed), Some(mach), Some(reynolds)) => line(
+            (Some(speed), Some(mach), Some(reynolds)) => lines.add(
                 "speed",
-                format!("{speed:.3e} m/s: Mach {mach:.3}, Reynolds number of a cell {reynolds:.2}"),
+                format_args!(
+                    "{speed:.3e} m/s: Mach {mach:.3}, Reynolds number of a cell {reynolds:.2}"
+                ),
             ),
-            _ => line("speed", "nothing moves at the start".into()),
+            _ => lines.add("speed", "nothing moves at the start"),
         }
         let magic = match (n.lambda, n.wall_lambda) {
             (Some(lambda), _) => format!("{lambda} everywhere, no floor"),
@@ -124,7 +118,7 @@ impl Report {
             ),
             (None, None) => "as the collision operator has it".into(),
         };
-        line("Λ", magic);
+        lines.add("Λ", magic);
     }
 }
 

@@ -1,22 +1,21 @@
 //! A short trial of a scene, from which its running time follows.
 
 use super::report::Time;
-use crate::gpu;
-use riprap::{Result, simulation::Simulation, wgpu};
+use crate::run::SceneRun;
+use riprap::Result;
 use std::time::{Duration, Instant};
 
-/// How long a few steps may take before the device counts as lost.
-pub const PATIENCE: Duration = Duration::from_secs(60);
 /// Length of the trial: enough that the start of a submission, some 0.1 ms, does not count.
 const TRIAL: Duration = Duration::from_millis(400);
 
 /// Runs steps for less than half a second, at least one; says how the trial ended if it did so early.
-pub fn time(simulation: &mut Simulation, device: &wgpu::Device) -> (Time, Result<()>) {
+pub fn time(run: &mut SceneRun) -> (Time, Result<()>) {
     let (mut done, mut spent) = (0, Duration::ZERO);
-    let ended = tried(simulation, device, &mut done, &mut spent);
-    let steps = simulation.scene().run.step_count(simulation.units());
+    let ended = tried(run, &mut done, &mut spent);
+    let steps = run.scene().run.count(run.time_step());
     let step = spent.as_secs_f64() / done.max(1) as f64;
-    let cells = simulation.lattice().geometry().fluid_cells as f64;
+    let cells = run.lattice();
+    let cells = cells.map_or(0, |(lattice, _)| lattice.geometry().fluid_cells) as f64;
     let time = Time {
         step,
         run: step * steps as f64,
@@ -26,16 +25,10 @@ pub fn time(simulation: &mut Simulation, device: &wgpu::Device) -> (Time, Result
     (time, ended)
 }
 
-fn tried(
-    simulation: &mut Simulation,
-    device: &wgpu::Device,
-    done: &mut u64,
-    spent: &mut Duration,
-) -> Result<()> {
+fn tried(run: &mut SceneRun, done: &mut u64, spent: &mut Duration) -> Result<()> {
     let mut advance = |steps| {
         let start = Instant::now();
-        let future = simulation.advance(steps);
-        gpu::drive(device, PATIENCE, "the first steps", future)??;
+        run.advance(steps)?;
         Ok(start.elapsed())
     };
     // Drivers compile at the first dispatch, and the first step has no boundary passes.

@@ -1,23 +1,14 @@
 //! What a scene of particles will run.
 
-use super::BlockFacts;
+use super::{BlockFacts, lines::Lines};
 use crate::{
     adapters::Adapter,
-    gpu,
     print::{bytes, duration},
-    run::{Engine, SphRun},
+    run::SceneRun,
 };
-use anyhow::Result;
-use riprap::{
-    scene::Scene,
-    sph::{Particle, ReferencePosition},
-};
+use riprap::sph::{Particle, ReferencePosition};
 use serde::Serialize;
-use std::{
-    fmt::Write,
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// Length of the trial.
 const TRIAL: Duration = Duration::from_millis(400);
@@ -70,32 +61,21 @@ pub struct WaterReport {
     pub trial_steps: u64,
 }
 
-/// Makes the water of `scene`, which was read from `file`, and tries a few steps; says how the trial ended if it did
-/// so early.
-///
-/// # Errors
-/// What the scene lacks, or what the adapter cannot hold.
-pub fn report(
-    scene: &Scene,
-    file: &Path,
-    adapter: Option<&str>,
-) -> Result<(WaterReport, riprap::Result<()>)> {
-    let mut run = SphRun::open(scene, file, adapter)?;
-    let steps = scene.run.count(run.time_step());
-    let (done, spent, ended) = try_out(&mut run, steps);
-    let simulation = &run.simulation;
-    let particles = simulation.particles();
-    let (setup, counts) = (particles.setup(), particles.counts());
-    let all = u64::from(counts.fluid) + u64::from(counts.boundary);
-    let step = spent.as_secs_f64() / done.max(1) as f64;
-    // The step before the trial took as many.
-    let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
-    let updates = tried * all as f64;
-    let named = gpu::pick(adapter)?;
-    Ok((
+/// Tries a few steps of a scene of free water; says how the trial ended if it did so early. No report of a scene without.
+pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, riprap::Result<()>) {
+    let steps = run.scene().run.count(run.time_step());
+    let (done, spent, ended) = try_out(run, steps);
+    let report = run.simulation.particles().map(|particles| {
+        let (setup, counts) = (particles.setup(), particles.counts());
+        let all = u64::from(counts.fluid) + u64::from(counts.boundary);
+        let step = spent.as_secs_f64() / done.max(1) as f64;
+        // The step before the trial took as many.
+        let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
+        let updates = tried * all as f64;
+        let left_out = run.simulation.rock().map(|rock| &*rock.setup().left_out);
         WaterReport {
-            title: scene.title.clone(),
-            adapter: Adapter::of(&named, adapter.is_none()),
+            title: run.scene().title.clone(),
+            adapter,
             particles: counts.fluid,
             shell: counts.boundary,
             // Unsorted and sorted particles, and reference positions of boundary particles.
@@ -110,10 +90,10 @@ pub fn report(
             acoustic_step: setup.acoustic_step(),
             time_step: run.time_step(),
             steps,
-            duration: scene.run.length(run.time_step()),
+            duration: run.scene().run.length(run.time_step()),
             blocks: run.rock().map(|rock| {
                 let shown = &rock.setup.blocks[..rock.shown];
-                let left_out = &simulation.setup().left_out;
+                let left_out = left_out.unwrap_or_default();
                 BlockFacts::of(shown, rock.blocks, left_out, run.time_step())
             }),
             warnings: run.warnings.clone(),
@@ -121,13 +101,13 @@ pub fn report(
             run_seconds: step * steps as f64,
             particles_a_second: updates / spent.as_secs_f64().max(1e-9),
             trial_steps: done,
-        },
-        ended,
-    ))
+        }
+    });
+    (report, ended)
 }
 
 /// Steps for about half a second, at least one: how many, how long they took, and how they ended.
-fn try_out(run: &mut SphRun, most: u64) -> (u64, Duration, riprap::Result<()>) {
+fn try_out(run: &mut SceneRun, most: u64) -> (u64, Duration, riprap::Result<()>) {
     // Drivers compile at the first dispatch.
     let warm = run.advance(1).and_then(|()| run.water().map(drop));
     if let Err(error) = warm {
@@ -148,47 +128,40 @@ fn try_out(run: &mut SphRun, most: u64) -> (u64, Duration, riprap::Result<()>) {
 impl WaterReport {
     /// The report in lines of a name and what there is of it.
     pub fn text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
-        let mut line = |name: &str, what: String| {
-            // A String takes all that is written to it.
-            let _ = writeln!(text, "{name:12} {what}");
-        };
-        let adapter = &self.adapter;
-        line(
-            "adapter",
-            format!("{} ({}, {})", adapter.name, adapter.backend, adapter.driver),
-        );
-        line(
+        let mut lines = Lines::titled(&self.title);
+        lines.adapter(&self.adapter);
+        lines.add(
             "water",
-            format!(
+            format_args!(
                 "{} particles of {:.4e} m, {:.4e} kg each, {:.4e} kg in all; {} boundary particles",
                 self.particles, self.spacing, self.particle_mass, self.mass, self.shell
             ),
         );
-        line("memory", format!("{} of particles", bytes(self.memory)));
-        line(
+        lines.add(
+            "memory",
+            format_args!("{} of particles", bytes(self.memory)),
+        );
+        lines.add(
             "sound",
-            format!(
+            format_args!(
                 "{:.3} m/s, Mach {:.2} at the largest speed expected, {:.3} m/s",
                 self.sound_speed, self.mach, self.largest_speed
             ),
         );
         if let Some(blocks) = &self.blocks {
-            blocks.lines(&mut line);
+            blocks.lines(&mut lines);
         }
-        line(
+        lines.add(
             "time",
-            format!(
+            format_args!(
                 "{} steps of {:.4e} s = {:.4} s; acoustic steps of at most {:.4e} s",
                 self.steps, self.time_step, self.duration, self.acoustic_step
             ),
         );
-        for warning in &self.warnings {
-            line("warning", warning.clone());
-        }
-        line(
+        lines.warnings(&self.warnings);
+        lines.add(
             "run",
-            format!(
+            format_args!(
                 "about {} without output: {:.3e} s a step, {:.2} million particle updates a second, boundary particles included ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
@@ -196,6 +169,6 @@ impl WaterReport {
                 self.trial_steps
             ),
         );
-        text
+        lines.text()
     }
 }

@@ -79,7 +79,7 @@ impl Camera {
                      to the line between them",
                     self.from, self.to, self.up
                 );
-                Error::scene("camera", message)
+                Error::argument("camera", message)
             })
     }
 
@@ -113,7 +113,7 @@ impl Look {
                 "direction {}, up {}: give two directions that are not parallel",
                 self.direction, self.up
             );
-            return Err(Error::scene("look", message));
+            return Err(Error::argument("look", message));
         };
         // A ball (x, y, z; r) in the camera's axes is left of the right edge plane through the eye e
         // if (x − e_x) cos θ + r ≤ (z − e_z) sin θ, θ being half of the view's angle, and likewise
@@ -161,5 +161,5 @@ fn check_angle(field_of_view: f64) -> Result<()> {
         return Ok(());
     }
     let message = format!("is {field_of_view} rad; give an angle between 0 and 0.95 π");
-    Err(Error::scene("field_of_view", message))
+    Err(Error::argument("field_of_view", message))
 }

@@ -163,7 +163,7 @@ impl Drawing<'_> {
     pub fn palette(&self) -> Result<(Palette, [f64; 2])> {
         match self.colours.as_ref().and_then(|colours| colours.range) {
             Some([low, high]) if !(low.is_finite() && high.is_finite() && low < high) => {
-                Err(Error::scene(
+                Err(Error::argument(
                     "colours.range",
                     format!("from {low} to {high}: give two numbers, the lower first"),
                 ))
@@ -187,25 +187,25 @@ impl Drawing<'_> {
             let place = || format!("instances[{index}]");
             if body.mesh >= self.meshes.len() {
                 let message = format!("mesh {} of {}", body.mesh, self.meshes.len());
-                return Err(Error::scene(place(), message + "; count from 0"));
+                return Err(Error::argument(place(), message + "; count from 0"));
             }
             if !body.centre.is_finite() || !body.deformation.is_finite() {
                 let message = format!(
                     "its pose is not finite (centre {}, deformation {}); did the motion diverge?",
                     body.centre, body.deformation
                 );
-                return Err(Error::scene(place(), message));
+                return Err(Error::argument(place(), message));
             }
             if let Some(value) = body.value.filter(|value| !value.is_finite()) {
                 let message = format!("its value is {value}; give a finite one or none");
-                return Err(Error::scene(place(), message));
+                return Err(Error::argument(place(), message));
             }
         }
         for (index, mesh) in self.meshes.iter().enumerate() {
             let ends = mesh.edges.iter().flatten();
             check_surface(&mesh.vertices, &mesh.triangles)
                 .and_then(|()| check_finite(ends))
-                .map_err(|message| Error::scene(format!("meshes[{index}]"), message))?;
+                .map_err(|message| Error::argument(format!("meshes[{index}]"), message))?;
         }
         for (index, surface) in self.surfaces.iter().enumerate() {
             check_surface(&surface.vertices, &surface.triangles)
@@ -213,39 +213,39 @@ impl Drawing<'_> {
                     true => Ok(()),
                     false => Err("give each vertex one colour".into()),
                 })
-                .map_err(|message| Error::scene(format!("surfaces[{index}]"), message))?;
+                .map_err(|message| Error::argument(format!("surfaces[{index}]"), message))?;
         }
         for (index, plane) in self.planes.iter().enumerate() {
             let place = || format!("planes[{index}]");
             plane
                 .check()
-                .map_err(|message| Error::scene(place(), message))?;
+                .map_err(|message| Error::argument(place(), message))?;
         }
         if let Some(traces) = &self.traces {
             traces
                 .check()
-                .map_err(|message| Error::scene("traces", message))?;
+                .map_err(|message| Error::argument("traces", message))?;
         }
         if let Some(drops) = &self.drops {
             drops
                 .check()
-                .map_err(|message| Error::scene("drops", message))?;
+                .map_err(|message| Error::argument("drops", message))?;
         }
         for (index, line) in self.lines.iter().enumerate() {
             let place = || format!("lines[{index}]");
-            check_finite(&line.ends).map_err(|message| Error::scene(place(), message))?;
+            check_finite(&line.ends).map_err(|message| Error::argument(place(), message))?;
             if !(line.width.is_finite() && line.width > 0.0) {
                 let message = format!("a width of {} pixels; give a positive one", line.width);
-                return Err(Error::scene(place(), message));
+                return Err(Error::argument(place(), message));
             }
         }
         if let Some(ground) = self.ground.filter(|ground| !ground.height.is_finite()) {
             let message = format!("is {}; give a finite one", ground.height);
-            return Err(Error::scene("ground.height", message));
+            return Err(Error::argument("ground.height", message));
         }
         if let Some(sun) = self.sun.filter(|sun| sun.try_normalize().is_none()) {
             let message = format!("{sun} is no direction; give a vector towards the sun");
-            return Err(Error::scene("sun", message));
+            return Err(Error::argument("sun", message));
         }
         Ok(())
     }

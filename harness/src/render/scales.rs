@@ -80,7 +80,7 @@ impl Scales {
 
 /// What is wrong with the colours of something, in the words of the other faults of drawings.
 fn named(name: &str, bar: anyhow::Result<ColourBar>) -> Result<ColourBar> {
-    bar.map_err(|error| Error::scene(format!("{name}.colours.range"), error.to_string()))
+    bar.map_err(|error| Error::argument(format!("{name}.colours.range"), error.to_string()))
 }
 
 fn channels(RGBColor(r, g, b): RGBColor) -> [u8; 3] {

@@ -231,7 +231,7 @@ impl Report {
     /// Writes the page and the JSON.
     pub(super) fn write(&self, folder: &Path, classes: &[Class]) -> anyhow::Result<()> {
         let json = serde_json::to_string_pretty(self)? + "\n";
-        let html = page::page(self, classes);
+        let html = page::page(self, classes)?;
         for (name, text) in [("report.json", json), ("report.html", html)] {
             replace(&folder.join(name), |file| file.write_all(text.as_bytes()))?;
         }

@@ -14,7 +14,6 @@ mod limit;
 mod page;
 mod plot;
 mod row;
-mod svg;
 mod water;
 
 pub use document::{Repeat, Report, Time};

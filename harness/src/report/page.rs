@@ -6,9 +6,9 @@ use super::{
     finding::{Choice, Finding},
     plot,
     row::Row,
-    svg::escape,
 };
 use crate::print::percent;
+use anyhow::Result;
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:16px/1.45 sans-serif;color:#222;max-width:1240px;margin:2em auto;padding:0 1em}\
@@ -27,7 +27,10 @@ const SETTINGS: &str = "<p>Settings. <b>default</b>: what the library chooses (H
     steps. Free water: <b>delta</b> (the default) and <b>mueller</b>.</p>\n";
 
 /// The page of a report, with the classes that have run.
-pub fn page(report: &Report, classes: &[Class]) -> String {
+///
+/// # Errors
+/// If the font of its diagrams cannot be read.
+pub fn page(report: &Report, classes: &[Class]) -> Result<String> {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <title>riprap: error against run time</title>\n<style>{STYLE}</style></head><body>\n\
@@ -37,11 +40,11 @@ pub fn page(report: &Report, classes: &[Class]) -> String {
     for class in classes {
         let rows = report.of(class.name);
         if !rows.is_empty() {
-            html += &section(report, class, &rows);
+            html += &section(report, class, &rows)?;
         }
     }
     html += &findings(report, classes);
-    html + "</body></html>\n"
+    Ok(html + "</body></html>\n")
 }
 
 fn head(report: &Report) -> String {
@@ -66,7 +69,7 @@ fn head(report: &Report) -> String {
     )
 }
 
-fn section(report: &Report, class: &Class, rows: &[&Row]) -> String {
+fn section(report: &Report, class: &Class, rows: &[&Row]) -> Result<String> {
     let mut html = format!(
         "<h2 id=\"{}\">{}</h2>\n<p>{}; resolution: {}.{}</p>\n",
         class.name,
@@ -75,7 +78,7 @@ fn section(report: &Report, class: &Class, rows: &[&Row]) -> String {
         class.resolution,
         reference(class, rows)
     );
-    html += &plot::diagram(class, rows, (report.time.axis(), report.time.of()));
+    html += &plot::diagram(class, rows, (report.time.axis(), report.time.of()))?;
     html += "<details><summary>table</summary><table><tr><th class=\"l\">setting</th>";
     for name in [
         "resolution",
@@ -110,7 +113,7 @@ fn section(report: &Report, class: &Class, rows: &[&Row]) -> String {
             escape(&row.note)
         );
     }
-    html + "</table></details>\n"
+    Ok(html + "</table></details>\n")
 }
 
 /// What is to be known of the reference.
@@ -223,4 +226,19 @@ fn capital(text: &str) -> String {
     let mut chars = text.chars();
     let first = chars.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + chars.as_str()
+}
+
+/// Text that means itself in HTML, SVG and their attributes.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }

@@ -1,11 +1,24 @@
-//! Error against cost on logarithmic axes: two frames side by side with one legend.
+//! Error against cost on logarithmic axes: two frames side by side with one legend, as SVG.
 
 use super::{
     class::Class,
     finding::TARGETS,
+    page::escape,
     row::{Cost, Row},
-    svg::{Anchor, Stroke, Svg},
 };
+use anyhow::{Result, anyhow};
+use plotters::{
+    coord::Shift,
+    element::DashedPathElement,
+    prelude::*,
+    style::{
+        FontTransform, register_font,
+        text_anchor::{HPos, Pos, VPos},
+    },
+};
+
+/// A drawing in pixels, y downwards.
+type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Size of a frame, pixels.
 const FRAME: [f64; 2] = [400.0, 340.0];
@@ -17,28 +30,23 @@ const FOOT: f64 = 58.0;
 const LEGEND: f64 = 220.0;
 /// Height of a row of the legend.
 const ENTRY: f64 = 21.0;
+const FONT: &str = "sans-serif";
 const TEXT: f64 = 14.0;
 const RADIUS: f64 = 4.5;
 
 /// Colours that also the colour-blind tell apart (Okabe & Ito 2008); black is for the default.
-const COLOURS: [&str; 7] = [
-    "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#968c1e",
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x72, 0xb2),
+    RGBColor(0x00, 0x9e, 0x73),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xe6, 0x9f, 0x00),
+    RGBColor(0x56, 0xb4, 0xe9),
+    RGBColor(0x96, 0x8c, 0x1e),
 ];
-const GRID: Stroke = Stroke {
-    colour: "#ddd",
-    width: 1.0,
-    dash: "",
-};
-const EDGE: Stroke = Stroke {
-    colour: "#222",
-    width: 1.2,
-    dash: "",
-};
-const TARGET: Stroke = Stroke {
-    colour: "#888",
-    width: 1.2,
-    dash: "6 4",
-};
+const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+const EDGE: RGBColor = RGBColor(0x22, 0x22, 0x22);
+const TARGET: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
 /// A logarithmic axis over whole powers of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +112,13 @@ fn curves<'a>(rows: &[&'a Row]) -> Vec<Curve<'a>> {
 }
 
 /// The diagram of a class: error against `time` (of this name), and against updates.
-pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, Cost)) -> String {
+///
+/// # Errors
+/// If the font of its texts cannot be read.
+pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, Cost)) -> Result<String> {
+    // Texts are measured in the font of pictures; a page shows them in its own.
+    register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
+        .map_err(|_| anyhow!("the font of diagrams cannot be read"))?;
     let curves = curves(rows);
     // Far beyond the method's range nothing is to be read off.
     let errors = rows
@@ -115,112 +129,142 @@ pub fn diagram(class: &Class, rows: &[&Row], (name, time): (&str, Cost)) -> Stri
     let height = TOP + FRAME[1] + FOOT;
     let legend = TOP + ENTRY * curves.len() as f64 + TOP;
     let width = 2.0 * (SIDE + FRAME[0]) + LEGEND;
-    let mut svg = Svg::new([width, height.max(legend)]);
-    let updates = format!("{} updates", class.update);
-    let costs: [(&str, Cost); 2] = [(name, time), (&updates, |row| row.updates as f64)];
-    for (n, (name, cost)) in costs.into_iter().enumerate() {
-        let left = SIDE + n as f64 * (SIDE + FRAME[0]);
-        let known = rows.iter().filter(|row| row.error.is_some());
-        let x = Axis::around(known.map(|row| cost(row)));
-        frame(&mut svg, left, (x, name), y);
-        for (number, curve) in curves.iter().enumerate() {
-            let places: Vec<[f64; 2]> = curve
-                .rows
-                .iter()
-                .map(|row| {
+    let mut svg = String::new();
+    {
+        let size = (width as u32, height.max(legend) as u32);
+        let canvas = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let updates = format!("{} updates", class.update);
+        let costs: [(&str, Cost); 2] = [(name, time), (&updates, |row| row.updates as f64)];
+        for (n, (name, cost)) in costs.into_iter().enumerate() {
+            let left = SIDE + n as f64 * (SIDE + FRAME[0]);
+            let known = rows.iter().filter(|row| row.error.is_some());
+            let x = Axis::around(known.map(|row| cost(row)));
+            frame(&canvas, left, (x, name), y)?;
+            for (number, curve) in curves.iter().enumerate() {
+                let place = |row: &&Row| {
                     let error = row.certain_error().unwrap_or_default();
-                    [
+                    pixel([
                         left + FRAME[0] * x.place(cost(row)),
                         TOP + FRAME[1] * (1.0 - y.place(error)),
-                    ]
-                })
-                .collect();
-            draw(&mut svg, curve, number, &places);
+                    ])
+                };
+                draw(
+                    &canvas,
+                    curve,
+                    number,
+                    curve.rows.iter().map(place).collect(),
+                )?;
+            }
         }
+        let left = 2.0 * (SIDE + FRAME[0]) + 16.0;
+        for (number, curve) in curves.iter().enumerate() {
+            let at = TOP + ENTRY * (number as f64 + 0.5);
+            let line = [[left, at], [left + 30.0, at]].map(pixel);
+            draw(&canvas, curve, number, line.into())?;
+            let name = match curve.rows.is_empty() {
+                true => format!("{} (no result)", curve.name),
+                false => curve.name.into(),
+            };
+            text(&canvas, &name, [left + 40.0, at], TEXT, HPos::Left)?;
+        }
+        canvas.present()?;
     }
-    let left = 2.0 * (SIDE + FRAME[0]) + 16.0;
-    for (number, curve) in curves.iter().enumerate() {
-        let at = TOP + ENTRY * (number as f64 + 0.5);
-        draw(&mut svg, curve, number, &[[left, at], [left + 30.0, at]]);
-        let name = match curve.rows.is_empty() {
-            true => format!("{} (no result)", curve.name),
-            false => curve.name.into(),
-        };
-        svg.text(&name, [left + 40.0, at], TEXT, Anchor::Start, false);
-    }
-    svg.finish(&format!("{}: error against cost", class.title))
+    // What readers of screens say.
+    let title = escape(&format!("{}: error against cost", class.title));
+    Ok(svg.replacen('>', &format!(" role=\"img\">\n<title>{title}</title>"), 1))
+}
+
+fn pixel([x, y]: [f64; 2]) -> (i32, i32) {
+    (x.round() as i32, y.round() as i32)
+}
+
+fn line(canvas: &Canvas<'_>, places: &[[f64; 2]], style: ShapeStyle) -> Result<()> {
+    let places: Vec<_> = places.iter().copied().map(pixel).collect();
+    Ok(canvas.draw(&PathElement::new(places, style))?)
+}
+
+fn text(canvas: &Canvas<'_>, text: &str, at: [f64; 2], size: f64, side: HPos) -> Result<()> {
+    let style = TextStyle::from((FONT, size).into_font()).pos(Pos::new(side, VPos::Center));
+    Ok(canvas.draw(&Text::new(text, pixel(at), style))?)
 }
 
 /// Grid, numbers and names of a frame whose left edge is at `left`.
-fn frame(svg: &mut Svg, left: f64, (x, name): (Axis, &str), y: Axis) {
+fn frame(canvas: &Canvas<'_>, left: f64, (x, name): (Axis, &str), y: Axis) -> Result<()> {
     let (right, bottom) = (left + FRAME[0], TOP + FRAME[1]);
     for power in x.low..=x.high {
         let at = left + FRAME[0] * x.place(10f64.powi(power));
-        svg.line(&[[at, TOP], [at, bottom]], GRID);
+        line(canvas, &[[at, TOP], [at, bottom]], GRID.into())?;
         // Many powers of ten stand too close.
         if x.high - x.low <= 7 || (power - x.low) % 2 == 0 {
-            let place = [at, bottom + 16.0];
-            svg.text(&power_of_ten(power), place, TEXT, Anchor::Middle, false);
+            text(
+                canvas,
+                &power_of_ten(power),
+                [at, bottom + 16.0],
+                TEXT,
+                HPos::Center,
+            )?;
         }
     }
     for power in y.low..=y.high {
         let at = TOP + FRAME[1] * (1.0 - y.place(10f64.powi(power)));
-        svg.line(&[[left, at], [right, at]], GRID);
-        svg.text(&percent(power), [left - 8.0, at], TEXT, Anchor::End, false);
+        line(canvas, &[[left, at], [right, at]], GRID.into())?;
+        text(canvas, &percent(power), [left - 8.0, at], TEXT, HPos::Right)?;
     }
     for target in TARGETS {
         if target > 10f64.powi(y.low) {
             let at = TOP + FRAME[1] * (1.0 - y.place(target));
-            svg.line(&[[left, at], [right, at]], TARGET);
+            let ends = [[left, at], [right, at]].map(pixel);
+            canvas.draw(&DashedPathElement::new(ends, 6, 4, TARGET))?;
         }
     }
-    let corners = [
-        [left, TOP],
-        [right, TOP],
-        [right, bottom],
-        [left, bottom],
-        [left, TOP],
-    ];
-    svg.line(&corners, EDGE);
+    let corners = [[left, TOP], [right, bottom]].map(pixel);
+    canvas.draw(&Rectangle::new(corners, EDGE))?;
     let middle = [0.5 * (left + right), bottom + 42.0];
-    svg.text(name, middle, TEXT + 1.0, Anchor::Middle, false);
-    let beside = [left - SIDE + 14.0, 0.5 * (TOP + bottom)];
-    svg.text("error", beside, TEXT + 1.0, Anchor::Middle, true);
+    text(canvas, name, middle, TEXT + 1.0, HPos::Center)?;
+    let side = pixel([left - SIDE + 14.0, 0.5 * (TOP + bottom)]);
+    let upwards = TextStyle::from((FONT, TEXT + 1.0).into_font())
+        .transform(FontTransform::Rotate270)
+        .pos(Pos::new(HPos::Center, VPos::Center));
+    Ok(canvas.draw(&Text::new("error", side, upwards))?)
 }
 
 /// A curve, the `number`th of its diagram, counted from 0.
-fn draw(svg: &mut Svg, curve: &Curve<'_>, number: usize, places: &[[f64; 2]]) {
+fn draw(
+    canvas: &Canvas<'_>,
+    curve: &Curve<'_>,
+    number: usize,
+    places: Vec<(i32, i32)>,
+) -> Result<()> {
     let plain = curve.default && !curve.name.contains(" at ");
     let colour = match plain {
-        true => "#000",
+        true => BLACK,
         false => COLOURS[number % COLOURS.len()],
     };
-    let stroke = Stroke {
-        colour,
-        width: if plain { 2.8 } else { 1.6 },
-        dash: if curve.default && !plain { "7 4" } else { "" },
-    };
-    svg.line(places, stroke);
-    for &[x, y] in places {
+    let style = colour.stroke_width(if plain { 3 } else { 2 });
+    if curve.default && !plain {
+        canvas.draw(&DashedPathElement::new(places.clone(), 7, 4, style))?;
+    } else {
+        canvas.draw(&PathElement::new(places.clone(), style))?;
+    }
+    for place in places {
+        let around = |corners: &[[f64; 2]]| {
+            let corners = corners.iter().copied().map(pixel);
+            let all = corners.map(|(x, y)| (place.0 + x, place.1 + y)).collect();
+            Polygon::<(i32, i32)>::new::<Vec<_>, _>(all, colour.filled())
+        };
         // Neighbours of one colour differ in shape.
         match (number / COLOURS.len() + number) % 3 {
-            0 => svg.disc([x, y], RADIUS, colour),
-            1 => {
-                let r = 0.9 * RADIUS;
-                let square = [
-                    [x - r, y - r],
-                    [x + r, y - r],
-                    [x + r, y + r],
-                    [x - r, y + r],
-                ];
-                svg.shape(&square, colour);
-            }
-            _ => {
-                let r = 1.2 * RADIUS;
-                svg.shape(&[[x, y - r], [x + r, y + r], [x - r, y + r]], colour);
-            }
+            0 => canvas.draw(&Circle::new(place, RADIUS.round(), colour.filled()))?,
+            1 => canvas.draw(&around(&[
+                [-4.0, -4.0],
+                [4.0, -4.0],
+                [4.0, 4.0],
+                [-4.0, 4.0],
+            ]))?,
+            _ => canvas.draw(&around(&[[0.0, -5.4], [5.4, 5.4], [-5.4, 5.4]]))?,
         }
     }
+    Ok(())
 }
 
 /// 10ⁿ.

@@ -1,9 +1,9 @@
 //! The state from which a run can go on: `checkpoint.riprap`, and its scene beside it.
 
 use super::{
-    engine::Engine,
     origin,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
 use anyhow::Result;
@@ -28,15 +28,15 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    pub fn new(engine: &impl Engine, folder: &Path, last: u64, text: &str) -> Self {
-        let (asked, time_step) = (engine.scene().run.checkpoint_every, engine.time_step());
-        let run = Parted { time_step, last };
+    pub fn new(run: &SceneRun, folder: &Path, last: u64, text: &str) -> Self {
+        let (asked, time_step) = (run.scene().run.checkpoint_every, run.time_step());
+        let parted = Parted { time_step, last };
         Self {
             schedule: match asked {
-                Some(every) => Schedule::of(Some(every), time_step, last),
-                None => run.schedule(engine.step(), 0),
+                Some(every) => Schedule::new(Some(every), time_step, last),
+                None => parted.schedule(run.step(), 0),
             },
-            own: asked.is_none().then_some(run),
+            own: asked.is_none().then_some(parted),
             path: folder.join("checkpoint.riprap"),
             text: text.to_owned(),
         }
@@ -56,35 +56,35 @@ impl Parted {
         let parts = (BYTES / bytes.max(1) as f64).clamp(FEWEST, PARTS).floor();
         let early = parts == PARTS && (step as f64) < self.last as f64 / PARTS;
         let length = self.last as f64 * self.time_step / if early { EARLY } else { parts };
-        Schedule::of(Some(length), self.time_step, self.last)
+        Schedule::new(Some(length), self.time_step, self.last)
     }
 }
 
-impl<E: Engine> Recorder<E> for Checkpoints {
+impl Recorder for Checkpoints {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let step = engine.step();
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let step = run.step();
         if step == 0 {
             return Ok(());
         }
-        let written = engine.checkpoint(&self.path).map_err(Into::into);
+        let written = run.checkpoint(&self.path).map_err(Into::into);
         match written.and_then(|()| origin::keep(&self.text, &self.path)) {
             // Nobody asked for it, and the run goes on without.
             Err(error) if self.own.is_some() => {
                 const FAILED: &str = "no checkpoint at step";
-                // A full disk stays full: it is told once.
-                if !notes.warnings.iter().any(|told| told.starts_with(FAILED)) {
-                    notes.warnings.push(format!("{FAILED} {step}: {error:#}"));
+                // A full disk stays full: one warning is enough.
+                if !log.warnings.iter().any(|known| known.starts_with(FAILED)) {
+                    log.warnings.push(format!("{FAILED} {step}: {error:#}"));
                 }
                 return Ok(());
             }
             done => done?,
         }
-        notes.checkpoint = Some((step, self.path.clone()));
-        notes.file(self.path.clone());
+        log.checkpoint = Some((step, self.path.clone()));
+        log.file(self.path.clone());
         if let (Some(run), Ok(file)) = (&self.own, self.path.metadata()) {
             self.schedule = run.schedule(step, file.len());
         }

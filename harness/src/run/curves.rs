@@ -1,6 +1,6 @@
 //! The curves of a table over time, beside it: `NAME.png`.
 
-use super::recorder::Notes;
+use super::recorder::RunLog;
 use crate::picture::{Chart, Track};
 use anyhow::{Result, anyhow};
 use riprap::{output::Table, scene::Scene};
@@ -12,7 +12,7 @@ pub fn draw(
     path: &Path,
     title: &str,
     tracks: &[Track<'_>],
-    notes: &mut Notes,
+    log: &mut RunLog,
 ) -> Result<()> {
     let table = Table::read(path)?;
     let is_empty = |name: &&str| {
@@ -32,6 +32,6 @@ pub fn draw(
         )),
         false => Chart::history(title, &table, tracks).and_then(|chart| chart.draw(&picture)),
     };
-    notes.picture(picture, drawn);
+    log.picture(picture, drawn);
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use super::{
     curves,
-    engine::Engine,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
 use crate::picture::Track;
@@ -26,18 +26,18 @@ pub struct History {
 
 impl History {
     /// Begins the table of the history of this number, or goes on with it after a restart.
-    pub fn new(engine: &impl Engine, folder: &Path, last: u64, number: usize) -> Result<Self> {
-        let scene = engine.scene();
+    pub fn new(run: &SceneRun, folder: &Path, last: u64, number: usize) -> Result<Self> {
+        let scene = run.scene();
         let history = &scene.output.histories[number];
         let path = folder.join(format!("{}.csv", name(number)));
         let columns: Vec<&str> = history.quantities.iter().map(|q| q.name()).collect();
         // Of the scene's run, not of `--steps`: a run in parts has one table.
-        let usual = scene.run.length(engine.time_step()) / POINTS;
+        let usual = scene.run.length(run.time_step()) / POINTS;
         let every = history.every.or(Some(usual));
         Ok(Self {
-            schedule: Schedule::of(every, engine.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             quantities: history.quantities.clone(),
-            table: table(engine, &path, &columns)?,
+            table: table(run, &path, &columns)?,
             path,
         })
     }
@@ -52,12 +52,8 @@ pub fn name(number: usize) -> String {
 }
 
 /// The table at `path`: a new one at the start of a run, else the one that a restart continues.
-pub fn table<S: AsRef<str>>(
-    engine: &impl Engine,
-    path: &Path,
-    columns: &[S],
-) -> riprap::Result<Csv> {
-    match engine.step() {
+pub fn table<S: AsRef<str>>(run: &SceneRun, path: &Path, columns: &[S]) -> riprap::Result<Csv> {
+    match run.step() {
         0 => Csv::create(path, columns),
         step => Csv::resume(path, columns, step),
     }
@@ -103,20 +99,20 @@ pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
     }
 }
 
-impl<E: Engine> Recorder<E> for History {
+impl Recorder for History {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let values = engine.values(&self.quantities, notes)?;
-        let (step, time) = (engine.step(), engine.time());
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let values = run.values(&self.quantities, log)?;
+        let (step, time) = (run.step(), run.time());
         self.table.append(step, time, &values)?;
-        notes.file(self.path.clone());
+        log.file(self.path.clone());
         Ok(())
     }
 
-    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
         let names: Vec<[&str; 1]> = self.quantities.iter().map(|q| [q.name()]).collect();
         let tracks: Vec<Track<'_>> = self
             .quantities
@@ -131,7 +127,7 @@ impl<E: Engine> Recorder<E> for History {
                 }
             })
             .collect();
-        let scene = engine.scene();
-        curves::draw(scene, &self.path, &scene.title, &tracks, notes)
+        let scene = run.scene();
+        curves::draw(scene, &self.path, &scene.title, &tracks, log)
     }
 }

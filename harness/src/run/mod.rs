@@ -1,39 +1,37 @@
 //! `riprap run`: computes a scene and writes what it asks for.
 //!
-//! Everything that a run writes is a `Recorder` with a schedule. The fluid
-//! advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
+//! [`SceneRun`] is a scene on a device, and `Runner` takes it to its end. Everything that a run writes is a `Recorder` with
+//! a schedule. The scene advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
 //! the flow diverges, what is on disk is complete and can be continued.
 
 mod batch;
 mod checkpoints;
 mod curves;
-mod dry;
-mod engine;
 mod estimate;
-mod flow;
+mod header;
 mod history;
-mod journey;
+mod lattice;
 mod left_out;
 mod origin;
-mod pace;
 mod progress;
 mod recorder;
 mod rock;
+mod runner;
+mod scene_run;
 mod schedule;
 mod slice_field;
 mod slices;
 mod summary;
+mod throughput;
+mod timings;
 mod views;
 mod water;
 
 pub(crate) use batch::Batch;
-pub(crate) use dry::Dry;
-pub(crate) use engine::Engine;
-pub(crate) use flow::Flow;
-pub(crate) use water::SphRun;
+pub(crate) use scene_run::SceneRun;
 
 pub use estimate::{Estimate, Headline};
-pub use flow::Coupling;
+pub use lattice::Coupling;
 pub use left_out::LeftOut;
 pub use rock::{Factors, Rocks, Safety};
 pub use schedule::Schedule;
@@ -41,8 +39,8 @@ pub use summary::{Summary, Unfinished};
 pub use water::WaterSummary;
 
 use anyhow::Result;
-use journey::Journey;
 use riprap::{Error, scene::Scene};
+use runner::Runner;
 use std::{
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
@@ -72,6 +70,9 @@ pub struct Args {
     /// eighth of the cells or particles, a sixteenth of the time; of dry rock, steps twice as long
     #[arg(long)]
     pub error_estimate: bool,
+    /// Print the times of the phases of steps at the end: passes on the device where it has timestamps, and the host
+    #[arg(long)]
+    pub timings: bool,
 }
 
 /// Runs a scene until its end, or until `stop` is set.
@@ -89,34 +90,23 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     }
 }
 
-/// Runs a scene that has been read.
+/// Runs a scene that has been read, from its start or from the checkpoint to the end.
 fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
-    let (file, adapter) = (&args.scene, args.adapter.as_deref());
-    if scene.has_particles() {
-        return travel(SphRun::open(scene, file, adapter)?, args, stop);
-    }
-    match scene.has_fluid() {
-        true => travel(Flow::open(scene, file, adapter)?, args, stop),
-        false => travel(Dry::open(scene, file, adapter)?, args, stop),
-    }
-}
-
-/// Takes `engine` from its start, or from the checkpoint, to the end.
-fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Summary> {
+    let mut run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
     let folder = folder(args);
     if args.steps == Some(0) {
         let message = "a run has at least one; `riprap check` looks at a scene without running it";
-        return Err(Error::scene("--steps 0", message).into());
+        return Err(Error::argument("--steps 0", message).into());
     }
     let last = args
         .steps
-        .unwrap_or_else(|| engine.scene().run.count(engine.time_step()))
+        .unwrap_or_else(|| run.scene().run.count(run.time_step()))
         .max(1);
     if let Some(path) = &args.restart {
-        engine.restore(path)?;
-        let done = engine.step();
+        run.restore(path)?;
+        let done = run.step();
         if done >= last {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 "restart",
                 format!(
                     "the checkpoint is of step {done} and the run ends at step {last}; give \
@@ -132,14 +122,21 @@ fn travel<E: Engine>(mut engine: E, args: &Args, stop: &AtomicBool) -> Result<Su
     })?;
     let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     let restart = args.restart.as_deref();
-    let mut journey = Journey::new(&mut engine, &folder, last, restart, &text)?;
-    journey.summary.scene = args.scene.display().to_string();
-    engine.announce(&journey.summary, &folder, last);
+    let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
+    runner.summary.scene = args.scene.display().to_string();
+    runner.print_header(&run);
     if let Some(warning) = restart.and_then(|path| origin::warning(path, &text)) {
         eprintln!("warning: {warning}");
-        journey.summary.warnings.push(warning);
+        runner.summary.warnings.push(warning);
     }
-    journey.go(&mut engine, stop)
+    if args.timings {
+        run.simulation.time_phases();
+    }
+    let summary = runner.run_to_end(&mut run, stop)?;
+    if args.timings {
+        eprint!("{}", timings::table(&run.simulation.phases()));
+    }
+    Ok(summary)
 }
 
 /// Where a run writes to.

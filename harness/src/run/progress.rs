@@ -39,11 +39,11 @@ impl Progress {
         }
     }
 
-    /// The run is at `step`; `pace` says how fast it runs.
-    pub fn show(&mut self, step: u64, pace: &str) {
+    /// The run is at `step`; `throughput` says how fast it runs.
+    pub fn show(&mut self, step: u64, throughput: &str) {
         let done = (step - self.first).max(1) as f64;
         let left = self.start.elapsed().as_secs_f64() / done * (self.last - step) as f64;
-        let message = format!("{pace}, {} left", clock(left));
+        let message = format!("{throughput}, {} left", clock(left));
         if let Some(bar) = &self.bar {
             bar.set_position(step);
             bar.set_message(message);

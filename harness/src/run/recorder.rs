@@ -1,26 +1,29 @@
 //! What a run writes, one thing a type.
 
-use super::{rock::Safety, schedule::Schedule};
+use super::{rock::Safety, scene_run::SceneRun, schedule::Schedule};
 use anyhow::Result;
 use std::path::PathBuf;
 
+/// The recorders of a run.
+pub type Recorders = Vec<Box<dyn Recorder>>;
+
 /// Writes something about the present state when it is due.
-pub trait Recorder<E> {
+pub trait Recorder {
     /// When it is due.
     fn schedule(&self) -> &Schedule;
 
     /// Writes, and says which files.
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()>;
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()>;
 
     /// Writes what only the end of the run can show.
-    fn finish(&mut self, _engine: &E, _notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, _run: &SceneRun, _log: &mut RunLog) -> Result<()> {
         Ok(())
     }
 }
 
-/// What recorders have to say about a run.
+/// Files, warnings and extremes of a run, which recorders note.
 #[derive(Clone, Debug, Default)]
-pub struct Notes {
+pub struct RunLog {
     /// Files written, each once.
     pub files: Vec<PathBuf>,
     /// What did not work and does not end the run.
@@ -35,7 +38,7 @@ pub struct Notes {
     pub safety: Vec<Safety>,
 }
 
-impl Notes {
+impl RunLog {
     /// A file has been written.
     pub fn file(&mut self, path: PathBuf) {
         if !self.files.contains(&path) {

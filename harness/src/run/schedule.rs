@@ -1,7 +1,5 @@
 //! When something is due.
 
-use riprap::units::Units;
-
 /// The steps nearest to the multiples of an interval, from 0 on, and the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Schedule {
@@ -12,13 +10,8 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Each `every` seconds, if given, and at the step `last`.
-    pub fn new(every: Option<f64>, units: &Units, last: u64) -> Self {
-        Self::of(every, units.time_step, last)
-    }
-
     /// Each `every` seconds, if given, of steps of `time_step` s, and at the step `last`.
-    pub fn of(every: Option<f64>, time_step: f64, last: u64) -> Self {
+    pub fn new(every: Option<f64>, time_step: f64, last: u64) -> Self {
         let every = every.map(|every| (every / time_step).max(1.0));
         Self { every, last }
     }

@@ -1,10 +1,11 @@
 //! Pictures of planes: `NAME_000123.png`.
 
 use super::{
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
     slice_field::SliceQuantity,
-    views::{Shown, immersed},
+    views::immersed,
 };
 use crate::picture::{Plane, Slice};
 use anyhow::Result;
@@ -28,8 +29,8 @@ pub struct Pictures {
 
 impl Pictures {
     /// The pictures of `slice` until the step `last`.
-    pub fn new(engine: &impl Shown, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
-        let scene = engine.scene();
+    pub fn new(run: &SceneRun, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
+        let scene = run.scene();
         let axis = slice.axis.index();
         let position = slice.position.unwrap_or(scene.domain.middle()[axis]);
         let mut fields = vec![SliceQuantity::of(slice.field).field];
@@ -44,7 +45,7 @@ impl Pictures {
             _ => format!(", {} = {position} m", slice.axis.name()),
         };
         Self {
-            schedule: Schedule::of(slice.every.or(scene.output.every), engine.time_step(), last),
+            schedule: Schedule::new(slice.every.or(scene.output.every), run.time_step(), last),
             slice: slice.clone(),
             layer: Layer::new(scene, slice.axis, position),
             place,
@@ -54,20 +55,20 @@ impl Pictures {
     }
 }
 
-impl<E: Shown> Recorder<E> for Pictures {
+impl Recorder for Pictures {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let (step, time) = (engine.step(), engine.time());
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let (step, time) = (run.step(), run.time());
         let image = Image {
-            arrays: engine.read(&self.fields, self.layer.cells())?,
+            arrays: run.read(&self.fields, self.layer.cells())?,
             ..self.layer.frame()
         };
         let shown = SliceQuantity::of(self.slice.field);
-        let poses = engine.poses();
-        let title = format!("{}{}", engine.scene().title, self.place);
+        let poses = run.poses();
+        let title = format!("{}{}", run.scene().title, self.place);
         let axis = self.slice.axis.index();
         let slice = Slice {
             title: &title,
@@ -81,13 +82,13 @@ impl<E: Shown> Recorder<E> for Pictures {
             unit: shown.unit,
             range: self.slice.range,
             streamlines: self.slice.streamlines,
-            blocks: &immersed(engine, &poses),
+            blocks: &immersed(run, &poses),
         };
         let path = self
             .folder
             .join(format!("{}_{step:06}.png", self.slice.name));
         let drawn = slice.draw(&image, &path);
-        notes.picture(path, drawn);
+        log.picture(path, drawn);
         Ok(())
     }
 }

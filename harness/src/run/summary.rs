@@ -2,10 +2,10 @@
 
 use super::{
     estimate::Estimate,
-    flow::Coupling,
+    lattice::Coupling,
     left_out::LeftOut,
     progress::clock,
-    recorder::Notes,
+    recorder::RunLog,
     rock::{Rocks, Safety},
     water::{Energies, WaterSummary},
 };
@@ -118,11 +118,11 @@ const OF_FLUID: [&str; 11] = [
 
 impl Summary {
     /// Takes over what recorders noted.
-    pub fn take(&mut self, notes: &Notes) {
-        self.files.clone_from(&notes.files);
-        self.safety.clone_from(&notes.safety);
-        self.warnings.extend(notes.warnings.iter().cloned());
-        if let Some((step, path)) = &notes.checkpoint {
+    pub fn take(&mut self, log: &RunLog) {
+        self.files.clone_from(&log.files);
+        self.safety.clone_from(&log.safety);
+        self.warnings.extend(log.warnings.iter().cloned());
+        if let Some((step, path)) = &log.checkpoint {
             self.checkpoint = Some(path.clone());
             self.checkpoint_step = Some(*step);
         }
@@ -234,8 +234,8 @@ impl fmt::Display for Summary {
         for safety in &self.safety {
             writeln!(f, "  {safety}")?;
         }
-        for left_out in &self.left_out {
-            writeln!(f, "  ran {left_out}")?;
+        if let Some(line) = LeftOut::line(&self.left_out) {
+            writeln!(f, "  ran {line}")?;
         }
         for warning in &self.warnings {
             writeln!(f, "  warning: {warning}")?;
@@ -260,11 +260,11 @@ pub struct Unfinished {
 }
 
 impl Unfinished {
-    pub(super) fn new(step: u64, notes: &Notes) -> Self {
-        let (at, path) = notes.checkpoint.clone().unzip();
+    pub(super) fn new(step: u64, log: &RunLog) -> Self {
+        let (at, path) = log.checkpoint.clone().unzip();
         Self {
             step,
-            kept: kept(path.as_deref(), at, notes.files.len()),
+            kept: kept(path.as_deref(), at, log.files.len()),
         }
     }
 }

@@ -27,7 +27,7 @@ impl Advice {
         );
         let scene = Scene::from_toml(&text, Path::new("."), "stress")?;
         Ok(match scene.advise(&Units::of(&scene)?) {
-            Err(Error::Scene { place, .. }) => Self::Refused(place),
+            Err(Error::Scene { key, .. }) => Self::Refused(key),
             Err(other) => return Err(other.into()),
             Ok(warnings) if warnings.is_empty() => Self::Silent,
             Ok(warnings) => {

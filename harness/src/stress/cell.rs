@@ -3,6 +3,7 @@
 use super::Outcome;
 use riprap::Error;
 use serde::Serialize;
+use std::time::Instant;
 
 /// Columns of the table, in the order of [`Cell::row`].
 pub const COLUMNS: &str = "map,panel,y,x,outcome,value,quantity,steps,warned,agrees,seconds,detail";
@@ -58,6 +59,21 @@ impl Cell {
             seconds: 0.0,
             detail: String::new(),
         }
+    }
+
+    /// The cell after `follow` has run, with the time that it took.
+    ///
+    /// # Errors
+    /// What is none of the library's errors: that is no finding.
+    pub fn run(
+        mut self,
+        follow: impl FnOnce(&mut Self) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Self> {
+        let begin = Instant::now();
+        let followed = follow(&mut self);
+        self.end(followed)?;
+        self.seconds = begin.elapsed().as_secs_f64();
+        Ok(self)
     }
 
     /// Ends it with what ended its run.

@@ -1,12 +1,11 @@
 //! A block that is thrown into fluid at rest: light ones answer to their own wake, fast ones to sound.
 
-use super::{Cell, Map, Outcome, Sink, tally::Tally};
+use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
     Stand,
     solids::tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion};
-use std::time::Instant;
 
 /// The map.
 pub const MAP: Map = Map {
@@ -50,7 +49,6 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
 
 /// A free block of a density, or a driven one.
 fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::Result<Cell> {
-    let begin = Instant::now();
     let speed = mach / 3f64.sqrt();
     let mut scene = tank::scene(CELLS, TAU)?;
     scene.numerics.velocity_scale = Some(speed);
@@ -66,18 +64,16 @@ fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::
     cube.velocity = numbers([speed, 0.0, 0.0]);
     cube.rotation = turn(1);
     scene.blocks.push(cube);
-    let mut cell = Cell::new(
+    let cell = Cell::new(
         MAP.name,
         "",
         ratio.map_or("driven".into(), |ratio| format!("{ratio}")),
         format!("{mach}"),
         "largest energy / that of the start; driven: largest max|u| / U₀",
     );
-    let followed = follow(stand, &scene, (ratio, speed), steps, &mut cell);
-    cell.end(followed)?;
+    let mut cell = cell.run(|cell| follow(stand, &scene, (ratio, speed), steps, cell))?;
     let well = !matches!(cell.outcome, Outcome::Error(_) | Outcome::Unphysical);
     cell.agrees = Some(well || !cell.warned.is_empty());
-    cell.seconds = begin.elapsed().as_secs_f64();
     Ok(cell)
 }
 
@@ -90,18 +86,9 @@ fn follow(
 ) -> anyhow::Result<()> {
     let mut tank = Tank::fill(stand, scene)?;
     cell.warned = super::warned(&tank);
-    let density = ratio.unwrap_or(1.0);
-    let start = Tally::of(&mut tank, density)?;
-    let (mut energy, mut block_speed, mut flow_speed) = (0f64, 0f64, 0f64);
-    for _ in 0..LOOKS {
-        let done = tank.advance(steps / LOOKS);
-        cell.steps = tank.simulation.step();
-        done?;
-        let now = Tally::of(&mut tank, density)?;
-        energy = energy.max(now.kinetic / start.kinetic);
-        block_speed = block_speed.max(now.block_speed / speed);
-        flow_speed = flow_speed.max(now.flow_speed / speed);
-    }
+    let peaks = Peaks::of(&mut tank, ratio.unwrap_or(1.0), [steps, LOOKS], cell)?;
+    let Peaks { energy, .. } = peaks;
+    let [block_speed, flow_speed] = [peaks.block_speed, peaks.flow_speed].map(|u| u / speed);
     cell.detail = format!("largest speed / U₀: block {block_speed:.3}, fluid {flow_speed:.3}");
     // What drives a block gives it energy.
     cell.value = Some(if ratio.is_some() { energy } else { flow_speed });

@@ -162,26 +162,15 @@ fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow:
 fn bits(tank: &mut Tank<'_>, stand: &Stand) -> anyhow::Result<Vec<u8>> {
     let state = tank.simulation.checkpoint();
     let state = stand.drive("the state", state)??;
-    let fluid = &state.populations;
-    let values = fluid
-        .values
-        .iter()
-        .chain(&fluid.velocity)
-        .chain(&fluid.carried);
-    let mut bytes: Vec<u8> = values.flat_map(|value| value.to_le_bytes()).collect();
-    bytes.extend(
-        state
-            .blocks
-            .map(|blocks| blocks.to_bytes())
-            .unwrap_or_default(),
-    );
+    let mut bytes = Vec::new();
+    state.write_to(&mut bytes)?;
     Ok(bytes)
 }
 
 /// Bytes that blocks take on the device.
 fn buffers(tank: &Tank<'_>) -> u64 {
-    let lattice = tank.simulation.lattice();
-    let saturation = lattice.saturation().map_or(0, riprap::wgpu::Buffer::size);
+    let lattice = tank.lattice();
+    let saturation = lattice.psm_planes().map_or(0, riprap::wgpu::Buffer::size);
     let blocks = tank
         .simulation
         .coupled()

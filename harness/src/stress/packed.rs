@@ -1,12 +1,11 @@
 //! Eight cubes packed two by two by two in fast flow, over the gap between them.
 
-use super::{Cell, Map, Outcome, Sink, tally::Tally};
+use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
     Stand,
     solids::tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, EddyViscosity, Motion, Scene};
-use std::time::Instant;
 
 /// The map.
 pub const MAP: Map = Map {
@@ -68,7 +67,6 @@ fn scene(motion: Motion, gap: f64, speed: f64) -> anyhow::Result<Scene> {
 }
 
 fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> anyhow::Result<Cell> {
-    let begin = Instant::now();
     let speed = mach / 3f64.sqrt();
     let panel = if motion == Motion::Free {
         "free"
@@ -76,11 +74,10 @@ fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> an
         "fixed"
     };
     let (y, x) = (format!("{gap}"), format!("{mach}"));
-    let mut cell = Cell::new(MAP.name, panel, y, x, "largest max|u| / U₀");
-    let followed = follow(stand, &scene(motion, gap, speed)?, speed, steps, &mut cell);
-    cell.end(followed)?;
+    let cell = Cell::new(MAP.name, panel, y, x, "largest max|u| / U₀");
+    let scene = scene(motion, gap, speed)?;
+    let mut cell = cell.run(|cell| follow(stand, &scene, speed, steps, cell))?;
     cell.agrees = Some(cell.outcome.is_good() || !cell.warned.is_empty());
-    cell.seconds = begin.elapsed().as_secs_f64();
     Ok(cell)
 }
 
@@ -93,17 +90,9 @@ fn follow(
 ) -> anyhow::Result<()> {
     let mut tank = Tank::fill(stand, scene)?;
     cell.warned = super::warned(&tank);
-    let start = Tally::of(&mut tank, RATIO)?;
-    let (mut energy, mut fastest) = (0f64, 0f64);
-    for _ in 0..LOOKS {
-        let done = tank.advance(steps / LOOKS);
-        cell.steps = tank.simulation.step();
-        done?;
-        let now = Tally::of(&mut tank, RATIO)?;
-        energy = energy.max(now.kinetic / start.kinetic);
-        fastest = fastest.max(now.flow_speed / speed);
-    }
-    cell.value = Some(fastest);
+    let peaks = Peaks::of(&mut tank, RATIO, [steps, LOOKS], cell)?;
+    let Peaks { energy, .. } = peaks;
+    cell.value = Some(peaks.flow_speed / speed);
     cell.detail = format!("largest energy / that of the start {energy:.3}");
     // Around corners a stream is faster than far away; more energy than at the start it cannot have.
     if energy > RISE {

@@ -3,7 +3,7 @@
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::{Stand, solids::tank::Tank};
 use riprap::scene::Scene;
-use std::{path::Path, time::Instant};
+use std::path::Path;
 
 /// The map.
 pub const MAP: Map = Map {
@@ -201,17 +201,14 @@ impl Place {
 }
 
 fn measure(stand: &Stand, place: &Place, steps: u64) -> anyhow::Result<Cell> {
-    let begin = Instant::now();
     let (y, x) = (place.name.into(), "outcome".into());
-    let mut cell = Cell::new(MAP.name, "", y, x, "steps until the error");
-    let followed = follow(stand, place, steps, &mut cell);
-    cell.end(followed)?;
+    let cell = Cell::new(MAP.name, "", y, x, "steps until the error");
+    let mut cell = cell.run(|cell| follow(stand, place, steps, cell))?;
     place.judge(&mut cell);
     // What will end badly because of where a block is at the start is to be told before; of what comes later, the
     // library does not know.
     let told = cell.steps == 0 || cell.warned.contains("boundaries");
     cell.agrees = Some(cell.outcome.is_good() || told || place.name.starts_with("driven"));
-    cell.seconds = begin.elapsed().as_secs_f64();
     Ok(cell)
 }
 

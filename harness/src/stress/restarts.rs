@@ -1,17 +1,10 @@
 //! Runs that are cut twenty times and go on from files, beside the same ones uncut.
 
 use super::{Cell, Map, Outcome, Sink};
-use crate::{
-    gpu,
-    validate::{Stand, solids::tank::Tank},
-};
+use crate::{gpu, validate::Stand};
 use riprap::{
-    rock::broadphase::HostBroadphase,
     scene::Scene,
-    simulation::{
-        Dry, FreeSurface,
-        checkpoint::{BlockCheckpoint, Checkpoint, WaterCheckpoint},
-    },
+    simulation::{Simulation, checkpoint::Checkpoint},
 };
 use std::{
     path::Path,
@@ -134,18 +127,18 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     // Not a multiple of the exchanges' interval, and odd.
     let part = |n: u64| if stand.full { 51 } else { 3 + n % 2 };
     let file = sink.folder().join("restart.state");
-    let runs: [(&str, Run); 3] = [
-        ("blocks in a flow", flow),
-        ("dry blocks", rock),
-        ("free water with blocks", water),
+    let scenes = [
+        ("blocks in a flow", FLOW),
+        ("dry blocks", ROCK),
+        ("free water with blocks", WATER),
     ];
-    for (name, run) in runs {
+    for (name, text) in scenes {
         let begin = Instant::now();
-        let scene = |text: &str| Scene::from_toml(text, Path::new("."), "stress");
+        let scene = Scene::from_toml(text, Path::new("."), "stress")?;
         let steps: u64 = (0..CUTS).map(part).sum();
-        let whole = run(stand, &scene, &file, &[steps])?;
+        let whole = run_in_parts(stand, &scene, &file, &[steps])?;
         let parts: Vec<u64> = (0..CUTS).map(part).collect();
-        let cut = run(stand, &scene, &file, &parts)?;
+        let cut = run_in_parts(stand, &scene, &file, &parts)?;
         let differ = whole.iter().zip(&cut).filter(|(a, b)| a != b).count();
         let differ = differ + whole.len().abs_diff(cut.len());
         sink.add(Cell {
@@ -170,48 +163,23 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     Ok(())
 }
 
-type Read<'a> = &'a dyn Fn(&str) -> riprap::Result<Scene>;
 /// Makes everything anew for each part, continues from the file, writes the file; its bytes at the end.
-type Run = fn(&Stand, Read<'_>, &Path, &[u64]) -> anyhow::Result<Vec<u8>>;
-
-fn flow(stand: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
-    let scene = scene(FLOW)?;
+fn run_in_parts(
+    stand: &Stand,
+    scene: &Scene,
+    file: &Path,
+    parts: &[u64],
+) -> anyhow::Result<Vec<u8>> {
+    const PATIENCE: Duration = Duration::from_secs(300);
+    let (device, queue) = (&stand.device, &stand.queue);
     for (n, steps) in parts.iter().enumerate() {
-        let mut tank = Tank::fill(stand, &scene)?;
+        let made = Simulation::new(device, queue, scene);
+        let mut simulation = gpu::drive(device, PATIENCE, "the kernels", made)??;
         if n > 0 {
-            tank.simulation.restore(&Checkpoint::read(file)?)?;
+            simulation.restore(&Checkpoint::read(file)?)?;
         }
-        tank.advance(*steps)?;
-        let state = tank.simulation.checkpoint();
-        stand.drive("the state", state)??.write(file)?;
-    }
-    Ok(std::fs::read(file)?)
-}
-
-fn rock(_: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
-    let scene = scene(ROCK)?;
-    for (n, steps) in parts.iter().enumerate() {
-        let mut dry = pollster::block_on(Dry::new(&scene, HostBroadphase))?;
-        if n > 0 {
-            dry.restore(&BlockCheckpoint::read(file)?)?;
-        }
-        pollster::block_on(dry.advance(*steps))?;
-        dry.checkpoint().write(file)?;
-    }
-    Ok(std::fs::read(file)?)
-}
-
-fn water(stand: &Stand, scene: Read<'_>, file: &Path, parts: &[u64]) -> anyhow::Result<Vec<u8>> {
-    let scene = scene(WATER)?;
-    let patience = Duration::from_secs(300);
-    for (n, steps) in parts.iter().enumerate() {
-        let made = FreeSurface::new(&stand.device, &stand.queue, &scene);
-        let mut water = gpu::drive(&stand.device, patience, "the kernels", made)??;
-        if n > 0 {
-            water.restore(&WaterCheckpoint::read(file)?)?;
-        }
-        gpu::drive(&stand.device, patience, "free water", water.advance(*steps))??;
-        let state = gpu::drive(&stand.device, patience, "the state", water.checkpoint())??;
+        gpu::drive(device, PATIENCE, "the steps", simulation.advance(*steps))??;
+        let state = gpu::drive(device, PATIENCE, "the state", simulation.checkpoint())??;
         state.write(file)?;
     }
     Ok(std::fs::read(file)?)

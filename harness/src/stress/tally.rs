@@ -1,5 +1,6 @@
 //! Energy of fluid and blocks, which without forces cannot grow.
 
+use super::Cell;
 use crate::validate::solids::tank::Tank;
 use anyhow::Context;
 use glam::DVec3;
@@ -51,5 +52,42 @@ impl Tally {
             tally.kinetic += 0.5 * mass * speed * speed;
         }
         Ok(tally)
+    }
+}
+
+/// Largest values that a run shows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Peaks {
+    /// Kinetic energy, of that at the start.
+    pub energy: f64,
+    /// Largest speed of a block.
+    pub block_speed: f64,
+    /// Largest speed of the fluid.
+    pub flow_speed: f64,
+}
+
+impl Peaks {
+    /// Of a run of `steps` in `looks` equal parts, whose steps `cell` counts; `ratio` as for [`Tally::of`].
+    ///
+    /// # Errors
+    /// What ends the run.
+    pub fn of(
+        tank: &mut Tank<'_>,
+        ratio: f64,
+        [steps, looks]: [u64; 2],
+        cell: &mut Cell,
+    ) -> anyhow::Result<Self> {
+        let start = Tally::of(tank, ratio)?;
+        let mut peaks = Self::default();
+        for _ in 0..looks {
+            let done = tank.advance(steps / looks);
+            cell.steps = tank.simulation.step();
+            done?;
+            let now = Tally::of(tank, ratio)?;
+            peaks.energy = peaks.energy.max(now.kinetic / start.kinetic);
+            peaks.block_speed = peaks.block_speed.max(now.block_speed);
+            peaks.flow_speed = peaks.flow_speed.max(now.flow_speed);
+        }
+        Ok(peaks)
     }
 }

@@ -22,12 +22,12 @@ impl Bracket {
             let message = format!(
                 "{still} and {moves} have nothing between them; give two values that differ"
             );
-            return Err(Error::scene("--from, --to", message));
+            return Err(Error::argument("--from, --to", message));
         }
         if !(tolerance.is_finite() && tolerance > 0.0) {
             let message =
                 format!("{tolerance} is no distance; give a positive one, in the unit of the key");
-            return Err(Error::scene("--tolerance", message));
+            return Err(Error::argument("--tolerance", message));
         }
         Ok(Self {
             still,

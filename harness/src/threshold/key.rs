@@ -33,7 +33,7 @@ impl Key {
                 "`{text}` is no place in a scene; write names with dots between them and numbers from 0 in \
                  brackets, such as boundaries.x_min.velocity[0]"
             );
-            Error::scene("--key", message)
+            Error::argument("--key", message)
         };
         let mut steps = Vec::new();
         for part in text.split('.') {
@@ -118,7 +118,7 @@ impl Key {
     }
 
     fn wrong(&self, message: String) -> Error {
-        Error::scene(format!("--key {}", self.text), message)
+        Error::argument(format!("--key {}", self.text), message)
     }
 }
 

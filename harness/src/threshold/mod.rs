@@ -13,7 +13,7 @@ pub use key::Key;
 pub use report::Report;
 pub use trial::{Criterion, Motion, Trial};
 
-use crate::run::{Dry, Flow, SphRun};
+use crate::run::SceneRun;
 use anyhow::{Context, Result, bail};
 use riprap::{Error, scene::Scene};
 use std::{
@@ -131,7 +131,7 @@ impl Search<'_> {
             report.take(trial);
             report.write(&self.folder)?;
             if let Err(wrong) = bracket.take(value, moved) {
-                bail!(Error::scene(
+                bail!(Error::argument(
                     args.key.join(", "),
                     format!("{wrong} ({told})")
                 ));
@@ -161,16 +161,9 @@ impl Search<'_> {
     fn settle(&self, time: f64) -> Result<()> {
         let scene = self.scene(self.args.from)?;
         let (file, adapter) = (&self.args.scene, self.args.adapter.as_deref());
-        let path = self.settled();
-        if scene.has_particles() {
-            return trial::settle(SphRun::open(&scene, file, adapter)?, time, &path)
-                .with_context(|| format!("while the blocks settled at {}", self.args.from));
-        }
-        match scene.has_fluid() {
-            true => trial::settle(Flow::open(&scene, file, adapter)?, time, &path),
-            false => trial::settle(Dry::open(&scene, file, adapter)?, time, &path),
-        }
-        .with_context(|| format!("while the blocks settled at {}", self.args.from))
+        let run = SceneRun::open(&scene, file, adapter)?;
+        trial::settle(run, time, &self.settled())
+            .with_context(|| format!("while the blocks settled at {}", self.args.from))
     }
 
     /// One trial; none if it was stopped.
@@ -190,14 +183,7 @@ impl Search<'_> {
             settled: args.settle.map(|_| self.settled()),
             stop: self.stop,
         };
-        if scene.has_particles() {
-            return trial::run(SphRun::open(&scene, file, adapter)?, &asked)
-                .with_context(|| format!("in the trial with the value {value}"));
-        }
-        match scene.has_fluid() {
-            true => trial::run(Flow::open(&scene, file, adapter)?, &asked),
-            false => trial::run(Dry::open(&scene, file, adapter)?, &asked),
-        }
-        .with_context(|| format!("in the trial with the value {value}"))
+        trial::run(SceneRun::open(&scene, file, adapter)?, &asked)
+            .with_context(|| format!("in the trial with the value {value}"))
     }
 }

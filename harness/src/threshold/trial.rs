@@ -1,6 +1,6 @@
 //! One run of the scene, until a block moves.
 
-use crate::run::{Batch, Engine};
+use crate::run::{Batch, SceneRun};
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{Error, rock};
@@ -90,39 +90,39 @@ pub struct Trial {
     pub seconds: f64,
 }
 
-/// Takes `engine` `time` seconds on and writes its state.
-pub fn settle<E: Engine>(mut engine: E, time: f64, path: &Path) -> Result<()> {
-    let steps = (time / engine.time_step()).round();
+/// Takes `run` `time` seconds on and writes its state.
+pub fn settle(mut run: SceneRun, time: f64, path: &Path) -> Result<()> {
+    let steps = (time / run.time_step()).round();
     if !(steps.is_finite() && steps >= 1.0) {
         let message = format!(
             "{time} s is no time to settle in; give at least a time step, {:e} s",
-            engine.time_step()
+            run.time_step()
         );
-        return Err(Error::scene("--settle", message).into());
+        return Err(Error::argument("--settle", message).into());
     }
     let mut batch = Batch::new();
-    while engine.step() < steps as u64 {
-        let some = batch.steps().min(steps as u64 - engine.step());
-        advance(&mut engine, &mut batch, some)?;
+    while run.step() < steps as u64 {
+        let some = batch.steps().min(steps as u64 - run.step());
+        advance(&mut run, &mut batch, some)?;
     }
     eprintln!("settled in {steps} steps");
-    Ok(engine.checkpoint(path)?)
+    Ok(run.checkpoint(path)?)
 }
 
-fn advance<E: Engine>(engine: &mut E, batch: &mut Batch, steps: u64) -> riprap::Result<()> {
+fn advance(run: &mut SceneRun, batch: &mut Batch, steps: u64) -> riprap::Result<()> {
     let start = Instant::now();
-    engine.advance(steps)?;
+    run.advance(steps)?;
     batch.learn(steps, start.elapsed());
     Ok(())
 }
 
 /// Runs a trial; none if it was stopped.
-pub fn run<E: Engine>(mut engine: E, asked: &Asked<'_>) -> Result<Option<Trial>> {
+pub fn run(mut run: SceneRun, asked: &Asked<'_>) -> Result<Option<Trial>> {
     let begun = Instant::now();
     if let Some(path) = &asked.settled {
-        engine.restore(path).map_err(|error| match error {
-            Error::Scene { place, message } => Error::Scene {
-                place,
+        run.restore(path).map_err(|error| match error {
+            Error::Argument { what, message } => Error::Argument {
+                what,
                 message: format!(
                     "{message}; or give numerics.time_step (with blocks alone rock.time_step), so that it \
                      does not depend on the value"
@@ -131,22 +131,22 @@ pub fn run<E: Engine>(mut engine: E, asked: &Asked<'_>) -> Result<Option<Trial>>
             other => other,
         })?;
     }
-    let watched = Watched::new(&engine, asked)?;
-    let first = engine.step();
-    let own = engine.scene().run.count(engine.time_step());
+    let watched = Watched::new(&run, asked)?;
+    let first = run.step();
+    let own = run.scene().run.count(run.time_step());
     let last = first + asked.steps.unwrap_or(own).max(1);
     let look = ((last - first) / LOOKS).max(1);
     let mut batch = Batch::new();
     let (mut moved, mut closest) = (None, None);
-    while moved.is_none() && engine.step() < last {
+    while moved.is_none() && run.step() < last {
         if asked.stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        let at = engine.step() - first;
+        let at = run.step() - first;
         let next = first + (at / look + 1) * look;
-        let steps = batch.steps().min(next.min(last) - engine.step());
-        advance(&mut engine, &mut batch, steps)?;
-        (closest, moved) = watched.look(&engine, asked.criterion);
+        let steps = batch.steps().min(next.min(last) - run.step());
+        advance(&mut run, &mut batch, steps)?;
+        (closest, moved) = watched.look(&run, asked.criterion);
     }
     let goes_on = |motion: &Motion| motion.goes_on(asked.criterion);
     Ok(Some(Trial {
@@ -154,7 +154,7 @@ pub fn run<E: Engine>(mut engine: E, asked: &Asked<'_>) -> Result<Option<Trial>>
         under_way: moved.is_none() && closest.as_ref().is_some_and(goes_on),
         moved,
         closest,
-        steps: engine.step() - first,
+        steps: run.step() - first,
         seconds: begun.elapsed().as_secs_f64(),
     }))
 }
@@ -168,8 +168,8 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(engine: &impl Engine, asked: &Asked<'_>) -> riprap::Result<Self> {
-        let Some(rock) = engine.rock() else {
+    fn new(run: &SceneRun, asked: &Asked<'_>) -> riprap::Result<Self> {
+        let Some(rock) = run.rock() else {
             let message = "it has no blocks; add [[blocks]] or [[rock_masses]]";
             return Err(Error::scene("scene", message));
         };
@@ -189,17 +189,17 @@ impl Watched {
             let names = blocks.iter().filter(|(_, block)| free(block));
             let names: Vec<_> = names.take(20).map(|(_, block)| &*block.name).collect();
             let message = format!("no free block is called so; there are {}", names.join(", "));
-            return Err(Error::scene("--block", message));
+            return Err(Error::argument("--block", message));
         }
         Ok(Self {
             blocks: watched,
-            start: engine.time(),
+            start: run.time(),
         })
     }
 
     /// The block that is closest to moving, and the same once it has moved.
-    fn look(&self, engine: &impl Engine, criterion: Criterion) -> (Option<Motion>, Option<Motion>) {
-        let Some(rock) = engine.rock() else {
+    fn look(&self, run: &SceneRun, criterion: Criterion) -> (Option<Motion>, Option<Motion>) {
+        let Some(rock) = run.rock() else {
             return (None, None);
         };
         let poses = rock.blocks.poses();

@@ -128,7 +128,9 @@ fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
             speeds().fold(f64::INFINITY, f64::min),
         ],
         trial: Trial {
-            setup: describe(simulation.lattice().setup()),
+            setup: simulation
+                .lattice()
+                .map_or_else(String::new, |lattice| describe(lattice.setup())),
             cells: centres.len() as u64,
             steps: simulation.step(),
             seconds: begin.elapsed().as_secs_f64(),
@@ -139,7 +141,7 @@ fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
 
 /// Runs for a time (s), some steps in a submission.
 fn advance(stand: &Stand, simulation: &mut Simulation, time: f64) -> anyhow::Result<()> {
-    let mut left = simulation.units().steps(time);
+    let mut left = (time / simulation.time_step()).round().max(1.0) as u64;
     while left > 0 {
         let some = left.min(200);
         stand.drive("the joint", simulation.advance(some))??;

@@ -2,10 +2,10 @@
 
 use super::{Outcome, Stand, Trial};
 use cpu_time::ProcessTime;
-use riprap::rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
+use riprap::rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase};
 
 /// Boxes of sizes 1:100 in a cube, of which each meets a few others.
-fn items(count: u32) -> Vec<Item> {
+fn items(count: u32) -> Vec<Aabb> {
     let mut state = 0x9e37_79b9_7f4a_7c15u64 ^ u64::from(count);
     let mut random = move || {
         // Marsaglia 2003, xorshift64.
@@ -20,7 +20,7 @@ fn items(count: u32) -> Vec<Item> {
     let item = |group: u32| {
         let size = 100f64.powf(random() - 1.0);
         let min = [random(), random(), random()].map(|r| side * r);
-        Item {
+        Aabb {
             min,
             max: min.map(|x| x + size),
             group,
@@ -29,7 +29,7 @@ fn items(count: u32) -> Vec<Item> {
     (0..count).map(item).collect()
 }
 
-fn every(items: &[Item]) -> Vec<[u32; 2]> {
+fn every(items: &[Aabb]) -> Vec<[u32; 2]> {
     let n = items.len();
     let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
     let near = all.filter(|&[i, j]| items[i].overlaps(&items[j]));

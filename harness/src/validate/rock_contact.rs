@@ -38,7 +38,7 @@ pub fn sign(stand: &Stand) -> Outcome {
         let right = match verdict {
             Verdict::Contact(_) => overlaps,
             Verdict::Apart => !overlaps,
-            Verdict::Touching => false,
+            Verdict::Undecided => false,
         };
         wrong += u64::from(!right);
         seen[usize::from(overlaps)] += 1;

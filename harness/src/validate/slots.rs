@@ -5,7 +5,7 @@ use anyhow::Context;
 use riprap::{
     gpu::kernel,
     lattice::{
-        Collision, Equilibrium, Force, Reach, Setup, SolidOperator, Storage, collide_stream,
+        BrickKind, Collision, Equilibrium, Force, Setup, SolidOperator, Storage, collide_stream,
     },
 };
 use std::time::Instant;
@@ -16,17 +16,22 @@ pub fn run(_: &Stand) -> Outcome {
     let mut linked = 0;
     let mut wrong: Vec<String> = Vec::new();
     for setup in setups() {
-        for reach in [Reach::All, Reach::Plain, Reach::Flagged, Reach::Saturated] {
+        for kind in [
+            BrickKind::All,
+            BrickKind::Plain,
+            BrickKind::Flagged,
+            BrickKind::Psm,
+        ] {
             // One binding as on most devices, and four as large grids need.
             for bindings in [1, 4] {
-                let program = collide_stream(&setup, bindings, reach);
+                let program = collide_stream(&setup, bindings, kind);
                 let shader = program
                     .link()
-                    .with_context(|| format!("{} {reach:?}", super::record::describe(&setup)))?;
+                    .with_context(|| format!("{} {kind:?}", super::record::describe(&setup)))?;
                 let found = kernel::bindings(&shader, "collide_stream")?;
                 let mut found: Vec<_> = found.into_iter().map(|b| b.name).collect();
                 found.sort();
-                if found != expected(&setup, bindings, reach) {
+                if found != expected(&setup, bindings, kind) {
                     wrong.push(format!("{found:?}"));
                 }
                 linked += 1;
@@ -95,7 +100,7 @@ fn setups() -> Vec<Setup> {
 }
 
 /// The names that the kernel of a setup binds, sorted.
-fn expected(setup: &Setup, bindings: u32, reach: Reach) -> Vec<String> {
+fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let mut names: Vec<_> = (0..bindings).map(|b| format!("populations_{b}")).collect();
     let wale = setup.wale.is_some();
     let optional = [
@@ -103,9 +108,9 @@ fn expected(setup: &Setup, bindings: u32, reach: Reach) -> Vec<String> {
         (wale, "velocity_after"),
         (matches!(setup.force, Force::Field(_)), "force_field"),
         (setup.max_speed > 0.0, "guard_state"),
-        (reach != Reach::All, "bricks"),
-        (matches!(reach, Reach::Flagged | Reach::Saturated), "flags"),
-        (reach == Reach::Saturated, "saturation_planes"),
+        (kind != BrickKind::All, "bricks"),
+        (matches!(kind, BrickKind::Flagged | BrickKind::Psm), "flags"),
+        (kind == BrickKind::Psm, "psm_planes"),
     ];
     names.extend(
         optional

@@ -33,7 +33,7 @@ fn a_periodic_scene_runs_one_kernel() {
     let absent = [
         ("eddy", "eddy_none"),
         ("force", "force_none"),
-        ("cells", "cells_plain"),
+        ("cell_flags", "cell_flags_none"),
     ];
     for (slot, file) in absent {
         assert_eq!(slots[slot], file);
@@ -152,4 +152,28 @@ fn the_error_of_the_drag_is_that_of_the_report() {
     assert_eq!(number("tau"), report["numerics"]["tau"].as_f64().unwrap());
     let [low, high] = [0, 1].map(|n| accuracy["band"][n].as_f64().unwrap());
     assert!(0.0 < low && low <= high && high < 0.5, "{accuracy}");
+}
+
+/// Each program once, complete, with the files of its slots.
+#[test]
+fn the_kernels_of_a_scene_are_written() {
+    for (name, some) in [
+        (
+            "settling_sphere",
+            &["collide_stream_1", "voxelise", "initialise"][..],
+        ),
+        ("dam_break", &["accelerate", "sort_count"]),
+    ] {
+        let folder = std::env::temp_dir().join(format!("riprap_kernels_{name}"));
+        let _ = std::fs::remove_dir_all(&folder);
+        let to = folder.to_str().unwrap();
+        json(&["check", &scene(name), "--json", "--kernels", to]);
+        for file in some {
+            let text = std::fs::read_to_string(folder.join(format!("{file}.wgsl"))).unwrap();
+            let kernel = file.trim_end_matches("_1");
+            assert!(text.contains(&format!("fn {kernel}(")), "{file}");
+            assert!(!text.contains("// unroll"), "{file}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }

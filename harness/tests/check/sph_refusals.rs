@@ -133,7 +133,7 @@ fn water_that_stands_on_an_open_face() {
 fn water_outside_the_domain() {
     let words = [
         "water[0]",
-        "reaches from",
+        "extends from",
         "1.2, 1, 1.2] m",
         "enlarge the domain",
     ];

@@ -37,7 +37,7 @@ fn rows() -> Vec<Value> {
         items: vec![60, 120],
         rounds: 1,
     };
-    let rows = rock::measure(&plan, None, &Machine::host()).unwrap();
+    let (rows, _) = rock::measure(&plan, None, &Machine::host()).unwrap();
     let json = serde_json::to_value(rows).unwrap();
     json.as_array().unwrap().clone()
 }

@@ -438,12 +438,7 @@ fn check_says_what_blocks_in_a_fluid_will_run() {
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     let kernels = json["kernels"].as_array().unwrap();
     let named = |entry: &str| kernels.iter().find(|kernel| kernel["entry"] == entry);
-    for entry in [
-        "voxelise",
-        "saturate_cells",
-        "reduce_tiles",
-        "reduce_blocks",
-    ] {
+    for entry in ["voxelise", "combine_parts", "reduce_tiles", "reduce_blocks"] {
         assert!(named(entry).is_some(), "{entry}");
     }
     let holdych = |kernel: &&Value| kernel["slots"]["operator"] == "operator_holdych";

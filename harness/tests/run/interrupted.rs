@@ -81,7 +81,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     child.kill().unwrap();
     child.wait().unwrap();
     let saved = riprap::simulation::checkpoint::Checkpoint::read(&state).unwrap();
-    let last = saved.populations.step + 37;
+    let last = saved.step + 37;
     let steps = last.to_string();
     let mut more = riprap(&folder, last, "cut");
     let more = more.arg("--restart").arg(&state).output().unwrap();

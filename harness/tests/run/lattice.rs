@@ -3,7 +3,6 @@
 use crate::fixture::{args, folder, go};
 use riprap::Error;
 use riprap::output::Table;
-use riprap::units::Units;
 use riprap_harness::run::{Args, Schedule, Unfinished, run};
 use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
 
@@ -332,12 +331,8 @@ fn wrong_input_ends_the_program_with_2_and_one_line() {
 
 #[test]
 fn multiples_of_an_interval_do_not_drift_and_the_last_step_counts() {
-    let units = Units {
-        cell: 1.0,
-        time_step: 0.3,
-        density: 1.0,
-    };
-    let schedule = Schedule::new(Some(1.0), &units, 11);
+    const TIME_STEP: f64 = 0.3;
+    let schedule = Schedule::new(Some(1.0), TIME_STEP, 11);
     let due: Vec<u64> = (0..=11).filter(|step| schedule.due(*step)).collect();
     // 0, 1, 2 and 3 s in steps of 0.3 s, and the end.
     assert_eq!(due, [0, 3, 7, 10, 11]);
@@ -346,8 +341,8 @@ fn multiples_of_an_interval_do_not_drift_and_the_last_step_counts() {
         passed.push(schedule.next(*passed.last().unwrap()));
     }
     assert_eq!(passed, due);
-    let end = Schedule::new(None, &units, 11);
+    let end = Schedule::new(None, TIME_STEP, 11);
     assert_eq!((end.due(0), end.next(0), end.due(11)), (false, 11, true));
-    let dense = Schedule::new(Some(0.1), &units, 11);
+    let dense = Schedule::new(Some(0.1), TIME_STEP, 11);
     assert!((0..=11).all(|step| dense.due(step)));
 }

@@ -10,28 +10,26 @@ macro_rules! sources {
 /// Every kernel file: its name without folder and ending, and its text.
 pub const SOURCES: &[(&str, &str)] = sources! {
     "lattice":
-        "beside_flags", "beside_none", "cell_force_constant", "cell_force_field",
-        "cell_force_none", "cell_gradient", "cells_flagged", "cells_plain", "collide_stream",
+        "neighbour_flags_stored", "neighbour_flags_none", "cell_force_constant", "cell_force_field",
+        "cell_force_none", "cell_gradient", "cell_flags_stored", "cell_flags_none", "collide_stream",
         "derive", "eddy_none", "eddy_wale", "equilibrium_product", "equilibrium_second_order",
         "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
-        "guard_on", "guo", "incoming", "initialise", "inside_kept", "inside_solids", "keep_none", "keep_velocity", "lanes_1",
+        "guard_on", "guo", "incoming", "initialise", "velocity_restored", "velocity_psm", "store_velocity_none", "store_velocity", "lanes_1",
         "lanes_2", "lanes_4", "lattice", "links", "macroscopic", "moments", "moving_wall",
-        "odd_bulk", "odd_solids", "odd_walls", "operator_holdych", "operator_noble", "operator_superposition",
+        "odd_rates_bulk", "odd_rates_solids", "odd_rates_walls", "operator_holdych", "operator_noble", "operator_superposition",
         "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
-        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "saturation_cells", "saturation_none", "scalar_grid", "store_f16", "store_f32",
-        "stream", "sums", "velocity", "wale", "wall_rates", "weights", "where_all", "where_listed",
+        "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "psm_cells", "psm_none", "scalar_grid", "store_f16", "store_f32",
+        "stream", "sums", "velocity", "wale", "wall_rates", "weights", "bricks_all", "bricks_listed",
         "word_f16_2", "word_f16_4", "word_f16_4_wide";
-    "measure":
-        "copy_four_vectors", "copy_scalar", "copy_vector", "multiply_add", "stream_only";
     "gpu":
         "bin_count", "bin_scatter", "invocation", "saturate", "scan_spread", "scan_sum";
     "broadphase":
         "boxes", "found_count", "found_write", "pairs";
     "psm":
-        "angle", "axes", "ball_power", "ball_quick", "ball_share", "beside_face", "beside_siblings", "brick", "cell_load", "columns", "faces", "hull_quick",
-        "hull_share", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "saturate_cells",
-        "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "tight", "tightness", "tile_sum_parallel",
-        "tile_sum_serial", "turn", "voxelise", "voxelise_edges", "wrench";
+        "angle", "axes", "ball_none", "ball_power", "ball_quick", "ball_fraction", "face_layer", "face_siblings", "brick", "cell_load", "columns", "faces", "hull_none", "hull_quick",
+        "hull_fraction", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "combine_parts",
+        "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "joint_gap", "joint_closure", "tile_sum_parallel",
+        "tile_sum_serial", "workgroup_index", "voxelise", "voxelise_edges", "wrench";
     "sph":
         "accelerate", "advance_clock", "advect", "apply_penalty", "bodies", "body_load", "body_sums",
         "boundary_force", "boundary_neighbour_lists", "boundary_position", "boundary_pressure", "cell_grid",

@@ -1,6 +1,6 @@
 //! The cheaper of the two finders.
 
-use super::{Broadphase, DeviceBroadphase, HostBroadphase, Item};
+use super::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase};
 use crate::Result;
 
 /// Searches on the host for few items and on the device for many; the list is the same.
@@ -10,9 +10,8 @@ use crate::Result;
 pub struct AutoBroadphase {
     /// Items from which on the device is used.
     pub crossover: usize,
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    on_device: Option<DeviceBroadphase>,
+    device: Option<(wgpu::Device, wgpu::Queue)>,
+    device_broadphase: Option<DeviceBroadphase>,
 }
 
 impl AutoBroadphase {
@@ -31,22 +30,31 @@ impl AutoBroadphase {
         };
         Self {
             crossover,
-            device: device.clone(),
-            queue: queue.clone(),
-            on_device: None,
+            device: Some((device.clone(), queue.clone())),
+            device_broadphase: None,
+        }
+    }
+
+    /// Searches on the host alone.
+    pub fn on_host() -> Self {
+        Self {
+            crossover: usize::MAX,
+            device: None,
+            device_broadphase: None,
         }
     }
 }
 
 impl Broadphase for AutoBroadphase {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        if items.len() < self.crossover {
-            return HostBroadphase.pairs(items).await;
-        }
-        let finder = match &mut self.on_device {
-            Some(finder) => finder,
-            empty => empty.insert(DeviceBroadphase::new(&self.device, &self.queue)?),
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+        let (device, queue) = match &self.device {
+            Some(device) if aabbs.len() >= self.crossover => device,
+            _ => return HostBroadphase.pairs(aabbs).await,
         };
-        finder.pairs(items).await
+        let broadphase = match &mut self.device_broadphase {
+            Some(broadphase) => broadphase,
+            empty => empty.insert(DeviceBroadphase::new(device, queue)?),
+        };
+        broadphase.pairs(aabbs).await
     }
 }

@@ -1,6 +1,6 @@
 //! Boxes as the search sees them: f32 about a local origin, sorted into levels by size.
 
-use super::Item;
+use super::Aabb;
 use crate::{
     Error, Result,
     gpu::bins::{DeviceBox, Level, MAX_LEVELS, NUMBER_BITS},
@@ -31,17 +31,17 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// Makes the boxes of `items`.
+    /// Makes the boxes of `aabbs`.
     ///
     /// # Errors
-    /// [`Error::Scene`] that names the item if a corner is not finite or farther than
+    /// [`Error::Argument`] that names the item if a corner is not finite or farther than
     /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
     /// 2²⁴ items.
-    pub fn new(items: &[Item]) -> Result<Self> {
-        let origin = check(items)?;
-        let mut boxes = Vec::with_capacity(items.len());
+    pub fn new(aabbs: &[Aabb]) -> Result<Self> {
+        let origin = check(aabbs)?;
+        let mut boxes = Vec::with_capacity(aabbs.len());
         let mut longest = [None; MAX_LEVELS];
-        for (number, item) in (0..).zip(items) {
+        for (number, item) in (0..).zip(aabbs) {
             let local = |corner: [f64; 3]| [0, 1, 2].map(|a| (corner[a] - origin[a]) as f32);
             let (min, max) = (local(item.min), local(item.max));
             let extent = (0..3).map(|a| f64::from(max[a]) - f64::from(min[a]));
@@ -85,17 +85,17 @@ impl Boxes {
 }
 
 /// The middle of all boxes, if they are boxes.
-fn check(items: &[Item]) -> Result<[f64; 3]> {
-    if items.len() > 1 << NUMBER_BITS {
+fn check(aabbs: &[Aabb]) -> Result<[f64; 3]> {
+    if aabbs.len() > 1 << NUMBER_BITS {
         return Err(Error::Limit {
             name: "items of a search for pairs".into(),
-            wants: items.len() as u64,
+            wants: aabbs.len() as u64,
             has: 1 << NUMBER_BITS,
             remedy: "search in parts of the scene".into(),
         });
     }
     let (mut lowest, mut highest) = ([FARTHEST; 3], [-FARTHEST; 3]);
-    for (number, item) in items.iter().enumerate() {
+    for (number, item) in aabbs.iter().enumerate() {
         for a in 0..3 {
             let (min, max) = (item.min[a], item.max[a]);
             // Also false if one of them is no number.
@@ -118,7 +118,7 @@ fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
          time step"
     };
     let message = format!("its box reaches from {min} to {max} m along {axis}: {reason}");
-    Error::scene(format!("items[{number}]"), message)
+    Error::argument(format!("items[{number}]"), message)
 }
 
 /// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.

@@ -121,8 +121,8 @@ impl Comparison {
         })
     }
 
-    /// Tells the kernels what they need to know in the next submission.
-    pub(super) fn tell(&self, queue: &wgpu::Queue, search: Search) {
+    /// Writes the parameters of the next submission.
+    pub(super) fn write_search(&self, queue: &wgpu::Queue, search: Search) {
         queue.write_buffer(&self.search, 0, bytemuck::bytes_of(&search));
     }
 

@@ -1,9 +1,9 @@
 //! The search on the device: boxes into bins, a count of their pairs, places by a scan, the list.
 
 use super::{
-    Boxes, Broadphase, Item,
+    Aabb, Boxes, Broadphase,
     comparison::{Comparison, Header, Hits, List, Search},
-    list,
+    sorted_pairs,
 };
 use crate::{
     Error, Result,
@@ -60,8 +60,8 @@ impl DeviceBroadphase {
         })
     }
 
-    fn prepare(&self, items: u32) -> Result<Prepared> {
-        let sorted = self.bins.of(&self.device, &self.scan, items)?;
+    fn prepare(&self, aabbs: u32) -> Result<Prepared> {
+        let sorted = self.bins.of(&self.device, &self.scan, aabbs)?;
         let hits = self.comparison.hits(&self.device, &self.scan, &sorted, 0)?;
         Ok(Prepared {
             hits,
@@ -80,7 +80,7 @@ impl DeviceBroadphase {
                 slices: prepared.hits.slices,
                 first_pair: 0,
             };
-            self.comparison.tell(&self.queue, search);
+            self.comparison.write_search(&self.queue, search);
             self.comparison
                 .record_count(&mut encoder, &self.scan, &prepared.hits);
             self.queue.submit([encoder.finish()]);
@@ -124,7 +124,7 @@ impl DeviceBroadphase {
                 slices: prepared.hits.slices,
                 first_pair: found.len() as u32,
             };
-            self.comparison.tell(&self.queue, search);
+            self.comparison.write_search(&self.queue, search);
             let mut encoder = self.device.create_command_encoder(&Default::default());
             self.comparison.record_write(&mut encoder, &list);
             self.queue.submit([encoder.finish()]);
@@ -140,12 +140,12 @@ impl DeviceBroadphase {
 }
 
 impl Broadphase for DeviceBroadphase {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        let Boxes { boxes, levels } = Boxes::new(items)?;
-        if items.len() < 2 {
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+        let Boxes { boxes, levels } = Boxes::new(aabbs)?;
+        if aabbs.len() < 2 {
             return Ok(Vec::new());
         }
-        let number = items.len() as u32;
+        let number = aabbs.len() as u32;
         let mut prepared = match self.prepared.take() {
             Some(prepared) if prepared.sorted.items == number => prepared,
             _ => self.prepare(number)?,
@@ -163,6 +163,6 @@ impl Broadphase for DeviceBroadphase {
         }
         let found = self.write(&mut prepared, levels, pairs).await?;
         self.prepared = Some(prepared);
-        Ok(list::exact(items, &found))
+        Ok(sorted_pairs::exact(aabbs, &found))
     }
 }

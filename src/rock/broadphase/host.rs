@@ -2,7 +2,7 @@
 //! item lies in the one cell of its level that holds its lower corner, and looks through the cells
 //! of its own and all coarser levels from which a box can reach it.
 
-use super::{Boxes, Broadphase, Item, list};
+use super::{Aabb, Boxes, Broadphase, sorted_pairs};
 use crate::{
     Result,
     gpu::bins::{DeviceBox, Level, buckets},
@@ -12,10 +12,10 @@ use rayon::prelude::*;
 /// Up to here every pair is tried, at less than half the cost of cells. Cells win from 350 boxes of
 /// one size and 1000 of sizes 1:100 on; in between they lose some ten microseconds, and keep the
 /// cost in proportion to the number.
-const FEW: usize = 64;
+const BRUTE_FORCE_MAX: usize = 64;
 
 /// Items that a thread takes at once.
-const RUN: usize = 1024;
+const BOXES_PER_TASK: usize = 1024;
 
 /// Finds pairs on the host, in O(N) for all mixtures of sizes; with threads from a few thousand
 /// items on.
@@ -23,29 +23,29 @@ const RUN: usize = 1024;
 pub struct HostBroadphase;
 
 impl Broadphase for HostBroadphase {
-    async fn pairs(&mut self, items: &[Item]) -> Result<Vec<[u32; 2]>> {
-        let boxes = Boxes::new(items)?;
-        if items.len() <= FEW {
-            return Ok(every(items));
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+        let boxes = Boxes::new(aabbs)?;
+        if aabbs.len() <= BRUTE_FORCE_MAX {
+            return Ok(brute_force(aabbs));
         }
         let bins = Bins::new(&boxes);
-        let found = bins.entries.par_chunks(RUN).map(|run| {
+        let found = bins.entries.par_chunks(BOXES_PER_TASK).map(|run| {
             let mut found = Vec::with_capacity(4 * run.len());
             for entry in run {
-                bins.meet(entry, &mut found);
+                bins.search_from(entry, &mut found);
             }
             found
         });
         let found = found.collect::<Vec<_>>().concat();
-        Ok(list::exact(items, &found))
+        Ok(sorted_pairs::exact(aabbs, &found))
     }
 }
 
 /// Every pair tried.
-fn every(items: &[Item]) -> Vec<[u32; 2]> {
+fn brute_force(aabbs: &[Aabb]) -> Vec<[u32; 2]> {
     let mut found = Vec::new();
-    for (i, first) in (0..).zip(items) {
-        for (j, second) in (i + 1..).zip(&items[i as usize + 1..]) {
+    for (i, first) in (0..).zip(aabbs) {
+        for (j, second) in (i + 1..).zip(&aabbs[i as usize + 1..]) {
             if first.pairs_with(second) {
                 found.push([i, j]);
             }
@@ -110,9 +110,9 @@ impl<'a> Bins<'a> {
 
     /// Adds the pairs of `item` with the items of its level that come after it, and with those of
     /// coarser levels.
-    fn meet(&self, item: &DeviceBox, found: &mut Vec<[u32; 2]>) {
+    fn search_from(&self, item: &DeviceBox, found: &mut Vec<[u32; 2]>) {
         let own = item.level();
-        let home = cell(item.min, self.levels[own as usize].scale);
+        let own_cell = cell(item.min, self.levels[own as usize].scale);
         for (level, Level { scale, extent }) in (own..).zip(&self.levels[own as usize..]) {
             let low = cell(item.min.map(|x| x - extent), *scale);
             let high = cell(item.max, *scale);
@@ -120,8 +120,8 @@ impl<'a> Bins<'a> {
                 for y in low[1]..=high[1] {
                     for x in low[0]..=high[0] {
                         let at = [x, y, z];
-                        if level > own || [z, y, x] >= [home[2], home[1], home[0]] {
-                            let half = level == own && at == home;
+                        if level > own || [z, y, x] >= [own_cell[2], own_cell[1], own_cell[0]] {
+                            let half = level == own && at == own_cell;
                             self.search(item, (at, level), half, found);
                         }
                     }

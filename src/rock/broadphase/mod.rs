@@ -10,7 +10,7 @@ mod boxes;
 mod comparison;
 mod device;
 mod host;
-mod list;
+mod sorted_pairs;
 
 pub use auto::AutoBroadphase;
 pub use boxes::{Boxes, FARTHEST};
@@ -20,7 +20,7 @@ pub use host::HostBroadphase;
 
 /// A box along the axes around something that may touch others, already grown by the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Item {
+pub struct Aabb {
     /// Lower corner, m.
     pub min: [f64; 3],
     /// Upper corner, m.
@@ -29,7 +29,7 @@ pub struct Item {
     pub group: u32,
 }
 
-impl Item {
+impl Aabb {
     /// Whether the two boxes have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
         // Without branches, which nobody could predict.
@@ -49,5 +49,8 @@ pub trait Broadphase {
     ///
     /// # Errors
     /// If a device fails, or an item is not finite.
-    fn pairs(&mut self, items: &[Item]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
+    fn pairs(&mut self, aabbs: &[Aabb]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
 }
+
+/// Most storage buffers in a kernel of [`DeviceBroadphase`].
+pub const MAX_STORAGE_BUFFERS: u32 = 6;

@@ -1,14 +1,14 @@
 //! What a pair remembers from step to step.
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::pair::Pair;
 
 /// The last separating plane and the last point of contact of a pair, in the frame of one of its
 /// blocks. Both are hints: they are tested before they are believed, so a cache that is old, or
 /// belongs to another pair, costs time and changes no verdict. Plain data, for checkpoints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cache {
     /// Normal of the plane, away from the block that holds it; zero: none.
     pub plane: [f64; 3],

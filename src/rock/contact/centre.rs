@@ -43,10 +43,10 @@ impl Centring {
         let z = rows[tightest].normal;
         let (x, y) = z.any_orthonormal_pair();
         let frame = DMat3::from_cols(x, y, z);
-        let turn = frame.transpose();
+        let to_frame = frame.transpose();
         self.normals.clear();
         self.normals
-            .extend(rows.iter().map(|row| turn * row.normal));
+            .extend(rows.iter().map(|row| to_frame * row.normal));
         self.rates.resize(rows.len(), 0.0);
         let mut moved = DVec3::ZERO;
         for step in 1..=MAX_STEPS {

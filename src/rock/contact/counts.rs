@@ -20,7 +20,7 @@ pub struct Counts {
     /// Contacts found.
     pub contacts: u64,
     /// Pairs that touch within rounding.
-    pub touching: u64,
+    pub undecided: u64,
     /// Newton steps towards analytic centres.
     pub newton_steps: u64,
 }
@@ -34,7 +34,7 @@ impl AddAssign for Counts {
         self.guesses += other.guesses;
         self.programs += other.programs;
         self.contacts += other.contacts;
-        self.touching += other.touching;
+        self.undecided += other.undecided;
         self.newton_steps += other.newton_steps;
     }
 }

@@ -1,7 +1,7 @@
 //! What a contact is like: its centre, normal and section.
 
 use super::{
-    Contact, Normal, Resolver,
+    ContactGeometry, Normal, Resolver,
     normal::{barrier, overlap, potential},
     pair::Pair,
     section::Overlap,
@@ -11,7 +11,12 @@ use glam::DVec3;
 impl Resolver {
     /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
     /// the larger block.
-    pub(super) fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> Contact {
+    pub(super) fn describe(
+        &mut self,
+        pair: &Pair<'_>,
+        split: usize,
+        start: DVec3,
+    ) -> ContactGeometry {
         let mut point = start;
         self.counts.newton_steps += self.centring.run(&self.rows, 0.0, &mut point);
         let (rows, slacks) = (&self.rows[..], &self.centring.slacks[..]);
@@ -35,7 +40,7 @@ impl Resolver {
         let section = around.section(&mut self.polygons, level);
         let length = pair.length;
         let place = |x: DVec3| pair.small.centre + x * length;
-        Contact {
+        ContactGeometry {
             point: place(point),
             normal: section.normal,
             overlap: section.overlap * length,

@@ -15,15 +15,15 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Way from the plane to the face along the plane's normal.
-    fn way(&self, x: DVec2) -> f64 {
+    /// Height from the plane to the face along the plane's normal.
+    fn height(&self, x: DVec2) -> f64 {
         (self.slack - self.gradient.dot(x)).max(0.0) / self.rate
     }
 }
 
-/// ∫ u dA and ∫ u x dA over `section`, which holds its origin, u the way to the first of the faces.
+/// ∫ u dA and ∫ u x dA over `section`, which holds its origin, u the height to the first of the faces.
 ///
-/// A quadrature over the corners will not do: where a face is steep, the way falls to zero within a narrow
+/// A quadrature over the corners will not do: where a face is steep, the height falls to zero within a narrow
 /// strip along the edge that it makes, all corners lie in such strips, and the strip comes or goes when the
 /// face turns by the last bit. So the section is divided into the cells below each face.
 pub(super) fn depth(section: &Polygon, cell: &mut Polygon, faces: &[Bound]) -> (f64, DVec2) {
@@ -51,8 +51,8 @@ pub(super) fn depth(section: &Polygon, cell: &mut Polygon, faces: &[Bound]) -> (
         if cell.corners.len() < 3 {
             continue;
         }
-        // Of a face as good as upright only rounding is left, of the way as of the cell.
-        let moments = cell.moments(|x| face.way(x).min(faces[nearest].way(x)));
+        // Of a face as good as upright only rounding is left, of the height as of the cell.
+        let moments = cell.moments(|x| face.height(x).min(faces[nearest].height(x)));
         volume += moments.volume;
         first += moments.first;
     }

@@ -3,9 +3,9 @@
 //! A [`Resolver`] decides of two [`Placed`] blocks whether they overlap, and where, along which
 //! normal, how deep and over which area. Nothing is decided by the sign of a rounded number: a
 //! plane that keeps all vertices apart proves that there is no contact, a point inside all faces
-//! proves that there is one, and a pair of which neither can be shown is [`Verdict::Touching`].
+//! proves that there is one, and a pair of which neither can be shown is [`Verdict::Undecided`].
 //!
-//! The way to a proof, cheapest first: bounding spheres; the plane or the point kept in the
+//! Proofs are tried from the cheapest to the dearest: bounding spheres; the plane or the point kept in the
 //! [`Cache`] of the pair; faces, the line of centres and the surroundings of the last point; the
 //! linear program. Then the analytic centre, the normal, and the section of the overlap.
 //!
@@ -34,34 +34,32 @@
 //! # }
 //! ```
 
+mod bond;
 mod cache;
 mod centre;
+mod closed_form_proofs;
 mod counts;
 mod describe;
 mod envelope;
-mod guess;
 mod normal;
 mod options;
 mod pair;
-mod placed;
 mod polygon;
 mod program;
 mod projection;
 mod prove;
 mod resolver;
-mod seam;
 mod section;
 mod separation;
 mod sphere;
-mod squeeze;
+mod thin_gap;
 mod verdict;
 
+pub use crate::geometry::Placed;
+pub use bond::{Bond, BondState};
 pub use cache::Cache;
 pub use counts::Counts;
 pub use options::{Normal, Options};
-pub use placed::Placed;
-pub(crate) use placed::clip;
 pub use resolver::Resolver;
-pub use seam::{Opened, Seam};
-pub use squeeze::{Facing, Squeeze};
-pub use verdict::{Contact, Verdict};
+pub use thin_gap::{GapShape, ThinGap};
+pub use verdict::{ContactGeometry, Verdict};

@@ -31,15 +31,15 @@ pub(super) fn potential(rows: &[Row], slacks: &[f64], split: usize, rounding: f6
     (gradient(0, split) - gradient(split, rows.len())).normalize_or_zero()
 }
 
-/// u_n: way along ±n from the point to where it leaves both blocks.
+/// u_n: distance along ±n from the point to where it leaves both blocks.
 pub(super) fn overlap(rows: &[Row], slacks: &[f64], split: usize, normal: DVec3) -> f64 {
-    let mut ways = [f64::INFINITY; 2];
+    let mut distances = [f64::INFINITY; 2];
     for (k, (row, slack)) in rows.iter().zip(slacks).enumerate() {
-        let (way, sign) = if k < split { (0, 1.0) } else { (1, -1.0) };
+        let (side, sign) = if k < split { (0, 1.0) } else { (1, -1.0) };
         let rate = sign * row.normal.dot(normal);
         if rate > 0.0 {
-            ways[way] = ways[way].min(slack / rate);
+            distances[side] = distances[side].min(slack / rate);
         }
     }
-    ways[0] + ways[1]
+    distances[0] + distances[1]
 }

@@ -74,7 +74,7 @@ impl<'a> Pair<'a> {
         }
         rows.extend(self.large.faces.iter().map(far).filter(|r| r.offset < 1.0));
         if rows.len() == self.small.faces.len() {
-            // Deep inside: the nearest face says which way is out.
+            // Deep inside: the normal of the nearest face points outwards.
             let nearest = |a: &Row, b: &Row| a.offset.total_cmp(&b.offset);
             rows.extend(self.large.faces.iter().map(far).min_by(nearest));
         }

@@ -88,7 +88,7 @@ impl Optimum<'_> {
 }
 
 /// A solver for `count` rows, with numbers that stand in until the first update: every problem then
-/// takes the same way into it, and its answer depends on nothing solved before.
+/// is loaded by the same update, and its answer depends on nothing solved before.
 fn solver(count: usize) -> Result<DefaultSolver<f64>, clarabel::solver::SolverError> {
     let settings = DefaultSettings {
         verbose: false,
@@ -118,5 +118,5 @@ fn solver(count: usize) -> Result<DefaultSolver<f64>, clarabel::solver::SolverEr
 }
 
 fn refused(error: impl std::fmt::Display) -> Error {
-    Error::scene("contact", format!("the linear program is refused: {error}"))
+    Error::argument("contact", format!("the linear program is refused: {error}"))
 }

@@ -12,7 +12,7 @@ const PARALLEL: f64 = 1e-14;
 
 /// Faces that hold the point: on a face, an edge, or a corner.
 #[derive(Default)]
-struct Held {
+struct ActiveSet {
     faces: [usize; 3],
     multipliers: [f64; 3],
     count: usize,
@@ -21,7 +21,7 @@ struct Held {
 /// The point of {x : a_k · x ≤ d_k} nearest to `from`, to within `tolerance` (m).
 pub(super) fn nearest(faces: &[HalfSpace], from: DVec3, tolerance: f64) -> DVec3 {
     let mut x = from;
-    let mut held = Held::default();
+    let mut active = ActiveSet::default();
     // The face that is violated most, and its multiplier, until it is held.
     let mut entering: Option<(usize, f64)> = None;
     for _ in 0..MAX_PASSES {
@@ -40,38 +40,38 @@ pub(super) fn nearest(faces: &[HalfSpace], from: DVec3, tolerance: f64) -> DVec3
             return x;
         }
         let normal = faces[face].normal;
-        let shares = held.shares(faces, normal);
-        let free = normal - held.sum(faces, shares);
+        let shares = active.shares(faces, normal);
+        let free = normal - active.sum(faces, shares);
         let rate = free.length_squared();
-        let can_move = held.count < 3 && rate > PARALLEL;
+        let can_move = active.count < 3 && rate > PARALLEL;
         let full = if can_move {
             violation(face) / rate
         } else {
             f64::INFINITY
         };
-        let (way, blocking) = held.first_released(shares);
-        let step = full.min(way);
+        let (step_to_release, blocking) = active.first_released(shares);
+        let step = full.min(step_to_release);
         if !step.is_finite() {
             return x; // No such point: the faces enclose nothing.
         }
         if can_move {
             x -= step * free;
         }
-        for (multiplier, share) in held.multipliers.iter_mut().zip(shares) {
+        for (multiplier, share) in active.multipliers.iter_mut().zip(shares) {
             *multiplier -= step * share;
         }
-        if full <= way {
-            held.add(face, multiplier + step);
+        if full <= step_to_release {
+            active.add(face, multiplier + step);
             entering = None;
         } else {
-            held.remove(blocking);
+            active.remove(blocking);
             entering = Some((face, multiplier + step));
         }
     }
     x
 }
 
-impl Held {
+impl ActiveSet {
     /// Shares s of the held normals with Σ s n nearest to `target`.
     fn shares(&self, faces: &[HalfSpace], target: DVec3) -> [f64; 3] {
         let normal = |i: usize| (i < self.count).then(|| faces[self.faces[i]].normal);
@@ -95,9 +95,9 @@ impl Held {
     /// How far the multipliers can go before one is zero, and which.
     fn first_released(&self, shares: [f64; 3]) -> (f64, usize) {
         (0..self.count).fold((f64::INFINITY, 0), |best, i| {
-            let way = self.multipliers[i] / shares[i];
-            if shares[i] > 0.0 && way < best.0 {
-                (way, i)
+            let step_to_release = self.multipliers[i] / shares[i];
+            if shares[i] > 0.0 && step_to_release < best.0 {
+                (step_to_release, i)
             } else {
                 best
             }

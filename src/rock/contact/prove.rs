@@ -1,7 +1,8 @@
 //! Proof of contact or of none for a pair whose cache has none.
 
 use super::{
-    Resolver, Verdict, guess::smallest_slack, normal::barrier, pair::Pair, program::Optimum,
+    Resolver, Verdict, closed_form_proofs::smallest_slack, normal::barrier, pair::Pair,
+    program::Optimum,
 };
 use crate::Result;
 use glam::DVec3;
@@ -10,7 +11,7 @@ use glam::DVec3;
 /// on (in L) it is not worth it: each time costs 1 µs and brings the point in by a share, against
 /// 50 µs for the linear program.
 const WIDENINGS: usize = 4;
-const FAR: f64 = 0.01;
+const LARGEST_WIDENING: f64 = 0.01;
 
 /// What was found of a pair.
 pub(super) enum Proof {
@@ -77,7 +78,7 @@ impl Resolver {
         let mut point = near;
         for _ in 0..WIDENINGS {
             let widening = 1.25 * (margin - smallest_slack(&self.rows, point));
-            if !(margin..FAR).contains(&widening) {
+            if !(margin..LARGEST_WIDENING).contains(&widening) {
                 break;
             }
             let rows = &self.rows[..];

@@ -1,9 +1,9 @@
-//! The way of a pair: bounding spheres, cache, proof, description.
+//! Resolution of a pair: bounding spheres, cache, proof, description.
 
 use super::{
-    Cache, Contact, Counts, Options, Placed, Verdict,
+    Cache, ContactGeometry, Counts, Options, Placed, Verdict,
     centre::Centring,
-    guess::smallest_slack,
+    closed_form_proofs::smallest_slack,
     pair::{Pair, Row},
     polygon::Polygons,
     program::Program,
@@ -76,7 +76,7 @@ impl Resolver {
         Ok(match verdict {
             Verdict::Contact(contact) => {
                 self.counts.contacts += 1;
-                let contact = Contact {
+                let contact = ContactGeometry {
                     limit: DEEP * first.smallest_distance.min(second.smallest_distance),
                     ..contact
                 };
@@ -86,8 +86,8 @@ impl Resolver {
                     contact
                 })
             }
-            Verdict::Touching => {
-                self.counts.touching += 1;
+            Verdict::Undecided => {
+                self.counts.undecided += 1;
                 verdict
             }
             Verdict::Apart => {
@@ -123,7 +123,7 @@ impl Resolver {
             self.prove(pair, split, margin, point)?
         };
         Ok(match proof {
-            Proof::Neither => Verdict::Touching,
+            Proof::Neither => Verdict::Undecided,
             Proof::Plane(normal, verdict) => {
                 cache.hold(pair, normal, kept);
                 verdict
@@ -172,7 +172,7 @@ fn check(block: &Placed, square: f64) -> Result<()> {
     if square.is_finite() && sizes.is_finite() && sizes > 0.0 {
         return Ok(());
     }
-    Err(Error::scene(
+    Err(Error::argument(
         "contact",
         format!(
             "a block of radius {} m at {} m is not finite; shorten the time step, or look for the force that threw it",

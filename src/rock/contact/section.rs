@@ -21,7 +21,7 @@ pub(super) struct Section {
 /// Cosines of the angles between two faces up to which they lie on each other, and from which on one
 /// only rests an edge on the other, 5° and 10°; between them the two sections are mixed, so that
 /// nothing jumps.
-pub(super) const FLAT: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
+pub(super) const FLAT_FACES: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
 
 /// The same for the share of Σ 1/t, t the slacks of a block's faces at the analytic centre, that the
 /// tightest face has: almost all where it lies on the other block's, half at a blunt edge, or where two
@@ -46,7 +46,7 @@ impl Overlap<'_> {
         let (i, share_i) = self.tightest(0, self.split);
         let (j, share_j) = self.tightest(self.split, self.rows.len());
         let cosine = -self.rows[i].normal.dot(self.rows[j].normal);
-        let flatness = ramp(cosine, FLAT).min(ramp(share_i.min(share_j), SHARE));
+        let flatness = ramp(cosine, FLAT_FACES).min(ramp(share_i.min(share_j), SHARE));
         if flatness == 0.0 {
             return self.cut(polygons);
         }
@@ -74,7 +74,7 @@ impl Overlap<'_> {
         }
     }
 
-    /// The section through the analytic centre, across the normal. Its pressure is as large as the way
+    /// The section through the analytic centre, across the normal. Its pressure is proportional to the distance
     /// along the normal from where a point leaves one block to where it leaves the other.
     fn cut(&self, polygons: &mut Polygons) -> Section {
         let plane = self.slice(&mut polygons.section, self.normal, DVec3::ZERO);

@@ -34,7 +34,7 @@ pub(super) fn proven(gap: f64, margin: f64) -> Option<Verdict> {
     if gap > margin {
         Some(Verdict::Apart)
     } else if gap >= -margin {
-        Some(Verdict::Touching)
+        Some(Verdict::Undecided)
     } else {
         None
     }

@@ -1,13 +1,13 @@
 //! Contact of a sphere with a sphere or a polyhedron, in closed form.
 
-use super::{Contact, Placed, projection::nearest};
+use super::{ContactGeometry, Placed, projection::nearest};
 use glam::DVec3;
 use std::f64::consts::PI;
 
 /// Gap (m, negative: overlap) and contact of a sphere with another block, from the block to it.
 pub(super) struct Proximity {
     pub gap: f64,
-    pub contact: Contact,
+    pub contact: ContactGeometry,
 }
 
 /// Two spheres: the section is the circle in which they meet, the common face of the lens.
@@ -61,8 +61,8 @@ pub(super) fn polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
 }
 
 /// A contact over a circle of the squared radius `square` (m²).
-fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> Contact {
-    Contact {
+fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeometry {
+    ContactGeometry {
         point,
         normal,
         overlap,

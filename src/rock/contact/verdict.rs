@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A contact, vectors along the world's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct ContactGeometry {
     /// A point deep inside the overlap, its analytic centre, m.
     pub point: DVec3,
     /// Unit normal from the first block to the second.
@@ -23,7 +23,7 @@ pub struct Contact {
     pub limit: f64,
 }
 
-impl Contact {
+impl ContactGeometry {
     /// Whether the overlap is beyond its limit: the stiffness is too low, or the step too long.
     /// Whoever knows the blocks' names makes an [`Error::DeepOverlap`](crate::Error::DeepOverlap).
     pub fn is_deep(&self) -> bool {
@@ -46,7 +46,7 @@ pub enum Verdict {
     Apart,
     /// Neither plane nor point is found: the gap or overlap is within rounding. No force acts, and
     /// the history of the contact is kept.
-    Touching,
+    Undecided,
     /// A point is inside both.
-    Contact(Contact),
+    Contact(ContactGeometry),
 }

@@ -9,7 +9,10 @@
 //! momentum Ḟ S Fᵀ − F S Ḟᵀ up to rounding.
 
 use super::Principal;
-use crate::rock::law::{Elastic, inner, trace};
+use crate::{
+    geometry::{axial, inner},
+    rock::law::{Elastic, trace},
+};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Mass, elasticity and shape of an affine body: what stays of it.
@@ -34,7 +37,7 @@ pub struct Affine {
 
 /// Forces on an affine body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
+pub struct Wrench {
     /// Σ f, N.
     pub force: DVec3,
     /// Σ f ⊗ r, r from the centroid in the world, N m.
@@ -97,12 +100,12 @@ impl Affine {
         axial(rate * self.second_moment * f.transpose())
     }
 
-    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `pull` and its own stress.
-    pub fn accelerations(&self, f: DMat3, pull: &Pull) -> (DVec3, DMat3) {
+    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `wrench` and its own stress.
+    pub fn accelerations(&self, f: DMat3, wrench: &Wrench) -> (DVec3, DMat3) {
         // f ⊗ X with X = F⁻¹ r.
-        let outer = pull.moment * f.inverse().transpose();
+        let outer = wrench.moment * f.inverse().transpose();
         let stress = f * self.inner_stress(f) * self.volume;
-        (pull.force / self.mass, (outer - stress) * self.inverse)
+        (wrench.force / self.mass, (outer - stress) * self.inverse)
     }
 
     /// Bound of ω² of its stiffest mode when deformed by `f`, rad²/s²; exact without strain.
@@ -156,15 +159,6 @@ fn stiffest(elastic: &Elastic, s: DVec3) -> f64 {
     let shears = DVec3::new(shear(0, 1), shear(1, 2), shear(2, 0));
     let modes = Principal::of(axial).moments;
     modes.max(shears).max_element()
-}
-
-/// Σ r × f of the moment Σ f ⊗ r.
-pub(crate) fn axial(m: DMat3) -> DVec3 {
-    DVec3::new(
-        m.y_axis.z - m.z_axis.y,
-        m.z_axis.x - m.x_axis.z,
-        m.x_axis.y - m.y_axis.x,
-    )
 }
 
 /// Most passes of [`polar`]: each doubles the digits, from a few passes on.

@@ -2,13 +2,13 @@
 
 mod affine;
 mod damped;
-mod held;
+mod point_constraints;
 mod principal;
 mod rotation;
 
-pub(crate) use affine::axial;
-pub use affine::{Affine, Pull, polar};
+pub(crate) use crate::geometry::axial;
+pub use affine::{Affine, Wrench, polar};
 pub use damped::{first_kick, second_kick};
-pub use held::Held;
+pub use point_constraints::PointConstraints;
 pub use principal::Principal;
 pub use rotation::{spin, turn};

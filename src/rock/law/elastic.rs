@@ -1,7 +1,7 @@
 //! St. Venant & Kirchhoff: stress linear in the strain E = ½(FᵀF − 1) that turns with the body, so that a
 //! rotation of any size strains nothing. S = λ tr E · 1 + 2μE, the second Piola–Kirchhoff stress.
 
-use crate::{Error, Result};
+use crate::{Error, Result, geometry::inner};
 use glam::DMat3;
 
 /// Elasticity of the material inside a block, isotropic.
@@ -35,15 +35,15 @@ impl Elastic {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Scene`] at `place`, naming the number and its range.
+    /// [`Error::Argument`] at `place`, naming the number and its range.
     pub fn check(&self, place: &str) -> Result<()> {
         let refuse =
-            |name: &str, message: String| Err(Error::scene(format!("{place}.{name}"), message));
+            |name: &str, message: String| Err(Error::argument(format!("{place}.{name}"), message));
         let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
         if !(e > 0.0 && e.is_finite()) {
             return refuse("youngs_modulus", format!("{e} must be greater than 0 Pa"));
         }
-        // Outside, a body would give way to pressure or to shear.
+        // Outside these bounds the elastic energy is not positive definite.
         if !(nu > -1.0 && nu < 0.5) {
             let message = format!("{nu} must lie between -1 and 0.5, both excluded");
             return refuse("poissons_ratio", message);
@@ -61,11 +61,6 @@ pub fn von_mises(stress: DMat3) -> f64 {
 /// tr A.
 pub(crate) fn trace(a: DMat3) -> f64 {
     a.x_axis.x + a.y_axis.y + a.z_axis.z
-}
-
-/// A:B, the sum of the products of the entries.
-pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
-    a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use crate::{
     Error, Result,
-    rock::contact::{Facing, Squeeze},
+    rock::contact::{GapShape, ThinGap},
 };
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ impl Film {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Scene`] naming the number and its range.
+    /// [`Error::Argument`] naming the number and its range.
     pub fn check(&self) -> Result<()> {
         for (name, value, unit) in [
             ("viscosity", self.viscosity, "Pa s"),
@@ -37,7 +37,7 @@ impl Film {
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 let message = format!("{value} must be greater than 0 {unit}");
-                return Err(Error::scene(format!("film.{name}"), message));
+                return Err(Error::argument(format!("film.{name}"), message));
             }
         }
         Ok(())
@@ -50,29 +50,31 @@ impl Film {
 
     /// Normal force over the velocity at which the gap closes, N s/m: 6πμR²(1/h − 1/h₀) of spheres,
     /// 3μJ(1/h³ − 1/h₀³) of faces, which is 3πμR⁴/2 (1/h³ − 1/h₀³) for discs.
-    pub fn resistance(&self, squeeze: &Squeeze) -> f64 {
-        match &squeeze.shape {
-            Facing::Round { radius } => {
+    pub fn resistance(&self, thin_gap: &ThinGap) -> f64 {
+        match &thin_gap.shape {
+            GapShape::Round { radius } => {
                 6.0 * PI
                     * self.viscosity
                     * radius
                     * radius
-                    * self.excess(squeeze.gap, self.round, 1)
+                    * self.excess(thin_gap.gap, self.round, 1)
             }
-            Facing::Flat {
+            GapShape::Flat {
                 torsion, flatness, ..
-            } => 3.0 * self.viscosity * torsion * flatness * self.excess(squeeze.gap, self.flat, 3),
+            } => {
+                3.0 * self.viscosity * torsion * flatness * self.excess(thin_gap.gap, self.flat, 3)
+            }
         }
     }
 
     /// Moment over the rate at which the gap tilts, N m s, about each axis of two faces.
-    pub fn tilting(&self, squeeze: &Squeeze) -> [f64; 2] {
-        match &squeeze.shape {
-            Facing::Round { .. } => [0.0; 2],
-            Facing::Flat {
+    pub fn tilting(&self, thin_gap: &ThinGap) -> [f64; 2] {
+        match &thin_gap.shape {
+            GapShape::Round { .. } => [0.0; 2],
+            GapShape::Flat {
                 tilts, flatness, ..
             } => tilts.map(|tilt| {
-                self.viscosity * tilt * flatness * self.excess(squeeze.gap, self.flat, 3)
+                self.viscosity * tilt * flatness * self.excess(thin_gap.gap, self.flat, 3)
             }),
         }
     }
@@ -99,8 +101,8 @@ mod tests {
         }
     }
 
-    fn squeeze(gap: f64, shape: Facing) -> Squeeze {
-        Squeeze {
+    fn thin_gap(gap: f64, shape: GapShape) -> ThinGap {
+        ThinGap {
             normal: DVec3::Z,
             point: DVec3::ZERO,
             gap,
@@ -126,10 +128,10 @@ mod tests {
     fn a_sphere_near_a_plane_meets_the_exact_resistance_as_the_gap_closes() {
         let (film, r) = (film(), 10.0);
         let stokes = 6.0 * PI * film.viscosity * r;
-        let rise = |h: f64| film.resistance(&squeeze(h, Facing::Round { radius: r })) / stokes;
+        let rise = |h: f64| film.resistance(&thin_gap(h, GapShape::Round { radius: r })) / stokes;
         for h in [0.5, 0.2, 0.1, 0.05, 0.01] {
             let exact = brenner(h / r) - brenner(film.round / r);
-            // What is left out, ⅕ ln(h₀/h), is small beside R/h.
+            // What is left out, ⅕ ln(h₀/h), is small against R/h.
             let error = (rise(h) - exact).abs();
             assert!(
                 error < 0.21 * (film.round / h).ln(),
@@ -145,13 +147,13 @@ mod tests {
     #[test]
     fn discs_meet_reynolds() {
         let (film, r, h) = (film(), 8.0f64, 0.1f64);
-        let shape = Facing::Flat {
+        let shape = GapShape::Flat {
             torsion: 0.5 * PI * r.powi(4),
             axes: [DVec3::X, DVec3::Y],
             tilts: [PI / 8.0 * r.powi(6); 2],
             flatness: 1.0,
         };
-        let found = film.resistance(&squeeze(h, shape));
+        let found = film.resistance(&thin_gap(h, shape));
         let reynolds = 1.5 * PI * film.viscosity * r.powi(4) * (h.powi(-3) - 1.0);
         assert!((found / reynolds - 1.0).abs() < 1e-12);
     }

@@ -19,6 +19,7 @@ use glam::{DQuat, DVec3};
 
 /// What a contact remembers from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
     /// Shear force of the spring on the second block, N, in the first block's frame.
     pub shear: DVec3,
@@ -43,15 +44,15 @@ pub struct Section {
     pub elastic_area: f64,
     /// Whether one of the two is a sphere there, which rolls.
     pub rolls: bool,
-    /// By how much a bond is open more where it is open the widest than in the middle, m: 0 where it does not bend.
-    pub gape: f64,
+    /// Opening of a bond at its widest corner less that at its middle, m: 0 where it does not bend.
+    pub opening: f64,
 }
 
 /// How two blocks move about their contact, of the second relative to the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Way of the pressure centre since the last step, m.
-    pub way: DVec3,
+    /// Displacement of the pressure centre in this step, m.
+    pub displacement: DVec3,
     /// Velocity of the pressure centre, m/s.
     pub velocity: DVec3,
     /// Spin, rad/s.
@@ -66,6 +67,7 @@ pub struct Motion {
 
 /// What a contact does to the second block; the first gets the opposite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Force {
     /// Force of the springs, N.
     pub spring: DVec3,
@@ -77,7 +79,7 @@ pub struct Force {
     pub bending: DVec3,
     /// Work that friction has taken in this step, J.
     pub friction: f64,
-    /// What the next step needs to know.
+    /// State that the next step starts from.
     pub history: History,
 }
 
@@ -101,19 +103,19 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         area,
         elastic_area,
         rolls,
-        gape,
+        opening,
     } = *section;
     let normal_stiffness = joint.normal_stiffness * elastic_area;
     let shear_stiffness = joint.shear_stiffness * elastic_area;
     let tan_phi = joint.friction_angle.tan();
 
     let pressing = normal_stiffness * overlap;
-    let opening = motion.velocity.dot(normal);
+    let opening_rate = motion.velocity.dot(normal);
     let mut bonded = history.bonded;
-    let pulled = pressing - dashpot(joint.damping, motion.mass, normal_stiffness) * opening;
+    let pulled = pressing - dashpot(joint.damping, motion.mass, normal_stiffness) * opening_rate;
     // A bond breaks where its tension is the largest: bent, before the mean is σ_t.
     let least = if bonded {
-        normal_stiffness * gape - joint.tensile_strength * area
+        normal_stiffness * opening - joint.tensile_strength * area
     } else {
         0.0
     };
@@ -122,16 +124,16 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
 
     // The cap follows the whole normal force, as it presses the faces together.
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
-    let sideways = motion.way - normal * motion.way.dot(normal);
-    let tried = turned(history, normal, motion) - shear_stiffness * sideways;
-    let shear = capped(tried, strength);
-    // Slip is the way that the spring did not take; the force is the mean over it.
-    let slip = (tried - shear) / shear_stiffness;
+    let tangential = motion.displacement - normal * motion.displacement.dot(normal);
+    let trial_shear = turned(history, normal, motion) - shear_stiffness * tangential;
+    let shear = capped(trial_shear, strength);
+    // Slip is the displacement that the spring does not take; the force is the mean over it.
+    let slip = (trial_shear - shear) / shear_stiffness;
     let friction = slip.dot(shear);
     let slip = history.slip + slip.length();
     bonded &= slip * joint.shear_stiffness <= joint.tensile_strength;
 
-    let sliding = motion.velocity - normal * opening;
+    let sliding = motion.velocity - normal * opening_rate;
     let viscous = dashpot(joint.damping, motion.mass, shear_stiffness) * sliding;
     let damped = capped(shear - viscous, strength);
 

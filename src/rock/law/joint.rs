@@ -52,10 +52,10 @@ impl Joint {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Scene`] at `place`, naming the number and its range.
+    /// [`Error::Argument`] at `place`, naming the number and its range.
     pub fn check(&self, place: &str) -> Result<()> {
         let refuse = |name: &str, value: f64, range: &str| {
-            Err(Error::scene(
+            Err(Error::argument(
                 format!("{place}.{name}"),
                 format!("{value} must be {range}"),
             ))

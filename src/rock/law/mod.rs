@@ -7,8 +7,9 @@ mod hart;
 mod joint;
 mod stability;
 
+pub(crate) use crate::geometry::inner;
+pub(crate) use elastic::trace;
 pub use elastic::{Elastic, von_mises};
-pub(crate) use elastic::{inner, trace};
 pub use film::Film;
 pub use hart::{Force, History, Motion, Section, force};
 pub use joint::Joint;

@@ -6,7 +6,7 @@
 use super::Joint;
 use glam::DVec3;
 
-/// Share of 2/ω that a step takes unless told otherwise.
+/// Share of 2/ω that a step takes by default.
 pub const USUAL_SHARE: f64 = 0.1;
 /// Largest share of 2/ω that a step may take.
 pub const LARGEST_SHARE: f64 = 0.2;

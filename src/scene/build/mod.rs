@@ -1,10 +1,26 @@
 //! From a scene to the setups of the engines: lattice, blocks, particles.
 
+#[cfg(feature = "rock")]
 mod blocks;
+mod keys;
 mod lattice;
+#[cfg(feature = "sph")]
+mod particle_step;
+#[cfg(feature = "sph")]
+mod particles;
+mod units;
 
+#[cfg(feature = "rock")]
 pub use blocks::{BlockSetup, LeftOut, block_setup};
+#[cfg(feature = "sph")]
 pub(crate) use blocks::{rotation, shape};
+pub(crate) use keys::lattice_key;
+#[cfg(feature = "sph")]
+pub(crate) use keys::particle_key;
+#[cfg(feature = "rock")]
+pub(crate) use keys::rock_key;
 pub use lattice::{face_velocity, lattice_setup};
-
-pub use crate::sph::particle_setup;
+#[cfg(feature = "sph")]
+pub(crate) use particle_step::scene_step;
+#[cfg(feature = "sph")]
+pub use particles::{boundary_particles, fill, particle_lattice, particle_setup, water_bodies};

@@ -8,7 +8,9 @@ use riprap::{
         kernel::Kernel,
         link::{Linked, Program},
     },
-    lattice::{self, Collision, Force, Grid, Reach, SolidOperator, collide_stream, single_cells},
+    lattice::{
+        self, BrickKind, Collision, Force, Grid, SolidOperator, collide_stream, single_cells,
+    },
     psm,
     sph::{self, CellGrid, KERNELS, NeighbourSearch, Scheme, Side},
     wgpu,
@@ -56,8 +58,13 @@ fn constants_of_the_lattice() {
     setup.solid_operator = Some(SolidOperator::Holdych);
     setup.wale = Some(0.5);
     setup.force = Force::Constant([1e-6; 3]);
-    let streams = [Reach::All, Reach::Plain, Reach::Flagged, Reach::Saturated]
-        .map(|reach| collide_stream(&setup, 1, reach));
+    let streams = [
+        BrickKind::All,
+        BrickKind::Plain,
+        BrickKind::Flagged,
+        BrickKind::Psm,
+    ]
+    .map(|reach| collide_stream(&setup, 1, reach));
     let cells = SINGLE.iter().map(|(file, ..)| {
         single_cells(&setup, 1, file).slot("quantity", "quantity_eddy_viscosity")
     });
@@ -77,9 +84,7 @@ fn constants_of_blocks() {
         lanes: 1,
         brick: [4; 3],
     };
-    let linked = psm::saturate_cells(&grid, psm::Walk::Serial)
-        .link()
-        .unwrap();
+    let linked = psm::combine_parts(&grid, psm::Walk::Serial).link().unwrap();
     check_family(&psm::constants(&grid), [linked]);
 }
 

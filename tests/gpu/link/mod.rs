@@ -2,7 +2,6 @@
 //! linker says where a text is wrong, and naga writes it in the languages of all drivers.
 
 mod constants;
-mod counted;
 mod errors;
 mod files;
 mod others;

@@ -6,7 +6,7 @@ use riprap::{
     gpu::link::{Program, SOURCES},
     lattice::{Grid, Setup as Fluid, single_cells},
     psm::{
-        Walk, reduce_blocks, reduce_faces, reduce_tiles, saturate_cells, sum_faces, voxelise,
+        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
         voxelise_edges,
     },
     sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
@@ -27,20 +27,27 @@ fn plain(program: &Program, entry: &str) {
 }
 
 const SEARCH: [&str; 4] = ["bin_count", "bin_scatter", "scan_sum", "scan_spread"];
-const MEASURE: [&str; 4] = [
-    "copy_scalar",
-    "copy_vector",
-    "copy_four_vectors",
-    "multiply_add",
-];
+
+const SPHERES: Forms = Forms {
+    spheres: true,
+    polyhedra: false,
+};
+const POLYHEDRA: Forms = Forms {
+    spheres: false,
+    polyhedra: true,
+};
 
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid, Walk::Serial)),
-        ("voxelise", voxelise(grid, Walk::Parallel)),
-        ("voxelise_edges", voxelise_edges(grid)),
-        ("saturate_cells", saturate_cells(grid, Walk::Serial)),
-        ("saturate_cells", saturate_cells(grid, Walk::Parallel)),
+        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Parallel, Forms::ALL)),
+        ("voxelise", voxelise(grid, Walk::Serial, SPHERES)),
+        ("voxelise", voxelise(grid, Walk::Serial, POLYHEDRA)),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
+        ("voxelise_edges", voxelise_edges(grid, SPHERES)),
+        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
+        ("combine_parts", combine_parts(grid, Walk::Serial)),
+        ("combine_parts", combine_parts(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
         ("reduce_faces", reduce_faces(grid)),
@@ -100,10 +107,7 @@ fn kernels_of_the_search_for_pairs() {
 }
 
 #[test]
-fn kernels_that_copy() {
-    for kernel in MEASURE {
-        plain(&Program::new(kernel), kernel);
-    }
+fn the_kernel_that_gathers() {
     let fluid = Fluid::periodic([4; 3], 0.1);
     plain(&single_cells(&fluid, 1, "gather"), "gather");
 }
@@ -117,8 +121,7 @@ fn every_file_with_an_entry_point_is_translated() {
         .map(|(entry, _)| *entry)
         .chain(KERNELS)
         .chain(SEARCH)
-        .chain(MEASURE)
-        .chain(["pairs", "gather", "collide_stream", "stream_only"])
+        .chain(["pairs", "gather", "collide_stream"])
         .chain(single)
         .collect();
     for (name, text) in SOURCES {

@@ -49,11 +49,11 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
-        "inside_solids",
-        &["inside_solids"],
+        "velocity_psm",
+        &["velocity_psm"],
         &[
             "bricks",
-            "saturation_planes",
+            "psm_planes",
             "density",
             "velocity_x_out",
             "velocity_y_out",
@@ -61,11 +61,11 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
-        "inside_kept",
-        &["inside_kept"],
+        "velocity_restored",
+        &["velocity_restored"],
         &[
-            "kept_cells",
-            "kept_velocity",
+            "restored_cells",
+            "restored_velocity",
             "velocity_x_out",
             "velocity_y_out",
             "velocity_z_out",

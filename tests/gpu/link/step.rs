@@ -1,23 +1,21 @@
 //! The step: all slots, and each pair of a slot's file and a number of bindings.
 
-use super::specialise::{BINDINGS, LAYOUTS, bindings_of, forces, names, specialise, variants};
-use riprap::lattice::{
-    Collision, Equilibrium, Reach, Setup, SolidOperator, collide_stream, stream_only,
-};
+use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
+use riprap::lattice::{BrickKind, Collision, Equilibrium, Setup, SolidOperator, collide_stream};
 
 /// What kinds of brick there are, each operator of solids once.
-const REACHES: [(Reach, Option<SolidOperator>); 6] = [
-    (Reach::All, None),
-    (Reach::Plain, None),
-    (Reach::Flagged, None),
-    (Reach::Saturated, Some(SolidOperator::Holdych)),
-    (Reach::Saturated, Some(SolidOperator::Noble)),
-    (Reach::Saturated, Some(SolidOperator::Superposition)),
+const KINDS: [(BrickKind, Option<SolidOperator>); 6] = [
+    (BrickKind::All, None),
+    (BrickKind::Plain, None),
+    (BrickKind::Flagged, None),
+    (BrickKind::Psm, Some(SolidOperator::Holdych)),
+    (BrickKind::Psm, Some(SolidOperator::Noble)),
+    (BrickKind::Psm, Some(SolidOperator::Superposition)),
 ];
 
 #[test]
 fn the_step_in_all_variants() {
-    for variant in variants(&[LAYOUTS.len(), 3, 2, 2, 3, 2, REACHES.len()]) {
+    for variant in variants(&[LAYOUTS.len(), 3, 2, 2, 3, 2, KINDS.len()]) {
         let [layout, collision, equilibrium, wale, force, guard, kind] = variant[..] else {
             unreachable!()
         };
@@ -28,21 +26,21 @@ fn the_step_in_all_variants() {
         setup.wale = (wale == 1).then_some(0.5);
         setup.force = forces()[force].clone();
         setup.max_speed = 0.4 * guard as f64;
-        let (reach, operator) = REACHES[kind];
+        let (kind, operator) = KINDS[kind];
         setup.solid_operator = operator;
-        let flagged = matches!(reach, Reach::Flagged | Reach::Saturated);
+        let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
         let count = bindings_of(&variant);
-        let linked = collide_stream(&setup, count, reach)
+        let linked = collide_stream(&setup, count, kind)
             .link()
-            .unwrap_or_else(|error| panic!("{setup:?} {reach:?} {count}: {error}"));
+            .unwrap_or_else(|error| panic!("{setup:?} {kind:?} {count}: {error}"));
         let wanted = [
             ("velocity_before", setup.wale.is_some()),
             ("velocity_after", setup.wale.is_some()),
             ("force_field", force == 2),
             ("guard_state", guard == 1),
-            ("bricks", reach != Reach::All),
+            ("bricks", kind != BrickKind::All),
             ("flags", flagged),
-            ("saturation_planes", operator.is_some()),
+            ("psm_planes", operator.is_some()),
         ];
         let wanted = wanted.iter().filter(|w| w.1).map(|w| w.0.to_owned());
         let found = names(&linked, "collide_stream");
@@ -53,17 +51,5 @@ fn the_step_in_all_variants() {
             &setup,
             variant.iter().sum::<usize>() % 2 == 1,
         );
-    }
-}
-
-#[test]
-fn streaming_alone_in_all_layouts() {
-    for variant in variants(&[LAYOUTS.len(), BINDINGS.len()]) {
-        let mut setup = Setup::periodic([4; 3], 0.1);
-        (setup.storage, setup.lanes, setup.wide) = LAYOUTS[variant[0]];
-        let count = BINDINGS[variant[1]];
-        let linked = stream_only(&setup, count).link().unwrap();
-        assert_eq!(names(&linked, "stream_only"), ([].into(), count as usize));
-        specialise(&linked, "stream_only", &setup, false);
     }
 }

@@ -2,9 +2,9 @@
 
 use super::finders::Finders;
 use kit::broadphase::{Random, brute_force, item};
-use riprap::rock::broadphase::Item;
+use riprap::rock::broadphase::Aabb;
 
-fn agree(items: &[Item]) -> usize {
+fn agree(items: &[Aabb]) -> usize {
     let found = Finders::new().pairs(items);
     assert!(found == brute_force(items), "{} pairs", found.len());
     found.len()

@@ -3,7 +3,7 @@
 use kit::Rig;
 use riprap::{
     Result,
-    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase},
     wgpu,
 };
 
@@ -29,7 +29,7 @@ impl Finders {
     }
 
     /// The list of the device, which is that of the host.
-    pub fn pairs(&mut self, items: &[Item]) -> Vec<[u32; 2]> {
+    pub fn pairs(&mut self, items: &[Aabb]) -> Vec<[u32; 2]> {
         let found = self.rig.wait(self.device.pairs(items)).unwrap();
         let host = on_host(items).unwrap();
         let counts = (found.len(), host.len());
@@ -38,6 +38,6 @@ impl Finders {
     }
 }
 
-pub fn on_host(items: &[Item]) -> Result<Vec<[u32; 2]>> {
+pub fn on_host(items: &[Aabb]) -> Result<Vec<[u32; 2]>> {
     pollster::block_on(HostBroadphase.pairs(items))
 }

@@ -9,7 +9,7 @@ use riprap::{
         bins::{DeviceBox, Level},
         link::Program,
     },
-    rock::broadphase::{Boxes, Header, Item, Search},
+    rock::broadphase::{Aabb, Boxes, Header, Search},
     wgpu,
 };
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ struct Binned {
 }
 
 impl Binned {
-    fn new(items: &[Item]) -> Self {
+    fn new(items: &[Aabb]) -> Self {
         let boxes = Boxes::new(items).unwrap();
         let buckets = (2 * items.len() as u64).next_power_of_two();
         let mut of: BTreeMap<_, Vec<u32>> = BTreeMap::new();

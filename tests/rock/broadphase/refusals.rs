@@ -2,9 +2,9 @@
 
 use super::finders::{Finders, on_host};
 use kit::broadphase::scattered;
-use riprap::rock::broadphase::{Broadphase, Item};
+use riprap::rock::broadphase::{Aabb, Broadphase};
 
-fn refused(finders: &mut Finders, spoil: impl Fn(&mut Item)) -> String {
+fn refused(finders: &mut Finders, spoil: impl Fn(&mut Aabb)) -> String {
     let mut messages = Vec::new();
     for count in [20, 200] {
         let mut items = scattered(count, 1.0, 4);

@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec3};
 use kit::contact::{Random, Solid};
-use riprap::rock::contact::{Cache, Contact, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, SQRT_2};
 
-fn resolve(a: &Placed, b: &Placed) -> Contact {
+fn resolve(a: &Placed, b: &Placed) -> ContactGeometry {
     let mut resolver = Resolver::new(Options::default());
     match resolver.resolve(a, b, &mut Cache::default()).unwrap() {
         Verdict::Contact(contact) => contact,

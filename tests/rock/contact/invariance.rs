@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 use kit::contact::{Couple, Random};
-use riprap::rock::contact::{Cache, Contact, Options, Resolver, Verdict};
+use riprap::rock::contact::{Cache, ContactGeometry, Options, Resolver, Verdict};
 
-fn contact(couple: &Couple) -> Contact {
+fn contact(couple: &Couple) -> ContactGeometry {
     let [a, b] = couple.placed();
     let mut resolver = Resolver::new(Options::default());
     match resolver.resolve(&a, &b, &mut Cache::default()).unwrap() {

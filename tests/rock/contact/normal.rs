@@ -6,7 +6,7 @@ use clarabel::{
 };
 use glam::{DQuat, DVec3};
 use kit::contact::{Couple, Random, Solid};
-use riprap::rock::contact::{Cache, Contact, Normal, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{Cache, ContactGeometry, Normal, Options, Placed, Resolver, Verdict};
 
 /// Multipliers of the linear program, the first block's first, and their normal Σ z a over it.
 fn dual(a: &Placed, b: &Placed, length: f64) -> (Vec<f64>, DVec3) {
@@ -51,7 +51,7 @@ fn dual(a: &Placed, b: &Placed, length: f64) -> (Vec<f64>, DVec3) {
     (multipliers, normal.normalize())
 }
 
-fn contact(resolver: &mut Resolver, a: &Placed, b: &Placed) -> Option<Contact> {
+fn contact(resolver: &mut Resolver, a: &Placed, b: &Placed) -> Option<ContactGeometry> {
     match resolver.resolve(a, b, &mut Cache::default()).unwrap() {
         Verdict::Contact(contact) => Some(contact),
         _ => None,
@@ -160,7 +160,7 @@ fn swapping_the_blocks_turns_the_normal_and_keeps_every_bit() {
                 let there = resolver.resolve(&a, &b, &mut cache).unwrap();
                 let back = resolver.resolve(&b, &a, &mut other).unwrap();
                 let turned = match back {
-                    Verdict::Contact(contact) => Verdict::Contact(Contact {
+                    Verdict::Contact(contact) => Verdict::Contact(ContactGeometry {
                         normal: -contact.normal,
                         ..contact
                     }),

@@ -4,10 +4,10 @@ use glam::{DQuat, DVec3};
 use kit::contact::{Couple, Random, Solid};
 use riprap::{
     geometry::HalfSpace,
-    rock::contact::{Cache, Contact, Options, Placed, Resolver, Verdict},
+    rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict},
 };
 
-fn resolve(a: &Placed, b: &Placed) -> Option<Contact> {
+fn resolve(a: &Placed, b: &Placed) -> Option<ContactGeometry> {
     let mut resolver = Resolver::new(Options::default());
     match resolver.resolve(a, b, &mut Cache::default()).unwrap() {
         Verdict::Contact(contact) => Some(contact),
@@ -33,7 +33,7 @@ fn way(block: &Placed, x: DVec3, n: DVec3) -> Option<f64> {
 
 /// Area of the section across the normal, and the centroid of the way through the overlap over it, by the
 /// midpoint rule.
-fn brute_force(a: &Placed, b: &Placed, contact: &Contact) -> (f64, DVec3) {
+fn brute_force(a: &Placed, b: &Placed, contact: &ContactGeometry) -> (f64, DVec3) {
     const CELLS: i32 = 301;
     let step = 2.0 * contact.width / f64::from(CELLS);
     let (p, q) = contact.normal.any_orthonormal_pair();

@@ -62,7 +62,7 @@ fn coinciding_faces_touch() {
                 }
                 match resolver.resolve(a, b, &mut caches[k]).unwrap() {
                     Verdict::Contact(contact) => deepest = deepest.max(contact.overlap),
-                    Verdict::Touching => touching += 1,
+                    Verdict::Undecided => touching += 1,
                     Verdict::Apart => {}
                 }
                 k += 1;

@@ -34,7 +34,7 @@ fn agrees_with_parry_from_gaps_of_1e_9() {
         let right = match verdict {
             Verdict::Contact(_) => overlaps,
             Verdict::Apart => !overlaps,
-            Verdict::Touching => false,
+            Verdict::Undecided => false,
         };
         if !right {
             wrong.push((gap, couple.length, verdict));
@@ -85,7 +85,7 @@ fn agrees_with_intervals_for_aligned_boxes() {
         let right = match verdict {
             Verdict::Contact(_) => least > 0.0,
             Verdict::Apart => least < 0.0,
-            Verdict::Touching => false,
+            Verdict::Undecided => false,
         };
         assert!(right, "{first} {second} {shift}: {least} m, {verdict:?}");
         seen[usize::from(least > 0.0)] += 1;

@@ -39,7 +39,7 @@ impl Film {
     /// # Errors
     /// If a step fails.
     pub fn new(pile: &mut Pile) -> Result<Self> {
-        let pairs = pollster::block_on(HostBroadphase.pairs(&pile.blocks.items()))?;
+        let pairs = pollster::block_on(HostBroadphase.pairs(&pile.blocks.aabbs()))?;
         let mut frames = Vec::new();
         for _ in 0..FRAMES {
             pile.step()?;

@@ -62,7 +62,7 @@ impl Core {
     pub fn new() -> Result<Self> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         pool.map(Self)
-            .map_err(|e| Error::scene("threads", e.to_string()))
+            .map_err(|e| Error::argument("threads", e.to_string()))
     }
 
     /// What `work` takes on the core.

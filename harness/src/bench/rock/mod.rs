@@ -13,7 +13,7 @@ mod targets;
 pub use kit::exponent::exponent;
 pub use row::Row;
 
-use super::report::Machine;
+use super::{report::Machine, targets::Target};
 use core::Core;
 use riprap::{Result, wgpu};
 
@@ -58,7 +58,11 @@ pub struct Gpu<'a> {
 ///
 /// # Errors
 /// If the device fails, or a step.
-pub fn measure(plan: &Plan, device: Option<&Gpu<'_>>, machine: &Machine) -> Result<Vec<Row>> {
+pub fn measure(
+    plan: &Plan,
+    device: Option<&Gpu<'_>>,
+    machine: &Machine,
+) -> Result<(Vec<Row>, Vec<Target>)> {
     println!(
         "\nrock: the fastest of {} samples\n{}",
         plan.rounds,
@@ -70,6 +74,6 @@ pub fn measure(plan: &Plan, device: Option<&Gpu<'_>>, machine: &Machine) -> Resu
     search::measure(plan, &core, device, machine, &mut rows)?;
     few::measure(plan, &core, machine, &mut rows)?;
     step::measure(plan, &core, machine, &mut rows)?;
-    targets::print(&rows);
-    Ok(rows)
+    let targets = targets::print(&rows);
+    Ok((rows, targets))
 }

@@ -8,7 +8,7 @@ use super::{
 use crate::{bench::report::Machine, gpu};
 use riprap::{
     Result,
-    rock::broadphase::{Broadphase, DeviceBroadphase, HostBroadphase, Item},
+    rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase},
 };
 use std::time::Duration;
 
@@ -74,7 +74,7 @@ pub fn measure(
 
 /// Boxes of sizes from 1 to `ratio` cm, evenly on a logarithmic scale, in a cube of half their volume;
 /// each eighth is fixed.
-fn scattered(count: usize, ratio: f64) -> Vec<Item> {
+fn scattered(count: usize, ratio: f64) -> Vec<Aabb> {
     let mut random = Random(count as u64);
     let sizes: Vec<f64> = (0..count)
         .map(|_| 0.01 * ratio.powf(random.unit()))
@@ -86,7 +86,7 @@ fn scattered(count: usize, ratio: f64) -> Vec<Item> {
         let max = min.map(|low| low + size * (0.5 + 0.5 * random.unit()));
         let fixed = random.unit() < 0.125;
         let group = if fixed { u32::MAX } else { n };
-        Item { min, max, group }
+        Aabb { min, max, group }
     });
     boxes.collect()
 }

@@ -71,7 +71,7 @@ fn list(core: &Core, pile: &mut Pile, rounds: usize) -> Result<f64> {
     let mut cost = Cost::NONE;
     for _ in 0..rounds {
         let ((), took) = core.time(|| {
-            let pairs = pollster::block_on(HostBroadphase.pairs(&pile.blocks.items()))?;
+            let pairs = pollster::block_on(HostBroadphase.pairs(&pile.blocks.aabbs()))?;
             pile.blocks.set_pairs(pairs)
         })?;
         cost = cost.lower(took);
@@ -89,10 +89,10 @@ fn forces(core: &Core, pile: &Pile, rounds: usize) -> Result<f64> {
             area: contact.area,
             elastic_area: contact.area,
             rolls: false,
-            gape: 0.0,
+            opening: 0.0,
         };
         let motion = Motion {
-            way: 1e-8 * DVec3::ONE,
+            displacement: 1e-8 * DVec3::ONE,
             velocity: 1e-4 * DVec3::ONE,
             spin: DVec3::ZERO,
             frame: DQuat::IDENTITY,

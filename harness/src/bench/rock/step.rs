@@ -115,7 +115,7 @@ fn steps(
             kernel: "step",
             variant: variant.into(),
             count: pile.free,
-            pairs: pile.blocks.candidates(),
+            pairs: pile.blocks.candidate_pair_count(),
             contacts: pile.blocks.contacts().count(),
         };
         let row = Row {

@@ -3,9 +3,9 @@
 use super::{cut, few, row::Row, step};
 use crate::bench::targets::{Target, show};
 
-/// Prints one line about the aims.
-pub fn print(rows: &[Row]) {
-    show("rock", &targets(rows));
+/// Prints one line about the aims, and returns them.
+pub fn print(rows: &[Row]) -> Vec<Target> {
+    show("rock", targets(rows))
 }
 
 /// The aims of which there are rows.
@@ -51,18 +51,22 @@ pub fn targets(rows: &[Row]) -> Vec<Target> {
             1.1,
         ),
         (
-            "of the host's broadphase, 1:1 ≤ 1.1",
+            "exponent of the host's broadphase, sizes 1:1 ≤ 1.1",
             last("broadphase", "host, sizes 1:1"),
             1.1,
         ),
-        ("1:100 ≤ 1.1", last("broadphase", "host, sizes 1:100"), 1.1),
         (
-            "of the device's, 1:1 ≤ 1.1",
+            "exponent of the host's broadphase, sizes 1:100 ≤ 1.1",
+            last("broadphase", "host, sizes 1:100"),
+            1.1,
+        ),
+        (
+            "exponent of the device's broadphase, sizes 1:1 ≤ 1.1",
             last("broadphase", "device, sizes 1:1"),
             1.1,
         ),
         (
-            "1:100 ≤ 1.1",
+            "exponent of the device's broadphase, sizes 1:100 ≤ 1.1",
             last("broadphase", "device, sizes 1:100"),
             1.1,
         ),

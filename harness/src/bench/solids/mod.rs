@@ -70,7 +70,7 @@ pub fn measure(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     machine: &Machine,
-) -> anyhow::Result<Vec<Row>> {
+) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let plan = Plan::new(machine, quick, full);
     let turns = Turns::new(device, queue, machine, plan.rounds, plan.long);
     let mut rows = Vec::new();
@@ -153,13 +153,13 @@ pub fn measure(
     // Without the smallest, of which most is the same for all sizes.
     let last = exponent(&points[1..]).unwrap_or(f64::NAN);
     tell("the same without the smallest", "", last, "");
-    show(
+    let targets = show(
         "solids",
-        &[
+        vec![
             Target::at_most("moving solids of 10 % ≤ 15 %", overhead, 15.0),
             Target::at_most("one block ≤ 2 %", single, 2.0),
             Target::at_most("solid fractions linear, p ≤ 1.1", last, 1.1),
         ],
     );
-    Ok(rows)
+    Ok((rows, targets))
 }

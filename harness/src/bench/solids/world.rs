@@ -1,6 +1,7 @@
 //! Boxes of fluid with blocks in them, in lattice units: cell, step and density are 1.
 
 use riprap::{
+    lattice::Lattice,
     scene::{Motion, Probe, ProbePlace, Scene, Sleep},
     simulation::Simulation,
 };
@@ -154,7 +155,9 @@ impl World {
         let Some(simulation) = &self.simulation else {
             return 0.0;
         };
-        let grid = simulation.lattice().grid();
+        let Some(grid) = simulation.lattice().map(Lattice::grid) else {
+            return 0.0;
+        };
         let all: u32 = grid.bricks().iter().product();
         let bricks = simulation
             .coupled()

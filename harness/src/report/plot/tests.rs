@@ -59,7 +59,7 @@ fn diagrams_are_well_formed() {
         row("diverged", 8.0, None, 0.0),
     ];
     let rows: Vec<&Row> = rows.iter().collect();
-    let text = diagram(&class(), &rows, ("CPU time, s", |row| row.cpu_seconds));
+    let text = diagram(&class(), &rows, ("CPU time, s", |row| row.cpu_seconds)).unwrap();
     assert_eq!(faults(&text), Vec::<String>::new());
     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
     assert!(text.contains("diverged (no result)"));
@@ -67,7 +67,7 @@ fn diagrams_are_well_formed() {
 
 #[test]
 fn an_empty_diagram_is_well_formed() {
-    let text = diagram(&class(), &[], ("s", |row| row.cpu_seconds));
+    let text = diagram(&class(), &[], ("s", |row| row.cpu_seconds)).unwrap();
     assert_eq!(faults(&text), Vec::<String>::new());
 }
 

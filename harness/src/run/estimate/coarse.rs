@@ -1,6 +1,6 @@
 //! A scene at half its resolution.
 
-use super::super::{Args, Dry, Engine, SphRun};
+use super::super::{Args, SceneRun};
 use anyhow::{Context, Result};
 use riprap::{
     Error,
@@ -31,8 +31,8 @@ pub fn halved(scene: &Scene, args: &Args) -> Result<Halved> {
             particles.spacing *= 2.0;
             let says = format!("particles {} m apart", particles.spacing);
             if args.steps.or(scene.run.steps).is_some() {
-                let engine = SphRun::open(scene, &args.scene, args.adapter.as_deref())?;
-                half.run = lasting(scene, args, engine.time_step());
+                let run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
+                half.run = lasting(scene, args, run.time_step());
             }
             says
         }
@@ -92,8 +92,8 @@ fn lasting(scene: &Scene, args: &Args, time_step: f64) -> Run {
 
 /// Length of the steps and of the sub-steps of dry blocks, s.
 fn steps_of(scene: &Scene, args: &Args) -> Result<(f64, f64)> {
-    let engine = Dry::open(scene, &args.scene, args.adapter.as_deref())?;
-    let sub_step = engine.rock().map(|rock| rock.blocks.time_step());
-    let step = engine.time_step();
+    let run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
+    let sub_step = run.rock().map(|rock| rock.blocks.time_step());
+    let step = run.time_step();
     Ok((step, sub_step.unwrap_or(step).min(step)))
 }

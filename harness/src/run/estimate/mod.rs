@@ -46,7 +46,7 @@ pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     if args.restart.is_some() {
         let message = "the scene at half its resolution has no such checkpoint; leave out `--restart` or \
             `--error-estimate`";
-        return Err(Error::scene("--error-estimate", message).into());
+        return Err(Error::argument("--error-estimate", message).into());
     }
     let half = coarse::halved(scene, args)?;
     let folder = folder(args);

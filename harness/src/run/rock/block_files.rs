@@ -2,8 +2,8 @@
 //! loads somebody asks for.
 
 use super::super::{
-    engine::Engine,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
 use anyhow::Result;
@@ -24,22 +24,22 @@ pub struct BlockFiles {
 
 impl BlockFiles {
     /// Begins the collections, or goes on with them after a restart.
-    pub fn new(engine: &impl Engine, folder: &Path, last: u64) -> Result<Self> {
-        let output = &engine.scene().output;
+    pub fn new(run: &SceneRun, folder: &Path, last: u64) -> Result<Self> {
+        let output = &run.scene().output;
         let collection = |name: &str| {
             let path = folder.join(name);
-            match engine.step() {
+            match run.step() {
                 0 => Pvd::create(path),
-                _ => Pvd::resume(path, engine.time()),
+                _ => Pvd::resume(path, run.time()),
             }
         };
         let contacts = output.contacts.then(|| collection("contacts.pvd"));
-        let mut probes = engine.scene().probes.iter();
+        let mut probes = run.scene().probes.iter();
         let asks = |place: &ProbePlace| matches!(place, ProbePlace::Block { faces: true, .. });
         let faces = probes.any(|probe| asks(&probe.place));
         let faces = faces.then(|| collection("faces.pvd"));
         Ok(Self {
-            schedule: Schedule::of(output.every, engine.time_step(), last),
+            schedule: Schedule::new(output.every, run.time_step(), last),
             folder: folder.to_owned(),
             blocks: collection("blocks.pvd")?,
             contacts: contacts.transpose()?,
@@ -48,13 +48,13 @@ impl BlockFiles {
     }
 }
 
-impl<E: Engine> Recorder<E> for BlockFiles {
+impl Recorder for BlockFiles {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let Some(rock) = engine.rock() else {
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let Some(rock) = run.rock() else {
             return Ok(());
         };
         let (step, time) = (rock.step, rock.time);
@@ -62,21 +62,21 @@ impl<E: Engine> Recorder<E> for BlockFiles {
         let shown = &rock.setup.blocks[..rock.shown];
         write_vtu(&path, &block_polyhedra(shown, rock.blocks, rock.felt))?;
         self.blocks.add(time, &path)?;
-        notes.file(self.folder.join("blocks.pvd"));
-        notes.file(path);
+        log.file(self.folder.join("blocks.pvd"));
+        log.file(path);
         if let Some(contacts) = &mut self.contacts {
             let path = self.folder.join(format!("contacts_{step:06}.vtp"));
             write_vtp(&path, &contact_cloud(rock.blocks))?;
             contacts.add(time, &path)?;
-            notes.file(self.folder.join("contacts.pvd"));
-            notes.file(path);
+            log.file(self.folder.join("contacts.pvd"));
+            log.file(path);
         }
         if let (Some(faces), Some(coupled)) = (&mut self.faces, rock.coupled) {
             let path = self.folder.join(format!("faces_{step:06}.vtp"));
-            write_surface(&path, &face_surface(coupled))?;
+            write_surface(&path, &face_surface(&coupled))?;
             faces.add(time, &path)?;
-            notes.file(self.folder.join("faces.pvd"));
-            notes.file(path);
+            log.file(self.folder.join("faces.pvd"));
+            log.file(path);
         }
         Ok(())
     }

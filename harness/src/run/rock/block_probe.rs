@@ -2,9 +2,9 @@
 
 use super::super::{
     curves,
-    engine::Engine,
     history::table,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
 use super::{Rock, Safety, forces};
@@ -56,13 +56,13 @@ pub struct BlockProbe {
 impl BlockProbe {
     /// Begins the table of the block called `name`, or goes on with it after a restart.
     pub fn new(
-        engine: &impl Engine,
+        run: &SceneRun,
         folder: &Path,
         last: u64,
         (probe, name): (&Probe, &str),
         [faces, safety]: [bool; 2],
     ) -> Result<Self> {
-        let (rock, block) = find(engine, probe, name)?;
+        let (rock, block) = find(run, probe, name)?;
         let mut measured = MEASURED.to_vec();
         if block < rock.felt.len() {
             measured.extend(IN_FLUID);
@@ -87,8 +87,8 @@ impl BlockProbe {
         }
         let path = folder.join(format!("{}.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::of(probe.every, engine.time_step(), last),
-            table: table(engine, &path, &columns)?,
+            schedule: Schedule::new(probe.every, run.time_step(), last),
+            table: table(run, &path, &columns)?,
             block,
             faces,
             safety,
@@ -97,13 +97,9 @@ impl BlockProbe {
     }
 }
 
-/// The blocks of an engine, and the number of that which a probe follows.
-pub fn find<'a>(
-    engine: &'a impl Engine,
-    probe: &Probe,
-    name: &str,
-) -> riprap::Result<(Rock<'a>, usize)> {
-    let found = engine.rock().and_then(|rock| {
+/// The blocks of an run, and the number of that which a probe follows.
+pub fn find<'a>(run: &'a SceneRun, probe: &Probe, name: &str) -> riprap::Result<(Rock<'a>, usize)> {
+    let found = run.rock().and_then(|rock| {
         let mut blocks = rock.setup.blocks.iter();
         Some((rock, blocks.position(|block| block.name == name)?))
     });
@@ -148,7 +144,7 @@ fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
 }
 
 /// Those of `OF_FACES`.
-fn measure_faces(coupled: &Coupled, block: usize, gravity: DVec3) -> [f64; 2] {
+fn measure_faces(coupled: Coupled<'_>, block: usize, gravity: DVec3) -> [f64; 2] {
     let up = -gravity.normalize_or_zero();
     let loads = coupled.face_loads(block);
     let closed = coupled.joint_loads(block);
@@ -182,13 +178,13 @@ fn standing(rock: &Rock<'_>, block: usize) -> Standing {
     Standing::of(rock.setup, rock.blocks, block, fluid.unwrap_or_else(whole))
 }
 
-impl<E: Engine> Recorder<E> for BlockProbe {
+impl Recorder for BlockProbe {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        if let Some(rock) = engine.rock() {
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        if let Some(rock) = run.rock() {
             let vectors = measure(&rock, self.block).into_iter();
             let mut values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
             values.extend(stressed(&rock, self.block));
@@ -199,24 +195,24 @@ impl<E: Engine> Recorder<E> for BlockProbe {
                 let now = standing(&rock, self.block);
                 values.extend([now.sliding.factor, now.uplift, now.toppling]);
                 let name = rock.blocks.name(self.block);
-                Safety::note(&mut notes.safety, name, rock.time, &now);
+                Safety::note(&mut log.safety, name, rock.time, &now);
             }
             self.table.append(rock.step, rock.time, &values)?;
-            notes.file(self.path.clone());
+            log.file(self.path.clone());
         }
         Ok(())
     }
 
-    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
-        let Some(rock) = engine.rock() else {
+    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
+        let Some(rock) = run.rock() else {
             return Ok(());
         };
         let mut tracks = forces::FORCES.to_vec();
         if self.block < rock.felt.len() {
             tracks.splice(..0, forces::IN_FLUID);
         }
-        let scene = engine.scene();
+        let scene = run.scene();
         let title = format!("{}: {}", scene.title, rock.blocks.name(self.block));
-        curves::draw(scene, &self.path, &title, &tracks, notes)
+        curves::draw(scene, &self.path, &title, &tracks, log)
     }
 }

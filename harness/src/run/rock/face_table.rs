@@ -1,9 +1,9 @@
 //! The loads on the faces of a block: `NAME_faces.csv`.
 
 use super::super::{
-    engine::Engine,
     history::table,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
 use anyhow::Result;
@@ -35,7 +35,7 @@ pub struct FaceTable {
 impl FaceTable {
     /// Begins the table of the faces of a block, or goes on with it after a restart.
     pub fn new(
-        engine: &impl Engine,
+        run: &SceneRun,
         folder: &Path,
         last: u64,
         (probe, block): (&Probe, usize),
@@ -45,8 +45,8 @@ impl FaceTable {
         let columns: Vec<String> = scalars.chain(VECTORS.into_iter().flat_map(along)).collect();
         let path = folder.join(format!("{}_faces.csv", probe.name));
         Ok(Self {
-            schedule: Schedule::of(probe.every, engine.time_step(), last),
-            table: table(engine, &path, &columns)?,
+            schedule: Schedule::new(probe.every, run.time_step(), last),
+            table: table(run, &path, &columns)?,
             block,
             path,
         })
@@ -75,14 +75,13 @@ fn row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Vec<f64> {
     row
 }
 
-impl<E: Engine> Recorder<E> for FaceTable {
+impl Recorder for FaceTable {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let Some((rock, coupled)) = engine.rock().and_then(|rock| Some((rock, rock.coupled?)))
-        else {
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let Some((rock, coupled)) = run.rock().and_then(|rock| Some((rock, rock.coupled?))) else {
             return Ok(());
         };
         let loads = coupled.face_loads(self.block).iter();
@@ -92,7 +91,7 @@ impl<E: Engine> Recorder<E> for FaceTable {
             let row = row(load, joint, closed.get(number));
             self.table.append(rock.step, rock.time, &row)?;
         }
-        notes.file(self.path.clone());
+        log.file(self.path.clone());
         Ok(())
     }
 }

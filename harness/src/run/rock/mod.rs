@@ -4,7 +4,6 @@ mod block_files;
 mod block_probe;
 mod face_table;
 mod forces;
-mod program;
 mod rocks;
 mod safety;
 mod values;
@@ -16,16 +15,16 @@ pub use rocks::Rocks;
 pub use safety::{Factors, Safety};
 pub use values::values;
 
-use super::engine::{Engine, Recorders};
+use super::{recorder::Recorders, scene_run::SceneRun};
 use anyhow::Result;
 use riprap::{
     coupling::{Coupled, FluidLoad},
-    rock::{Blocks, Ledger, Motion, Setup},
+    rock::{Blocks, EnergyLedger, Motion, Setup},
     scene::Probe,
 };
 use std::path::Path;
 
-/// The blocks of an engine as they are now.
+/// The blocks of an run as they are now.
 #[derive(Clone, Copy)]
 pub struct Rock<'a> {
     /// Steps done.
@@ -39,32 +38,27 @@ pub struct Rock<'a> {
     /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
     pub felt: &'a [FluidLoad],
     /// They and the fluid together, where there is one.
-    pub coupled: Option<&'a Coupled>,
+    pub coupled: Option<Coupled<'a>>,
     /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.
     pub shown: usize,
     /// Energies at the start, those that a restart has not seen included.
-    pub start: &'a Ledger,
+    pub start: &'a EnergyLedger,
 }
 
 /// What writes the tables of a probe of the block called `name`.
-pub fn probes<E: Engine>(
-    engine: &E,
+pub fn probes(
+    run: &SceneRun,
     folder: &Path,
     last: u64,
     (probe, name): (&Probe, &str),
     [faces, safety]: [bool; 2],
-) -> Result<Recorders<E>> {
+) -> Result<Recorders> {
     let named = (probe, name);
-    let block = BlockProbe::new(engine, folder, last, named, [faces, safety])?;
-    let mut recorders: Recorders<E> = vec![Box::new(block)];
+    let block = BlockProbe::new(run, folder, last, named, [faces, safety])?;
+    let mut recorders: Recorders = vec![Box::new(block)];
     if faces {
-        let (_, block) = block_probe::find(engine, probe, name)?;
-        recorders.push(Box::new(FaceTable::new(
-            engine,
-            folder,
-            last,
-            (probe, block),
-        )?));
+        let (_, block) = block_probe::find(run, probe, name)?;
+        recorders.push(Box::new(FaceTable::new(run, folder, last, (probe, block))?));
     }
     Ok(recorders)
 }

@@ -1,9 +1,6 @@
 //! A run of blocks in numbers.
 
-use super::{
-    super::{engine::Engine, pace::Pace, recorder::Notes},
-    program,
-};
+use super::super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
 use serde::Serialize;
 use std::fmt;
 
@@ -22,8 +19,6 @@ pub struct Rocks {
     pub tests: u64,
     /// Linear programs that this took.
     pub programs: u64,
-    /// Seconds that one takes, measured at the end; 0 where it was not.
-    pub program_seconds: f64,
     /// Seconds of this run's steps, without what was written.
     pub seconds: f64,
     /// Longest sub-step at the end, s.
@@ -51,7 +46,7 @@ pub struct Energies {
     pub potential: f64,
     /// Of strain, in the deformable blocks.
     pub strain: f64,
-    /// In the springs of the present contacts; may be negative, see [`riprap::rock::Ledger`].
+    /// In the springs of the present contacts; may be negative, see [`riprap::rock::EnergyLedger`].
     pub elastic: f64,
     /// Taken by friction.
     pub friction: f64,
@@ -70,21 +65,20 @@ pub struct Energies {
 }
 
 impl Rocks {
-    /// The present state of the blocks of `engine`, if it has any.
-    pub fn of(engine: &impl Engine) -> Option<Self> {
-        let rock = engine.rock()?;
+    /// The present state of the blocks of `run`, if it has any.
+    pub fn of(run: &SceneRun) -> Option<Self> {
+        let rock = run.rock()?;
         let blocks = rock.blocks;
         let ledger = blocks.ledger();
         Some(Self {
             blocks: rock.shown,
             awake: rock.awake(),
             contacts: blocks.contacts().count(),
-            pairs: blocks.candidates(),
+            pairs: blocks.candidate_pair_count(),
             tests: blocks.counts().pairs,
             programs: blocks.counts().programs,
-            program_seconds: 0.0,
             seconds: 0.0,
-            sub_step: blocks.time_step().min(engine.time_step()),
+            sub_step: blocks.time_step().min(run.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
             energy_error: rock.energy_error(&ledger),
@@ -107,13 +101,12 @@ impl Rocks {
     }
 
     /// The state at the end of a run.
-    pub fn concluded(engine: &impl Engine, notes: &Notes, pace: &Pace) -> Option<Self> {
-        let now = Self::of(engine)?;
-        let warm = pace.warm();
+    pub fn finished(run: &SceneRun, log: &RunLog, throughput: &Throughput) -> Option<Self> {
+        let now = Self::of(run)?;
+        let warm = throughput.warm();
         Some(Self {
-            max_speed_seen: notes.block_speed.max(now.max_speed),
-            program_seconds: program::seconds().unwrap_or_default(),
-            seconds: pace.whole().time.as_secs_f64(),
+            max_speed_seen: log.block_speed.max(now.max_speed),
+            seconds: throughput.whole().time.as_secs_f64(),
             steps_a_second: warm.rate(warm.steps),
             ..now
         })

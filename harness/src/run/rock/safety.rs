@@ -49,7 +49,7 @@ impl Factors {
 }
 
 impl Safety {
-    /// Notes how `block` stands at `time` (s).
+    /// RunLog how `block` stands at `time` (s).
     pub fn note(all: &mut Vec<Self>, block: &str, time: f64, now: &Standing) {
         let now = [now.sliding.factor, now.uplift, now.toppling];
         let least = match all.iter().find(|known| known.block == block) {

@@ -2,7 +2,10 @@
 
 use super::super::slice_field::SliceQuantity;
 use super::coarse::Coarse;
-use super::shown::{Shown, immersed, placed};
+use super::{
+    super::scene_run::SceneRun,
+    shown::{immersed, placed},
+};
 use crate::{
     picture::{Plane, Section, Trace, traces},
     render::{Colours, FluidPlane, Traces},
@@ -55,12 +58,12 @@ impl Fluid {
     }
 
     /// The present planes through the fluid among blocks at `poses`.
-    pub fn planes<E: Shown>(&self, engine: &mut E, poses: &[Pose]) -> Result<Vec<FluidPlane>> {
+    pub fn planes(&self, run: &mut SceneRun, poses: &[Pose]) -> Result<Vec<FluidPlane>> {
         let slices = self.slices.iter();
         slices
             .map(|(slice, layer)| {
                 let shown = SliceQuantity::of(slice.field);
-                let image = self.image(engine, shown.field, layer.cells(), layer.frame())?;
+                let image = self.image(run, shown.field, layer.cells(), layer.frame())?;
                 let axis = slice.axis.index();
                 let plane = Plane {
                     normal: axis,
@@ -68,7 +71,7 @@ impl Fluid {
                 };
                 let mut section = Section::new(&image, plane, shown.quantity())?;
                 // Solids stand before their cells as blocks do.
-                section.leave_out(&placed(engine, poses), plane);
+                section.leave_out(&placed(run, poses), plane);
                 let range = match slice.field {
                     SliceField::Speed => slice.range.or(self.speeds),
                     _ => slice.range,
@@ -79,20 +82,20 @@ impl Fluid {
     }
 
     /// The present lines along the flow among blocks at `poses`, if the view shows any.
-    pub fn traces<E: Shown>(&self, engine: &mut E, poses: &[Pose]) -> Result<Option<Traces>> {
+    pub fn traces(&self, run: &mut SceneRun, poses: &[Pose]) -> Result<Option<Traces>> {
         let Some(coarse) = &self.coarse else {
             return Ok(None);
         };
-        let image = self.image(engine, Field::Velocity, coarse.cells(), coarse.frame())?;
-        let lines: Vec<Trace> = traces(&image, &immersed(engine, poses), self.count);
+        let image = self.image(run, Field::Velocity, coarse.cells(), coarse.frame())?;
+        let lines: Vec<Trace> = traces(&image, &immersed(run, poses), self.count);
         let colours: Colours = SliceQuantity::of(SliceField::Speed).colours(self.speeds);
         Ok(Some(Traces { lines, colours }))
     }
 
     /// `field` and what is solid on `cells`, which `frame` is made of.
-    fn image<E: Shown>(
+    fn image(
         &self,
-        engine: &mut E,
+        run: &mut SceneRun,
         field: Field,
         cells: &[u32],
         frame: Image,
@@ -102,7 +105,7 @@ impl Fluid {
             fields.push(Field::Solid);
         }
         Ok(Image {
-            arrays: engine.read(&fields, cells)?,
+            arrays: run.read(&fields, cells)?,
             ..frame
         })
     }

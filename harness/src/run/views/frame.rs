@@ -1,7 +1,7 @@
 //! What a picture shows, at one time.
 
 use super::fluid::Fluid;
-use super::shown::{Shown, each_shape};
+use super::{super::scene_run::SceneRun, shown::each_shape};
 use crate::{
     picture::{Palette, extremes},
     render::{Colours, Drops, FluidPlane, Instance, Traces},
@@ -26,17 +26,17 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// What there is now of the blocks of `engine`, and of its `fluid`.
-    pub fn of<E: Shown>(engine: &mut E, fluid: &Fluid) -> Result<Self> {
-        let poses = engine.poses();
-        let planes = fluid.planes(engine, &poses)?;
-        let traces = fluid.traces(engine, &poses)?;
-        let drops = engine.drops(fluid.speed())?;
+    /// What there is now of the blocks of `run`, and of its `fluid`.
+    pub fn of(run: &mut SceneRun, fluid: &Fluid) -> Result<Self> {
+        let poses = run.poses();
+        let planes = fluid.planes(run, &poses)?;
+        let traces = fluid.traces(run, &poses)?;
+        let drops = run.drops(fluid.speed())?;
         // Two scales of colours for speeds in one picture would be mixed up.
         let coloured = planes.is_empty() && traces.is_none() && drops.is_none();
         Ok(Self {
-            time: engine.time(),
-            bodies: bodies(engine, &poses, coloured),
+            time: run.time(),
+            bodies: bodies(run, &poses, coloured),
             planes,
             traces,
             drops,
@@ -95,9 +95,9 @@ fn least_and_largest(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// The blocks at `poses`, each with the speed of its centroid if they are `coloured`.
-fn bodies(engine: &impl Shown, poses: &[Pose], coloured: bool) -> Vec<Instance> {
-    let first = each_shape(engine.blocks(), |_| {});
-    let blocks = engine.blocks().iter().zip(poses);
+fn bodies(run: &SceneRun, poses: &[Pose], coloured: bool) -> Vec<Instance> {
+    let first = each_shape(run.blocks(), |_| {});
+    let blocks = run.blocks().iter().zip(poses);
     let parts = blocks.flat_map(|(block, pose)| {
         let first = first[&Arc::as_ptr(&block.shape)];
         let parts = block.shape.parts().iter().enumerate();

@@ -1,11 +1,13 @@
-//! Pictures in space of any engine that is [`Shown`].
+//! Pictures in space.
 
 mod coarse;
 mod fluid;
 mod frame;
 mod recorder;
 mod shown;
+mod solids;
 mod stage;
 
 pub use recorder::Views;
-pub use shown::{Shown, immersed};
+pub use shown::immersed;
+pub use solids::solid_blocks;

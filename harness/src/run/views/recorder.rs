@@ -2,10 +2,11 @@
 //! of them in turn as `NAME.png`.
 
 use super::super::{
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
-use super::{fluid::Fluid, frame::Frame, shown::Shown, stage::Stage};
+use super::{fluid::Fluid, frame::Frame, stage::Stage};
 use crate::render::{Picture, animate};
 use anyhow::{Result, bail};
 use riprap::scene::View;
@@ -40,16 +41,16 @@ pub struct Views {
 impl Views {
     /// The pictures of `view` until the step `last`, drawn on the adapter called `adapter`, or the best one.
     pub fn new(
-        engine: &impl Shown,
+        run: &SceneRun,
         folder: &Path,
         last: u64,
         view: &View,
         adapter: Option<String>,
     ) -> Self {
-        let scene = engine.scene();
+        let scene = run.scene();
         let every = view.every.or(scene.output.every);
         Self {
-            schedule: Schedule::of(every, engine.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             view: view.clone(),
             fluid: Fluid::new(scene, view),
             adapter,
@@ -65,14 +66,14 @@ impl Views {
         self.folder.join(format!("{}{ending}.png", self.view.name))
     }
 
-    fn stage(&mut self, engine: &impl Shown, frame: &Frame) -> Result<&Stage> {
+    fn stage(&mut self, run: &SceneRun, frame: &Frame) -> Result<&Stage> {
         if let Some(failed) = &self.failed {
             bail!("{failed}");
         }
         let stage = match self.stage.take() {
             Some(stage) => stage,
             None => {
-                let made = Stage::new(engine, &self.view, self.adapter.as_deref(), frame);
+                let made = Stage::new(run, &self.view, self.adapter.as_deref(), frame);
                 // It would fail again, and open a device for each picture.
                 made.inspect_err(|error| self.failed = Some(format!("{error:#}")))?
             }
@@ -113,36 +114,36 @@ impl Views {
     }
 }
 
-impl<E: Shown> Recorder<E> for Views {
+impl Recorder for Views {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut E, notes: &mut Notes) -> Result<()> {
-        let path = self.path(&format!("_{:06}", engine.step()));
-        let frame = Frame::of(engine, &self.fluid)?;
-        let wanted = self.wanted(engine.step()).then(|| frame.clone());
-        let stage = self.stage(engine, &frame);
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let path = self.path(&format!("_{:06}", run.step()));
+        let frame = Frame::of(run, &self.fluid)?;
+        let wanted = self.wanted(run.step()).then(|| frame.clone());
+        let stage = self.stage(run, &frame);
         let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));
-        notes.picture(path, drawn);
+        log.picture(path, drawn);
         self.strip.extend(wanted);
         Ok(())
     }
 
-    fn finish(&mut self, engine: &E, notes: &mut Notes) -> Result<()> {
+    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
         let Some(stage) = &self.stage else {
             return Ok(());
         };
         if self.strip.len() > 1 {
             let path = self.path("_strip");
             let drawn = stage.strip(self.strip.clone());
-            notes.picture(path.clone(), drawn.and_then(|strip| strip.save(&path)));
+            log.picture(path.clone(), drawn.and_then(|strip| strip.save(&path)));
         }
-        let step = engine.step();
+        let step = run.step();
         if self.view.animation && self.frames(step).len() > 1 {
             let path = self.path("");
             let drawn = self.animate(step, &path);
-            notes.picture(path, drawn);
+            log.picture(path, drawn);
         }
         Ok(())
     }

@@ -1,44 +1,90 @@
-//! What pictures ask of an engine.
+//! Blocks, solids and particles of a run, as pictures show them.
 
-use super::super::engine::Engine;
-use crate::{picture::Placed, render::Drops};
+use super::{super::scene_run::SceneRun, solids::pose};
+use crate::{
+    picture::Placed,
+    render::{Colours, Drop, Drops},
+};
 use riprap::{
+    Result,
     geometry::{Pose, Shape},
-    output::Array,
     rock::Block,
-    scene::Field,
 };
 use std::{collections::HashMap, sync::Arc};
 
-/// An engine with something to be seen in space.
-pub trait Shown: Engine {
+/// Radius of a sphere with the volume of a particle, (3/4π)^⅓, in spacings.
+const SPHERE_RADIUS: f64 = 0.62;
+
+impl SceneRun {
     /// The blocks, static solids last; none where there is only a fluid in a box.
-    fn blocks(&self) -> &[Block];
+    pub(in super::super) fn blocks(&self) -> &[Block] {
+        match self.rock() {
+            Some(rock) => &rock.setup.blocks[..rock.shown],
+            None => &self.solids,
+        }
+    }
 
-    /// How many of the blocks are static solids, which cells of a fluid show as well.
-    fn solids(&self) -> usize;
+    /// Number of the static solids among the blocks, which cells of a lattice show as well.
+    pub(in super::super) fn solids(&self) -> usize {
+        match self.rock() {
+            Some(_) => self.scene().solids.len(),
+            None => self.solids.len(),
+        }
+    }
 
-    /// Where the blocks are.
-    fn poses(&self) -> Vec<Pose>;
+    /// Poses of the blocks.
+    pub(in super::super) fn poses(&self) -> Vec<Pose> {
+        match self.rock() {
+            Some(rock) => {
+                let mut poses = rock.blocks.poses();
+                poses.truncate(rock.shown);
+                poses
+            }
+            None => self.solids.iter().map(pose).collect(),
+        }
+    }
 
-    /// The given fields on the given cells of the fluid, SI. A scene without fluid asks for none.
-    fn read(&mut self, fields: &[Field], cells: &[u32]) -> riprap::Result<Vec<Array>>;
-
-    /// The particles of water, if that is what flows; `speed` (m/s) has the last colour, if it is given.
-    fn drops(&mut self, _speed: Option<f64>) -> riprap::Result<Option<Drops>> {
-        Ok(None)
+    /// The particles of free water, if there is any; `speed` (m/s) has the last colour, if it is given.
+    pub(in super::super) fn drops(&mut self, speed: Option<f64>) -> Result<Option<Drops>> {
+        if self.simulation.particles().is_none() {
+            return Ok(None);
+        }
+        let water = self.water()?;
+        let setup = self
+            .simulation
+            .particles()
+            .map(|particles| particles.setup());
+        let drop = |(x, v): (&glam::DVec3, &glam::Vec3)| Drop {
+            centre: *x,
+            value: v.as_dvec3().length(),
+        };
+        let drops = |setup: &riprap::sph::Setup| Drops {
+            drops: water
+                .positions
+                .iter()
+                .zip(&water.velocities)
+                .map(drop)
+                .collect(),
+            radius: SPHERE_RADIUS * setup.spacing,
+            colours: Colours {
+                label: "speed".into(),
+                unit: "m/s".into(),
+                range: Some([0.0, speed.unwrap_or(setup.largest_speed())]),
+            },
+        };
+        Ok(setup.map(drops))
     }
 }
 
-/// The convex parts of the blocks of `engine`, where `poses` say.
-pub fn placed<'a>(engine: &'a impl Shown, poses: &[Pose]) -> Vec<Placed<'a>> {
-    parts(engine.blocks(), poses)
+/// The convex parts of the blocks of `run`, where `poses` say.
+pub fn placed<'a>(run: &'a SceneRun, poses: &[Pose]) -> Vec<Placed<'a>> {
+    parts(run.blocks(), poses)
 }
 
 /// Those of the blocks that are no static solids.
-pub fn immersed<'a>(engine: &'a impl Shown, poses: &[Pose]) -> Vec<Placed<'a>> {
-    let blocks = engine.blocks();
-    parts(&blocks[..blocks.len() - engine.solids()], poses)
+pub fn immersed<'a>(run: &'a SceneRun, poses: &[Pose]) -> Vec<Placed<'a>> {
+    let blocks = run.blocks();
+    parts(&blocks[..blocks.len() - run.solids()], poses)
 }
 
 fn parts<'a>(blocks: &'a [Block], poses: &[Pose]) -> Vec<Placed<'a>> {

@@ -1,7 +1,7 @@
 //! What a view shows: the meshes of the blocks, the camera and the colours, the same in every picture.
 
 use super::frame::{Frame, share_ranges};
-use super::shown::{Shown, each_shape};
+use super::{super::scene_run::SceneRun, shown::each_shape};
 use crate::{
     gpu,
     render::{Camera, Colours, Drawing, Ground, Line, Look, Mesh, Picture, Renderer, View},
@@ -37,9 +37,9 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Opens the adapter called `adapter`, or the best one, and places the camera for the first `frame` of `engine`.
+    /// Opens the adapter called `adapter`, or the best one, and places the camera for the first `frame` of `run`.
     pub fn new(
-        engine: &impl Shown,
+        run: &SceneRun,
         view: &scene::View,
         adapter: Option<&str>,
         frame: &Frame,
@@ -49,13 +49,13 @@ impl Stage {
         let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), limits)?;
         let renderer = Renderer::new(&device, &queue, view.size)?;
         let small = Renderer::new(&device, &queue, view.size.map(|edge| edge / 2))?;
-        let scene = engine.scene();
-        let meshes = meshes(engine);
+        let scene = run.scene();
+        let meshes = meshes(run);
         let edges = match frame.traces.is_some() || frame.drops.is_some() {
             true => edges(&scene.domain),
             false => Vec::new(),
         };
-        let speed = || view.speed.unwrap_or_else(|| usual_speed(engine));
+        let speed = || view.speed.unwrap_or_else(|| usual_speed(run));
         let mut stage = Self {
             renderer,
             small,
@@ -155,9 +155,9 @@ fn framed(frame: &Frame) -> Frame {
 }
 
 /// A mesh for each part of each different shape.
-fn meshes(engine: &impl Shown) -> Vec<Mesh> {
+fn meshes(run: &SceneRun) -> Vec<Mesh> {
     let mut made = Vec::new();
-    each_shape(engine.blocks(), |shape| {
+    each_shape(run.blocks(), |shape| {
         made.extend(shape.parts().iter().map(|part| match &part.form {
             Form::Convex(block) => Mesh::of(block),
             Form::Sphere { radius } => Mesh::sphere(*radius, CUTS),
@@ -183,17 +183,17 @@ fn edges(domain: &Domain) -> Vec<Line> {
 }
 
 /// √(2gL), L the largest extent of a block that moves; without gravity the largest speed now, m/s.
-fn usual_speed(engine: &impl Shown) -> f64 {
-    let blocks = engine.blocks().iter();
+fn usual_speed(run: &SceneRun) -> f64 {
+    let blocks = run.blocks().iter();
     let moving = blocks.filter(|block| block.motion != Motion::Fixed);
     let extent = moving
         .map(|block| 2.0 * block.shape.radius())
         .fold(0.0, f64::max);
-    let gravity = DVec3::from(engine.scene().rock.gravity).length();
+    let gravity = DVec3::from(run.scene().rock.gravity).length();
     let speed = if gravity > 0.0 {
         (2.0 * gravity * extent).sqrt()
     } else {
-        let poses = engine.poses();
+        let poses = run.poses();
         let speeds = poses.iter().map(|pose| pose.velocity.length());
         speeds.fold(0.0, f64::max)
     };

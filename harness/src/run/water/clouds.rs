@@ -1,15 +1,14 @@
 //! Particles for ParaView: `water_000123.vtp` and the collection `water.pvd`.
 
 use super::super::{
-    engine::Engine,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
-use super::SphRun;
 use anyhow::Result;
 use riprap::{
     output::{Pvd, write_vtp},
-    sph::point_cloud,
+    simulation::point_cloud,
 };
 use std::path::{Path, PathBuf};
 
@@ -21,32 +20,32 @@ pub struct Clouds {
 
 impl Clouds {
     /// Begins the collection, or resumes it after a restart.
-    pub fn new(engine: &SphRun, folder: &Path, last: u64) -> Result<Self> {
+    pub fn new(run: &SceneRun, folder: &Path, last: u64) -> Result<Self> {
         let path = folder.join("water.pvd");
-        let every = engine.scene().output.every;
+        let every = run.scene().output.every;
         Ok(Self {
-            schedule: Schedule::of(every, engine.time_step(), last),
+            schedule: Schedule::new(every, run.time_step(), last),
             folder: folder.to_owned(),
-            collection: match engine.step() {
+            collection: match run.step() {
                 0 => Pvd::create(path)?,
-                _ => Pvd::resume(path, engine.time())?,
+                _ => Pvd::resume(path, run.time())?,
             },
         })
     }
 }
 
-impl Recorder<SphRun> for Clouds {
+impl Recorder for Clouds {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut SphRun, notes: &mut Notes) -> Result<()> {
-        let water = engine.water()?;
-        let path = self.folder.join(format!("water_{:06}.vtp", engine.step()));
-        write_vtp(&path, &point_cloud(&water, &engine.scene().output.fields))?;
-        self.collection.add(engine.time(), &path)?;
-        notes.file(self.folder.join("water.pvd"));
-        notes.file(path);
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        let water = run.water()?;
+        let path = self.folder.join(format!("water_{:06}.vtp", run.step()));
+        write_vtp(&path, &point_cloud(&water, &run.scene().output.fields))?;
+        self.collection.add(run.time(), &path)?;
+        log.file(self.folder.join("water.pvd"));
+        log.file(path);
         Ok(())
     }
 }

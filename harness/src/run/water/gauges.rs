@@ -3,19 +3,18 @@
 
 use super::super::{
     curves,
-    engine::Engine,
     history::table,
-    recorder::{Notes, Recorder},
+    recorder::{Recorder, RunLog},
+    scene_run::SceneRun,
     schedule::Schedule,
 };
-use super::SphRun;
 use crate::picture::Track;
 use anyhow::Result;
 use glam::DVec3;
 use riprap::{
     output::Csv,
     scene::{Field, Probe, ProbePlace},
-    sph::{Gauges, Setup, Water},
+    sph::{Gauges, Setup, SphSolver, Water},
 };
 use std::path::{Path, PathBuf};
 
@@ -28,7 +27,7 @@ pub struct GaugeTable {
 
 impl GaugeTable {
     /// Begins the table, or resumes it after a restart.
-    pub fn new(engine: &SphRun, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
+    pub fn new(run: &SceneRun, folder: &Path, last: u64, probe: &Probe) -> Result<Self> {
         let path = folder.join(format!("{}.csv", probe.name));
         let mut columns: Vec<String> = match &probe.place {
             ProbePlace::Gauge { .. } => vec!["level".into()],
@@ -49,28 +48,30 @@ impl GaugeTable {
             _ => {}
         }
         Ok(Self {
-            schedule: Schedule::of(probe.every, engine.time_step(), last),
-            table: table(engine, &path, &columns)?,
+            schedule: Schedule::new(probe.every, run.time_step(), last),
+            table: table(run, &path, &columns)?,
             probe: probe.clone(),
             path,
         })
     }
 }
 
-impl Recorder<SphRun> for GaugeTable {
+impl Recorder for GaugeTable {
     fn schedule(&self) -> &Schedule {
         &self.schedule
     }
 
-    fn record(&mut self, engine: &mut SphRun, notes: &mut Notes) -> Result<()> {
-        if let Some(reading) = engine.simulation.sensor(&self.probe.name) {
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        if let Some(reading) = run.simulation.sensor(&self.probe.name) {
             let row = [reading.pressure, reading.impulse];
-            self.table.append(engine.step(), engine.time(), &row)?;
-            notes.file(self.path.clone());
+            self.table.append(run.step(), run.time(), &row)?;
+            log.file(self.path.clone());
             return Ok(());
         }
-        let water = engine.water()?;
-        let setup = engine.simulation.particles().setup();
+        let water = run.water()?;
+        let Some(setup) = run.simulation.particles().map(SphSolver::setup) else {
+            return Ok(());
+        };
         let gauges = Gauges::new(setup, &water.positions);
         let at = |place: [f64; 3]| at_point(&gauges, setup, &water, &self.probe.fields, place);
         let rows = match &self.probe.place {
@@ -99,14 +100,14 @@ impl Recorder<SphRun> for GaugeTable {
             _ => Vec::new(),
         };
         for row in rows {
-            self.table.append(engine.step(), engine.time(), &row)?;
+            self.table.append(run.step(), run.time(), &row)?;
         }
-        notes.file(self.path.clone());
+        log.file(self.path.clone());
         Ok(())
     }
 
-    fn finish(&mut self, engine: &SphRun, notes: &mut Notes) -> Result<()> {
-        let scene = engine.scene();
+    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
+        let scene = run.scene();
         let title = format!("{}: {}", scene.title, self.probe.name);
         let mut tracks = plotted_tracks(&self.probe.place);
         if scene
@@ -117,7 +118,7 @@ impl Recorder<SphRun> for GaugeTable {
             // y is constant in a planar scene.
             tracks.retain(|track| *track.columns != ["y"]);
         }
-        curves::draw(scene, &self.path, &title, &tracks, notes)
+        curves::draw(scene, &self.path, &title, &tracks, log)
     }
 }
 

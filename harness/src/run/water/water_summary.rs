@@ -1,7 +1,12 @@
 //! Summary of the water of a run.
 
-use super::{super::pace::Pace, SphRun};
-use riprap::{scene::Boundary, sph::Scheme};
+use super::super::{scene_run::SceneRun, throughput::Throughput};
+use glam::DVec3;
+use riprap::{
+    coupling::Rock,
+    scene::Boundary,
+    sph::{Scheme, SphSolver},
+};
 use serde::Serialize;
 use std::fmt;
 
@@ -44,13 +49,14 @@ pub struct WaterSummary {
 }
 
 impl WaterSummary {
-    /// The present summary of `run`.
-    pub fn of(run: &SphRun) -> Self {
-        let particles = run.simulation.particles();
+    /// The present summary of the free water of `run`, if there is any.
+    pub fn of(run: &SceneRun) -> Option<Self> {
+        let particles = run.simulation.particles()?;
         let (setup, counts) = (particles.setup(), particles.counts());
         // The solver reports the speeds after steps only; the readbacks include the start.
-        let max_speed = run.fastest.max(particles.max_speed());
-        Self {
+        let max_speed = run.max_water_speed.max(particles.max_speed());
+        let exchanges = run.simulation.rock().map(Rock::exchange_count);
+        Some(Self {
             particles: counts.fluid,
             shell: counts.boundary,
             escaped: particles.escaped(),
@@ -60,18 +66,18 @@ impl WaterSummary {
             acoustic_steps: particles.steps(),
             steps_here: 0,
             sorts: run.simulation.sorts(),
-            exchanges: run.simulation.exchanges(),
+            exchanges: exchanges.unwrap_or_default(),
             max_speed,
             max_mach: max_speed / setup.sound_speed,
             updates_a_second: 0.0,
-        }
+        })
     }
 
     /// The summary of the steps since `first`, with the update rate.
-    pub fn since(self, first: Option<&Self>, pace: &Pace) -> Self {
+    pub fn since(self, first: Option<&Self>, throughput: &Throughput) -> Self {
         let steps = self.acoustic_steps - first.map_or(0, |first| first.acoustic_steps);
         let particles = u64::from(self.particles - self.escaped) + u64::from(self.shell);
-        let warm = pace.warm();
+        let warm = throughput.warm();
         Self {
             steps_here: steps,
             updates_a_second: warm.rate(warm.fluid_steps * particles),
@@ -82,9 +88,11 @@ impl WaterSummary {
 
 impl WaterSummary {
     /// Warnings about the results of `run`.
-    pub fn warnings(&self, run: &SphRun) -> Vec<String> {
+    pub fn warnings(&self, run: &SceneRun) -> Vec<String> {
         let mut warnings = Vec::new();
-        let setup = run.simulation.particles().setup();
+        let Some(setup) = run.simulation.particles().map(SphSolver::setup) else {
+            return warnings;
+        };
         // The scheme of Mueller has Mach 0.45 at the largest expected speed by design.
         if setup.scheme == Scheme::Delta && self.max_mach > MAX_MACH {
             warnings.push(format!(
@@ -94,7 +102,7 @@ impl WaterSummary {
             ));
         }
         let fraction = f64::from(self.escaped) / f64::from(self.particles.max(1));
-        if fraction > MAX_ESCAPED_FRACTION && !has_outlet(run) {
+        if fraction > MAX_ESCAPED_FRACTION && !has_outlet(run, setup.gravity) {
             warnings.push(format!(
                 "{} of {} particles ({:.1} %) left the domain, which has no open face below or at the sides; check for a \
                  leak, or for water that splashes out",
@@ -108,8 +116,7 @@ impl WaterSummary {
 }
 
 /// Whether the domain has an open face through which water flows out; through faces above only drops escape.
-fn has_outlet(run: &SphRun) -> bool {
-    let gravity = run.simulation.particles().setup().gravity;
+fn has_outlet(run: &SceneRun, gravity: DVec3) -> bool {
     let mut faces = run.simulation.scene().boundaries.iter();
     faces.any(|(face, boundary)| {
         let down = face.outward() * gravity[face.axis().index()];

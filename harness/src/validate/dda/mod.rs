@@ -11,7 +11,7 @@ use super::rock::{DENSITY, setup};
 use glam::{DMat3, DVec3};
 use riprap::rock::{
     Block, Setup,
-    integrate::{Affine, Pull},
+    integrate::{Affine, Wrench},
     law::{Elastic, Joint},
 };
 
@@ -39,7 +39,7 @@ pub fn alone(edges: DVec3) -> Affine {
 
 /// A free step of `dt` (s) by the central difference.
 pub fn step(body: &Affine, f: &mut DMat3, rate: &mut DMat3, dt: f64) {
-    let free = Pull {
+    let free = Wrench {
         force: DVec3::ZERO,
         moment: DMat3::ZERO,
     };

@@ -140,7 +140,7 @@ fn lay_bed(scene: &mut Scene) {
 /// Of water so deep (m).
 fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> {
     let mut tank = Tank::fill(stand, scene)?;
-    let units = *tank.simulation.units();
+    let units = *tank.units();
     let slope = scene.rock.gravity[0];
     let begin = tank.totals()?.momentum[0];
     let (mut drag, mut window) = (Vec::new(), Vec::new());

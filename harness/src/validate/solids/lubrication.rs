@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3};
 use riprap::{
     geometry::{Form, Part, Polyhedron, Pose},
     rock::{
-        contact::{Placed, Squeeze},
+        contact::{Placed, ThinGap},
         law::Film,
     },
     scene::{BlockShape, Boundary, Motion, Scene},
@@ -114,7 +114,7 @@ impl Body {
             }
             Self::Cube => cuboid(2.0 * HALF, at_gap)?,
         };
-        let near = Squeeze::between(&cuboid(100.0, -50.0)?, &placed, film.reach());
+        let near = ThinGap::between(&cuboid(100.0, -50.0)?, &placed, film.reach());
         Ok(near.map_or(0.0, |squeeze| film.resistance(&squeeze)))
     }
 }

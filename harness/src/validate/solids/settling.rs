@@ -145,7 +145,7 @@ impl Oil {
         Ok(Fall {
             gap,
             fastest,
-            tau: tank.simulation.lattice().setup().tau(),
+            tau: tank.lattice().setup().tau(),
             y_plus: tank.y_plus()?,
             trial: tank.trial(&what),
         })

@@ -10,9 +10,11 @@ use riprap::{
     coupling::FluidLoad,
     formula::Formula,
     geometry::Pose,
+    lattice::Lattice,
     output::Array,
     scene::{Block, BlockShape, Boundary, Field, Motion, Rotation, Scene},
     simulation::{Simulation, Totals},
+    units::Units,
 };
 use std::{path::Path, time::Instant};
 
@@ -118,6 +120,16 @@ pub struct Tank<'a> {
 }
 
 impl<'a> Tank<'a> {
+    /// The lattice of the fluid.
+    pub fn lattice(&self) -> &Lattice {
+        self.simulation.lattice().expect("a tank has a lattice")
+    }
+
+    /// Its units.
+    pub fn units(&self) -> &Units {
+        self.simulation.units().expect("a tank has a lattice")
+    }
+
     /// Puts the scene on the device.
     ///
     /// # Errors
@@ -139,7 +151,7 @@ impl<'a> Tank<'a> {
     /// If the flow leaves the range of the method, or the device is lost or silent.
     pub fn advance(&mut self, steps: u64) -> anyhow::Result<()> {
         let begin = Instant::now();
-        let cells = self.simulation.lattice().grid().cell_count() as u64;
+        let cells = self.lattice().grid().cell_count() as u64;
         let most = (SUBMISSION / cells).max(1);
         let end = self.simulation.step() + steps;
         while self.simulation.step() < end {
@@ -204,7 +216,7 @@ impl<'a> Tank<'a> {
 
     /// What has been run so far; `what` says what is in the tank.
     pub fn trial(&self, what: &str) -> Trial {
-        let lattice = self.simulation.lattice();
+        let lattice = self.lattice();
         Trial {
             setup: format!("{what}, {}", describe(lattice.setup())),
             cells: lattice.grid().cell_count() as u64,

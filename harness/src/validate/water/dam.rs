@@ -22,16 +22,16 @@ pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Tri
     let unit = (WIDTH / (2.0 * GRAVITY)).sqrt();
     let (mut front, mut time) = (vec![1.0], vec![0.0]);
     while front[front.len() - 1] < 3.9 && time[time.len() - 1] < 6.0 {
-        pool.advance(pool.surface.time() + 0.02 * unit)?;
+        pool.advance(pool.simulation.time() + 0.02 * unit)?;
         let water = pool.water()?;
         // On the floor: spray ahead of it is not the front.
         let floor = water.positions.iter().filter(|x| x.z < 2.0 * spacing);
         let farthest = floor.fold(0.0, |most: f64, x| most.max(x.x)) + 0.5 * spacing;
         front.push(farthest / WIDTH);
-        time.push(pool.surface.time() / unit);
+        time.push(pool.simulation.time() / unit);
     }
     let [from, to] = STRETCH.map(|z| passes(&front, &time, z));
-    let kept = pool.water()?.len() as f64 / f64::from(pool.surface.particles().counts().fluid);
+    let kept = pool.water()?.len() as f64 / f64::from(pool.particles().counts().fluid);
     Ok((
         pool.trial("dam break"),
         [(STRETCH[1] - STRETCH[0]) / (to - from), kept],

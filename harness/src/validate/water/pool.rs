@@ -5,11 +5,11 @@ use super::super::{
     stopwatch::{Spent, Stopwatch},
 };
 use riprap::{
-    coupling::FluidLoad,
+    coupling::{FluidLoad, Rock},
     geometry::Pose,
     scene::{Scene, Scheme},
-    simulation::FreeSurface,
-    sph::Water,
+    simulation::Simulation,
+    sph::{SphSolver, Water},
 };
 use std::{path::Path, time::Instant};
 
@@ -68,7 +68,7 @@ pub fn choose(scene: &mut Scene, scheme: Scheme) {
 pub struct Pool<'a> {
     stand: &'a Stand,
     /// What runs.
-    pub surface: FreeSurface,
+    pub simulation: Simulation,
     seconds: f64,
     stepping: Spent,
 }
@@ -79,10 +79,10 @@ impl<'a> Pool<'a> {
     /// # Errors
     /// What the scene or the device lack.
     pub fn fill(stand: &'a Stand, scene: &Scene) -> anyhow::Result<Self> {
-        let made = FreeSurface::new(&stand.device, &stand.queue, scene);
+        let made = Simulation::new(&stand.device, &stand.queue, scene);
         Ok(Self {
             stand,
-            surface: stand.drive("the kernels", made)??,
+            simulation: stand.drive("the kernels", made)??,
             seconds: 0.0,
             stepping: Spent::default(),
         })
@@ -94,10 +94,10 @@ impl<'a> Pool<'a> {
     /// If the water leaves the range of the method, or the device is lost or silent.
     pub fn advance(&mut self, until: f64) -> anyhow::Result<()> {
         let begin = Instant::now();
-        while self.surface.time() < until * (1.0 - 1e-9) {
-            let first = self.surface.step() == 0;
+        while self.simulation.time() < until * (1.0 - 1e-9) {
+            let first = self.simulation.step() == 0;
             let watch = Stopwatch::start();
-            let done = self.surface.advance(1);
+            let done = self.simulation.advance(1);
             self.stand.drive("free water", done)??;
             if !first {
                 watch.stop(&mut self.stepping);
@@ -112,23 +112,32 @@ impl<'a> Pool<'a> {
     /// # Errors
     /// If the device is lost or silent.
     pub fn water(&mut self) -> anyhow::Result<Water> {
-        let water = self.surface.water();
+        let water = self.simulation.water();
         Ok(self.stand.drive("reading particles", water)??)
+    }
+
+    /// The solver of the water.
+    pub fn particles(&self) -> &SphSolver {
+        self.simulation.particles().expect("a pool has water")
+    }
+
+    fn rock(&self) -> &Rock {
+        self.simulation.rock().expect("free water has a rock")
     }
 
     /// What a block felt in the last exchange.
     pub fn felt(&self, block: usize) -> FluidLoad {
-        self.surface.external_load()[block]
+        self.rock().external_load()[block]
     }
 
     /// Where a block is.
     pub fn pose(&self, block: usize) -> Pose {
-        self.surface.blocks().poses()[block]
+        self.rock().blocks().poses()[block]
     }
 
     /// What has been run so far; `what` says what is in the pool.
     pub fn trial(&self, what: &str) -> Trial {
-        let particles = self.surface.particles();
+        let particles = self.particles();
         let setup = particles.setup();
         Trial {
             setup: format!(

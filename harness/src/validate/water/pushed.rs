@@ -81,7 +81,7 @@ fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
 
 /// Impulse since the start on one of them, Pa s.
 fn impulse(pool: &Pool<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
-    let sensor = pool.surface.sensor(&format!("{name}_{side}"));
+    let sensor = pool.simulation.sensor(&format!("{name}_{side}"));
     sensor.map_or(f64::NAN, |sensor| sensor.impulse)
 }
 
@@ -93,7 +93,7 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
     let mut records = Vec::new();
     for passages in ENDS {
         pool.advance(passages * (DEPTH / GRAVITY).sqrt())?;
-        let time = pool.surface.time();
+        let time = pool.simulation.time();
         for (name, heights) in PATCHES {
             let [more, less] = SIDES.map(|side| impulse(&pool, name, side));
             let more = 0.5 * (more - less) / time;

@@ -49,7 +49,7 @@ pub fn run(stand: &Stand) -> Outcome {
         at += 0.01;
         pool.advance(at)?;
         let positions = pool.water()?.positions;
-        let time = pool.surface.time();
+        let time = pool.simulation.time();
         for (crest, gauge) in crests.iter_mut().zip(GAUGES) {
             let level = level(&positions, gauge, spacing);
             if level > crest[0] {

@@ -71,7 +71,12 @@ pub fn judge<T: Send + 'static>(
 /// An error names a line, a key, a file or a block, and says something.
 fn has_a_place(error: &Error) -> std::result::Result<(), String> {
     let named = match error {
-        Error::Scene { place, message } => !place.trim().is_empty() && message.len() > 10,
+        Error::Scene {
+            place,
+            key,
+            message,
+        } => (place.is_some() || !key.is_empty()) && message.len() > 10,
+        Error::Argument { what, message } => !what.is_empty() && message.len() > 10,
         Error::File { path, message } => path.file_name().is_some() && message.len() > 10,
         Error::Overlaps { pairs } => !pairs.is_empty(),
         Error::TimeStep { block, .. } => !block.is_empty(),

@@ -34,7 +34,9 @@ pub(super) fn blocks(
         smallest_thickness: mass.smallest_thickness,
         ..RockMass::new(vec![volume(scene, &key, &mass.volume)?])
     };
-    let fragments = rock.cut().map_err(|error| error.within(&key))?;
+    let fragments = rock
+        .cut()
+        .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
     let mut left_out = LeftOut {
         mass: name.clone(),
         pieces: fragments.slivers.len(),
@@ -141,7 +143,8 @@ fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
         }
         Volume::Vertices { vertices } => {
             let points: Vec<DVec3> = vertices.iter().copied().map(DVec3::from).collect();
-            faces(&points).map_err(|error: crate::Error| error.within(key))
+            faces(&points)
+                .map_err(|error: crate::Error| error.at_key(|what| format!("{key}.{what}")))
         }
         Volume::HalfSpaces { faces } => Ok(half_spaces(faces)),
         Volume::Mesh {

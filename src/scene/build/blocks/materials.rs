@@ -2,7 +2,10 @@
 
 use crate::{
     Result,
-    rock::{Material, PairMaterial, law::Joint},
+    rock::{
+        Material, PairMaterial,
+        law::{Elastic, Joint},
+    },
     scene::{self, Scene},
 };
 
@@ -17,7 +20,10 @@ pub(super) fn held(scene: &Scene, key: &str, name: Option<&str>) -> Result<usize
 /// The materials in their order; without blocks there is one, whether it is given or not.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     let material = |material: &scene::Material| Material {
-        elastic: material.elastic(),
+        elastic: material.youngs_modulus.map(|youngs_modulus| Elastic {
+            youngs_modulus,
+            poissons_ratio: material.poissons_ratio,
+        }),
         density: material.density,
         joint: Joint {
             normal_stiffness: material.normal_stiffness,

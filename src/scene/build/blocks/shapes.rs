@@ -27,7 +27,7 @@ pub(crate) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Sha
         }
         BlockShape::Compound { parts } => return compound(scene, key, parts),
     }
-    .map_err(|error| error.within(key))
+    .map_err(|error| error.at_key(|what| format!("{key}.{what}")))
 }
 
 /// The hull of points.
@@ -52,14 +52,15 @@ fn compound(scene: &Scene, key: &str, parts: &[crate::scene::Part]) -> Result<(S
         let (made, centroid) = shape(scene, &key, &part.shape)?;
         let turn = rotation(&part.rotation);
         for piece in made.parts() {
-            let (form, shift) = turned(&piece.form, turn).map_err(|error| error.within(&key))?;
+            let (form, shift) = turned(&piece.form, turn)
+                .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
             placed.push(Part {
                 form,
                 offset: DVec3::from(part.position) + turn * (centroid + piece.offset) + shift,
             });
         }
     }
-    Shape::compound(placed).map_err(|error| error.within(key))
+    Shape::compound(placed).map_err(|error| error.at_key(|what| format!("{key}.{what}")))
 }
 
 /// A form turned about its centroid, and what rounding has moved that by, m.

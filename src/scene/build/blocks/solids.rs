@@ -28,19 +28,20 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
     match shape {
         scene::Shape::Box { min, max } => {
             let (min, max) = (DVec3::from(*min), DVec3::from(*max));
-            let made = Polyhedron::cuboid(max - min).map_err(|error| error.within(key))?;
+            let made = Polyhedron::cuboid(max - min)
+                .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
             Ok((made.into(), 0.5 * (min + max)))
         }
         scene::Shape::HalfSpace { point, normal } => {
             let plane = HalfSpace::through(DVec3::from(*point), DVec3::from(*normal));
             let mut faces = beyond(scene).to_vec();
             faces.push(plane);
-            let (made, centroid) =
-                Polyhedron::from_half_spaces(&faces).map_err(|error| error.within(key))?;
+            let (made, centroid) = Polyhedron::from_half_spaces(&faces)
+                .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
             Ok((made.into(), centroid))
         }
         scene::Shape::Sphere { center, radius } => Ok((
-            Shape::sphere(*radius).map_err(|error| error.within(key))?,
+            Shape::sphere(*radius).map_err(|error| error.at_key(|what| format!("{key}.{what}")))?,
             DVec3::from(*center),
         )),
         scene::Shape::Mesh {

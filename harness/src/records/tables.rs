@@ -1,0 +1,486 @@
+//! Tables of documents, rendered from records.
+//!
+//! A document marks the place of a table by two comments:
+//!
+//! ```text
+//! <!-- records: validate solids/* -->
+//! <!-- end of records -->
+//! ```
+//!
+//! `validate GLOB...` has the limits of each case, `values GLOB...` all its values, `bench PART` one line for each row of the
+//! benchmark, `targets PART` its targets, and `headline` those of [`HEADLINES`]. What stands between the comments is replaced.
+
+use super::index::Index;
+use crate::validate::{self, Case};
+use anyhow::{Context, bail};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::fmt::Write;
+
+const BEGIN: &str = "<!-- records: ";
+const END: &str = "<!-- end of records -->";
+
+/// `text` with its tables rendered from the records of `machines`.
+///
+/// # Errors
+/// If a mark has no end or no known table, or a record cannot be read.
+pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
+    let mut rendered = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(BEGIN) {
+        let mark = &rest[at..];
+        let line = mark.lines().next().unwrap_or_default();
+        let request = line[BEGIN.len()..].trim_end().strip_suffix("-->");
+        let request = request
+            .with_context(|| format!("{line:?} does not end with -->"))?
+            .trim();
+        let end = mark
+            .find(END)
+            .with_context(|| format!("{line:?} has no {END:?}"))?;
+        write!(
+            rendered,
+            "{}{line}\n{}",
+            &rest[..at],
+            table(request, machines).with_context(|| line.to_owned())?
+        )?;
+        rest = &mark[end..];
+    }
+    Ok(rendered + rest)
+}
+
+fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
+    let mut text = String::new();
+    for index in machines {
+        let lines = match request.split_once(' ') {
+            Some(("validate", patterns)) => limits(index, &cases(patterns)?)?,
+            Some(("values", patterns)) => values(index, &cases(patterns)?)?,
+            Some(("bench", part)) => bench(index, part)?,
+            Some(("targets", part)) => targets(index, part)?,
+            None if request == "headline" => headline(index)?,
+            _ => bail!(
+                "there is no such table: validate GLOB, values GLOB, bench PART, targets PART and headline are known"
+            ),
+        };
+        if !lines.is_empty() {
+            write!(text, "\n{lines}\n*{}.*\n\n", index.machine)?;
+        }
+    }
+    Ok(text)
+}
+
+/// A row of a record of `riprap validate`.
+#[derive(Clone, Debug, Deserialize)]
+struct Measured {
+    quantity: String,
+    /// `None` where it is not a number.
+    value: Option<f64>,
+    reference: Option<f64>,
+    error: Option<f64>,
+    limit: Option<f64>,
+    passed: bool,
+    commit: Option<String>,
+}
+
+impl Measured {
+    /// The error as a part of the limit; infinite where a limit of zero is missed.
+    fn share(&self) -> f64 {
+        match (self.error, self.limit) {
+            (Some(error), Some(limit)) if limit > 0.0 => error / limit,
+            _ if self.passed => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The value, with what it is compared with.
+    fn result(&self) -> String {
+        let mut text = self.value.map_or("no number".into(), number);
+        match self.reference {
+            // An error itself, or a bound.
+            Some(0.0) | None => {}
+            Some(reference) if self.limit == Some(0.0) => {
+                let _ = write!(text, ", bound {}", number(reference));
+            }
+            Some(reference) => {
+                let _ = write!(text, ", reference {}", number(reference));
+            }
+        }
+        text
+    }
+
+    fn commit(&self) -> String {
+        self.commit.clone().unwrap_or("unknown".into())
+    }
+
+    fn limit(&self) -> String {
+        match self.limit {
+            Some(limit) if limit > 0.0 => number(limit),
+            Some(_) => "the bound".into(),
+            None => "–".into(),
+        }
+    }
+}
+
+/// The cases that match one of the patterns.
+fn cases(patterns: &str) -> anyhow::Result<Vec<Case>> {
+    let found = patterns
+        .split_whitespace()
+        .map(|glob| validate::select(Some(glob)));
+    Ok(found.collect::<anyhow::Result<Vec<_>>>()?.concat())
+}
+
+/// All values of the cases, each with its reference.
+fn values(index: &Index, cases: &[Case]) -> anyhow::Result<String> {
+    let mut text = String::from("| quantity | value | error | commit |\n|---|---|---|---|\n");
+    let mut empty = true;
+    for case in cases {
+        let rows: Vec<Measured> = index.rows(&format!("validate/{}", case.name))?;
+        for row in rows {
+            empty = false;
+            let cells = [
+                row.quantity.clone(),
+                row.result(),
+                row.error.map_or("–".into(), number),
+                row.commit(),
+            ];
+            line(&mut text, &cells);
+        }
+    }
+    Ok(if empty { String::new() } else { text })
+}
+
+/// A line for each case: how many limits it meets, each one that it misses, and the nearest of the others.
+fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<String> {
+    let mut text = String::from(
+        "| case | limits met | quantity | result | error | limit | commit |\n|---|---|---|---|---|---|---|\n",
+    );
+    let mut empty = true;
+    for case in cases {
+        let rows: Vec<Measured> = index.rows(&format!("validate/{}", case.name))?;
+        let judged = rows.iter().filter(|row| row.limit.is_some());
+        let (met, missed): (Vec<&Measured>, Vec<&Measured>) = judged.partition(|row| row.passed);
+        let judged = met.len() + missed.len();
+        let nearest = met.iter().max_by(|a, b| a.share().total_cmp(&b.share()));
+        let mut shown: Vec<&Measured> = missed;
+        shown.extend(nearest.copied());
+        if shown.is_empty() {
+            shown.extend(rows.first());
+        }
+        for (place, row) in shown.iter().enumerate() {
+            empty = false;
+            let (name, count) = if place == 0 {
+                let count = format!("{} of {}", met.len(), judged);
+                (format!("`{}`: {}", case.name, case.about), count)
+            } else {
+                (String::new(), String::new())
+            };
+            let verdict = if row.passed { "" } else { ", **missed**" };
+            line(
+                &mut text,
+                &[
+                    name,
+                    count,
+                    row.quantity.clone(),
+                    row.result() + verdict,
+                    row.error.map_or("–".into(), number),
+                    row.limit(),
+                    row.commit(),
+                ],
+            );
+        }
+    }
+    Ok(if empty { String::new() } else { text })
+}
+
+/// Columns of a part of the benchmark: the key of the record, and the head.
+fn columns(part: &str) -> anyhow::Result<&'static [(&'static str, &'static str)]> {
+    Ok(match part {
+        "fluid" => &[
+            ("variant", "kernel"),
+            ("grid", "cells an axis"),
+            ("storage", "storage"),
+            ("lanes", "cells an invocation"),
+            ("mlups", "MLUPS"),
+            ("ratio_to_stream_only", "of streaming alone"),
+            ("bytes_a_cell", "bytes a cell"),
+            ("share_of_copy", "share of the copy bandwidth"),
+        ],
+        "rock" => &[
+            ("kernel", "part"),
+            ("variant", "variant"),
+            ("count", "blocks"),
+            ("ms", "ms"),
+            ("contacts_a_second", "contacts/s"),
+            ("pairs_a_second", "pairs/s"),
+            ("exponent", "exponent"),
+        ],
+        "water" => &[
+            ("neighbours", "neighbours from"),
+            ("particles", "particles"),
+            ("around", "neighbours a particle"),
+            ("step", "s a step"),
+            ("particles_a_second", "particles/s"),
+            ("pairs_a_second", "pairs/s"),
+        ],
+        "solids" | "unused" => &[
+            ("name", "quantity"),
+            ("setup", "setup"),
+            ("value", "value"),
+            ("unit", "unit"),
+        ],
+        "all" => &[
+            ("kind", "kernel"),
+            ("grid", "cells an axis"),
+            ("storage", "storage"),
+            ("mlups", "MLUPS"),
+            ("left_out", "left out because"),
+        ],
+        _ => bail!("bench has no part {part}; there are fluid, rock, water, solids, unused, all"),
+    })
+}
+
+fn bench(index: &Index, part: &str) -> anyhow::Result<String> {
+    let columns = columns(part)?;
+    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
+    rows.retain(|row| !is_target(row));
+    if rows.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = String::new();
+    let heads = columns.iter().map(|(_, head)| (*head).to_owned());
+    line(
+        &mut text,
+        &heads.chain(["commit".into()]).collect::<Vec<_>>(),
+    );
+    text += &"|---".repeat(columns.len() + 1);
+    text += "|\n";
+    for row in &rows {
+        let cell = |key: &str| match row.get(key) {
+            Some(Value::Number(value)) => value.as_f64().map_or("–".into(), number),
+            Some(Value::String(value)) => value.clone(),
+            _ => "–".into(),
+        };
+        let cells = columns.iter().map(|(key, _)| cell(key));
+        line(
+            &mut text,
+            &cells.chain([cell("commit")]).collect::<Vec<_>>(),
+        );
+    }
+    Ok(text)
+}
+
+fn is_target(row: &Map<String, Value>) -> bool {
+    row.get("part").and_then(Value::as_str) == Some("target")
+}
+
+/// The targets of a part of the benchmark: what was found, and whether that meets them.
+fn targets(index: &Index, part: &str) -> anyhow::Result<String> {
+    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
+    rows.retain(is_target);
+    if rows.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = String::from("| target | of | result | commit |\n|---|---|---|---|\n");
+    for row in &rows {
+        let word = |key: &str| {
+            row.get(key)
+                .and_then(Value::as_str)
+                .unwrap_or("–")
+                .to_owned()
+        };
+        let found = row.get("found").and_then(Value::as_f64);
+        let found = found.map_or("no number".into(), number);
+        let met = row.get("met").and_then(Value::as_bool) == Some(true);
+        let verdict = if met { "" } else { ", **missed**" };
+        line(
+            &mut text,
+            &[word("says"), word("of"), found + verdict, word("commit")],
+        );
+    }
+    Ok(text)
+}
+
+/// What the front page shows: what it is, the case, and how its quantities begin.
+const HEADLINES: &[(&str, &str, &str)] = &[
+    (
+        "Taylor–Green vortices: order of convergence",
+        "taylor-green/convergence",
+        "order",
+    ),
+    (
+        "Taylor–Green vortices: viscosity over nominal",
+        "taylor-green/convergence",
+        "viscosity",
+    ),
+    (
+        "lid-driven cavity at Re 1000: error of the velocity",
+        "cavity/re1000",
+        "rms error",
+    ),
+    (
+        "drag of a sphere array over that of Zick & Homsy, D = 9.9 cells",
+        "solids/array",
+        "K / K(Z&H), D = 9.9, τ = 0.6,",
+    ),
+    (
+        "buoyancy in a closed box over Archimedes'",
+        "solids/buoyancy",
+        "buoyancy",
+    ),
+    (
+        "speed of a settling sphere over that of ten Cate et al. (2002), E1 on 18 cells",
+        "solids/settling-whole",
+        "largest velocity / measured, E1, D = 18",
+    ),
+    (
+        "the same, E4 on 18 cells",
+        "solids/settling-whole",
+        "largest velocity / measured, E4, D = 18",
+    ),
+    (
+        "drag of a cube on a bed: 12 against 24 cells",
+        "solids/incline-flow",
+        "difference of the drag",
+    ),
+    ("block on an incline after 1 s, m", "rock/incline", ""),
+    (
+        "critical step of a deformable block, 1 × 2 × 3 m, s",
+        "dda/critical-step",
+        "Δt_c of 1x2x3",
+    ),
+    (
+        "SPH, still tank of 20 particles: pressure at the bottom, Pa",
+        "water/still",
+        "p at the bottom",
+    ),
+    (
+        "dam break (Martin & Moyce 1952): dZ/dT of the front",
+        "water/dam-break",
+        "dZ/dT",
+    ),
+];
+
+/// Speeds of the fluid that the front page shows: the kernel, its storage, cells an axis, and the least MLUPS that it should reach.
+const SPEEDS: &[(&str, &str, u64, f64)] = &[("mrt", "f32", 64, 40.0), ("mrt", "f32", 128, 40.0)];
+
+fn headline(index: &Index) -> anyhow::Result<String> {
+    let mut text = String::from("| quantity | result | error | limit |\n|---|---|---|---|\n");
+    for (about, case, begin) in HEADLINES {
+        let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
+        let found = rows
+            .iter()
+            .find(|row| row.quantity.starts_with(begin) && row.limit.is_some());
+        let Some(row) = found else {
+            continue;
+        };
+        let verdict = if row.passed { "" } else { ", **missed**" };
+        line(
+            &mut text,
+            &[
+                (*about).into(),
+                row.result() + verdict,
+                row.error.map_or("–".into(), number),
+                row.limit(),
+            ],
+        );
+    }
+    let rows: Vec<Map<String, Value>> = index.rows("bench/fluid")?;
+    for (kernel, storage, grid, limit) in SPEEDS {
+        let found = rows.iter().find(|row| {
+            row.get("variant").and_then(Value::as_str) == Some(kernel)
+                && row.get("storage").and_then(Value::as_str) == Some(storage)
+                && row.get("grid").and_then(Value::as_u64) == Some(*grid)
+        });
+        let Some(mlups) = found.and_then(|row| row.get("mlups")?.as_f64()) else {
+            continue;
+        };
+        let verdict = if mlups >= *limit { "" } else { ", **missed**" };
+        line(
+            &mut text,
+            &[
+                format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS"),
+                number(mlups) + verdict,
+                "–".into(),
+                format!("at least {limit}"),
+            ],
+        );
+    }
+    Ok(text)
+}
+
+/// A line of a table.
+fn line(text: &mut String, cells: &[String]) {
+    let cells: Vec<_> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+    let _ = writeln!(text, "| {} |", cells.join(" | "));
+}
+
+/// Four significant digits, without trailing zeros.
+fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    let trimmed = |text: String| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    };
+    if value == 0.0 || (1e-3..1e6).contains(&magnitude) {
+        let digits = (3 - magnitude.max(1e-3).log10().floor() as i32).max(0) as usize;
+        return trimmed(format!("{value:.digits$}"));
+    }
+    let text = format!("{value:.3e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa.into())),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn machine() -> Index {
+        let folder = std::env::temp_dir().join(format!("riprap_records_{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("validate/water")).unwrap();
+        std::fs::create_dir_all(folder.join("bench")).unwrap();
+        let rows = r#"[
+            {"quantity": "p", "value": 9917.1, "reference": 9810, "error": 0.011, "limit": 0.02, "passed": true, "commit": "abc"},
+            {"quantity": "u | v", "value": 0.3, "reference": 0, "error": 0.3, "limit": 0.2, "passed": false, "commit": "abc"}
+        ]"#;
+        std::fs::write(folder.join("validate/water/still.json"), rows).unwrap();
+        let rows = r#"[{"kind": "mrt", "grid": 64, "storage": "f32", "mlups": 43.25, "left_out": null, "commit": "abc"}]"#;
+        std::fs::write(folder.join("bench/all.json"), rows).unwrap();
+        Index {
+            machine: "a GPU".into(),
+            folder,
+            ..Index::default()
+        }
+    }
+
+    #[test]
+    fn tables_stand_between_their_marks_and_show_what_was_missed() {
+        let text = "before\n<!-- records: validate water/still -->\nold\n<!-- end of records -->\nafter\n\
+            <!-- records: bench all -->\n<!-- end of records -->\n";
+        let machine = [machine()];
+        let rendered = render(text, &machine).unwrap();
+        for line in [
+            "before",
+            "| `water/still`: hydrostatic pressure of water at rest | 1 of 2 | u \\| v | 0.3, **missed** | 0.3 | 0.2 | abc |",
+            "|  |  | p | 9917, reference 9810 | 0.011 | 0.02 | abc |",
+            "| mrt | 64 | f32 | 43.25 | – | abc |",
+            "*a GPU.*",
+            "after",
+        ] {
+            assert!(
+                rendered.lines().any(|found| found == line),
+                "{line}\n{rendered}"
+            );
+        }
+        assert!(!rendered.contains("old"));
+        assert_eq!(render(&rendered, &machine).unwrap(), rendered);
+        std::fs::remove_dir_all(&machine[0].folder).unwrap();
+    }
+
+    #[test]
+    fn marks_without_an_end_or_a_table_are_refused() {
+        assert!(render("<!-- records: validate water/* -->\n", &[]).is_err());
+        let unknown = "<!-- records: everything -->\n<!-- end of records -->\n";
+        assert!(render(unknown, &[Index::default()]).is_err());
+    }
+}

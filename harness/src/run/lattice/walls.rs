@@ -1,0 +1,47 @@
+//! Whether the shear at walls and blocks was resolved.
+
+use super::super::{scene_run::SceneRun, summary::Summary};
+use riprap::simulation::{FirstCell, SUBLAYER};
+
+impl SceneRun {
+    /// Adds the largest y⁺ to the summary, and a warning if it is beyond the viscous sublayer; not of a flow that has
+    /// diverged.
+    pub(in super::super) fn report_wall_units(&mut self, summary: &mut Summary) {
+        if summary.diverged {
+            return;
+        }
+        let found = match self.wall_units() {
+            Ok(found) => found,
+            Err(error) => {
+                return summary.warnings.push(format!("y⁺ is not known: {error}"));
+            }
+        };
+        summary.y_plus_walls = found.walls.map(|cell| cell.y_plus);
+        summary.y_plus_blocks = found.blocks.map(|cell| cell.y_plus);
+        let high = |cell: &FirstCell| cell.y_plus > SUBLAYER;
+        for cell in [found.walls, found.blocks]
+            .into_iter()
+            .flatten()
+            .filter(high)
+        {
+            let beside = match (cell.block, self.simulation.coupled()) {
+                (Some(block), Some(coupled)) => format!("block {}", coupled.blocks().name(block)),
+                _ => "a wall".into(),
+            };
+            summary.warnings.push(self.warning(&cell, &beside));
+        }
+    }
+
+    /// What a large y⁺ means for the numbers of a run.
+    fn warning(&self, cell: &FirstCell, beside: &str) -> String {
+        let [x, y, z] = cell.position;
+        // With the same friction.
+        let finer = self.scene().domain.cell * SUBLAYER / cell.y_plus;
+        format!(
+            "y⁺ is at least {:.1} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \
+             shear is not resolved there and there is no wall model, so that friction comes out too small; \
+             pressure and the drag of edged bodies suffer less. Cells of {finer:.2e} m would resolve it",
+            cell.y_plus
+        )
+    }
+}

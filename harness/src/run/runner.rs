@@ -1,0 +1,170 @@
+//! From the first step to the last, writing what is due on the way.
+
+use super::{
+    batch::Batch,
+    checkpoints::Checkpoints,
+    header::print_header,
+    history::{self, History},
+    progress::Progress,
+    recorder::{Recorders, RunLog},
+    scene_run::SceneRun,
+    summary::{Summary, Unfinished},
+    throughput::{Throughput, Timed},
+};
+use anyhow::{Context, Result};
+use riprap::Error;
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
+    time::Instant,
+};
+
+/// A run under way.
+pub struct Runner {
+    folder: PathBuf,
+    last: u64,
+    recorders: Recorders,
+    log: RunLog,
+    throughput: Throughput,
+    pub summary: Summary,
+}
+
+impl Runner {
+    /// Makes ready what will be written to `folder` until the step `last`; `restart` is the file of
+    /// the checkpoint that the simulation has been restored from, `text` what the scene's file holds.
+    pub fn new(
+        run: &mut SceneRun,
+        folder: &Path,
+        last: u64,
+        restart: Option<&Path>,
+        text: &str,
+    ) -> Result<Self> {
+        let mut recorders: Recorders = Vec::new();
+        let scene = run.scene();
+        for probe in &scene.probes {
+            if history::claims(&scene.output.histories, &probe.name) {
+                return Err(Error::scene(
+                    format!("probes.{}", probe.name),
+                    "this file belongs to output.histories; give the probe another name",
+                )
+                .into());
+            }
+        }
+        for number in 0..scene.output.histories.len() {
+            recorders.push(Box::new(History::new(run, folder, last, number)?));
+        }
+        recorders.extend(run.recorders(folder, last)?);
+        // Last, so that what it continues from has been written.
+        recorders.push(Box::new(Checkpoints::new(run, folder, last, text)));
+        let log = RunLog {
+            checkpoint: restart.map(|path| (run.step(), path.to_owned())),
+            ..RunLog::default()
+        };
+        Ok(Self {
+            folder: folder.to_owned(),
+            last,
+            recorders,
+            log,
+            throughput: Throughput::default(),
+            summary: run.summary()?,
+        })
+    }
+
+    /// Prints what will run on what to standard error.
+    pub fn print_header(&self, run: &SceneRun) {
+        print_header(run, &self.summary, &self.folder, self.last);
+    }
+
+    /// Computes to the end, or until `stop` is set, or until the flow diverges.
+    pub fn run_to_end(mut self, run: &mut SceneRun, stop: &AtomicBool) -> Result<Summary> {
+        let start = Instant::now();
+        let mut progress = Progress::new(run.step(), self.last);
+        let moved = self.advance_to_last(run, stop, &mut progress);
+        progress.end();
+        let step = run.step();
+        match moved {
+            Err(error) => match error.downcast_ref::<Error>() {
+                Some(diverged) if leaves_range(diverged) => {
+                    self.summary.diverged = true;
+                    self.summary.divergence = Some(diverged.to_string());
+                    if run.is_intact() {
+                        self.record(run, true)
+                            .with_context(|| Unfinished::new(step, &self.log))?;
+                    }
+                }
+                _ => return Err(error).context(Unfinished::new(step, &self.log)),
+            },
+            Ok(()) => self.summary.complete = step == self.last,
+        }
+        for recorder in &mut self.recorders {
+            recorder
+                .finish(run, &mut self.log)
+                .with_context(|| Unfinished::new(step, &self.log))?;
+        }
+        run.finish(&mut self.summary, &self.log, &self.throughput);
+        let summary = &mut self.summary;
+        summary.steps = step;
+        summary.time = run.time();
+        summary.seconds = start.elapsed().as_secs_f64();
+        summary.take(&self.log);
+        summary.tell_left_out();
+        let written = summary.write(&self.folder);
+        written.with_context(|| Unfinished::new(step, &self.log))?;
+        Ok(self.summary)
+    }
+
+    fn advance_to_last(
+        &mut self,
+        run: &mut SceneRun,
+        stop: &AtomicBool,
+        progress: &mut Progress,
+    ) -> Result<()> {
+        let mut batch = Batch::new();
+        self.record(run, false)?;
+        loop {
+            let step = run.step();
+            if step >= self.last {
+                return Ok(());
+            }
+            if stop.load(Ordering::Relaxed) {
+                return self.record(run, true);
+            }
+            let next = self.recorders.iter().map(|r| r.schedule().next(step)).min();
+            let steps = batch.steps().min(next.unwrap_or(self.last) - step);
+            let (start, fluid_steps) = (Instant::now(), run.simulation.fluid_steps());
+            run.advance(steps)?;
+            let time = start.elapsed();
+            batch.learn(steps, time);
+            self.throughput.add(Timed {
+                steps,
+                fluid_steps: run.simulation.fluid_steps() - fluid_steps,
+                time,
+            });
+            progress.show(step + steps, &run.describe(&self.summary, &self.throughput));
+            self.record(run, false)?;
+        }
+    }
+
+    /// Writes what is due; everything that is not, if the run is `ending` here.
+    fn record(&mut self, run: &mut SceneRun, ending: bool) -> Result<()> {
+        let step = run.step();
+        for recorder in &mut self.recorders {
+            if recorder.schedule().due(step) != ending {
+                recorder.record(run, &mut self.log)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a run ends by this because it left the range of the method.
+pub fn leaves_range(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::Diverged { .. }
+            | Error::ParticleLost { .. }
+            | Error::DeepOverlap { .. }
+            | Error::NotFinite { .. }
+            | Error::Inverted { .. }
+    )
+}

@@ -1,0 +1,561 @@
+//! A scene on a device of its own, or on the host where blocks without a fluid need none.
+
+use super::{
+    lattice::{Coupling, Fields, MaxSpeed, ProbeTable},
+    left_out::LeftOut,
+    recorder::{Recorders, RunLog},
+    rock::{self, BlockFiles, Rock, Rocks},
+    slices::Pictures,
+    summary::Summary,
+    throughput::Throughput,
+    views::{Views, solid_blocks},
+    water::{Clouds, Energies, GaugeTable, WaterSummary},
+};
+use crate::{bench::copy_bandwidth, gpu, search};
+use riprap::{
+    Error, Result,
+    lattice::{Lattice, Memory, bytes_a_cell, bytes_a_step},
+    output::{Array, Image},
+    rock::{Block, EnergyLedger},
+    scene::{Field, ProbePlace, Quantity, Scene, build::block_setup},
+    simulation::{Kind, Needs, Simulation, Totals, WallUnits, WaterLedger, checkpoint::Checkpoint},
+    sph::{self, Water},
+    units::Units,
+    wgpu,
+};
+use std::{path::Path, rc::Rc, time::Duration};
+
+/// Bytes whose copying shows what memory allows: more than caches hold.
+const BYTES: u64 = 128 << 20;
+
+/// Timeout of a wait. A step of 10⁸ cells or 10⁷ particles takes a CPU adapter minutes, and one of as many sub-steps of
+/// contacts as a run may have a quarter of an hour.
+const PATIENCE: Duration = Duration::from_secs(1800);
+
+/// A scene that runs.
+pub struct SceneRun {
+    /// The scene.
+    pub simulation: Simulation,
+    /// Where it runs; `None` for blocks whose pairs are searched on the host.
+    pub device: Option<(wgpu::Device, wgpu::Queue)>,
+    /// The adapter of that.
+    pub adapter: Option<wgpu::AdapterInfo>,
+    /// Bytes and bindings of a lattice.
+    pub memory: Option<Memory>,
+    /// Warnings about the scene.
+    pub warnings: Vec<String>,
+    /// Largest speed of water in all readbacks, m/s.
+    pub max_water_speed: f64,
+    /// Static solids of a lattice without blocks, where there are views of them.
+    pub(super) solids: Vec<Block>,
+    /// Part of the name of the adapter to draw on.
+    drawing_adapter: Option<String>,
+    /// Energies of the blocks at the start of the scene, before any restart.
+    start: EnergyLedger,
+    /// Energies of the water at the start of the scene, before any restart.
+    water_start: WaterLedger,
+    /// Step and state of the last readback of water, which several recorders share.
+    last_water: Option<(u64, Rc<Water>)>,
+}
+
+/// Drives a future to its end, on the device if there is one.
+fn drive<T>(
+    device: Option<&(wgpu::Device, wgpu::Queue)>,
+    what: &str,
+    future: impl Future<Output = Result<T>>,
+) -> Result<T> {
+    match device {
+        Some((device, _)) => gpu::drive(device, PATIENCE, what, future)?,
+        None => pollster::block_on(future),
+    }
+}
+
+impl SceneRun {
+    /// The scene that was read from `file` at its start, on the adapter called `adapter` or on the best one.
+    ///
+    /// # Errors
+    /// What the scene lacks, with its line in the file, or what the adapter cannot hold.
+    pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
+        Self::of(scene, adapter).map_err(|error| search::located(error, file))
+    }
+
+    fn of(scene: &Scene, name: Option<&str>) -> Result<Self> {
+        let kind = Kind::of(scene);
+        let blocks = match kind {
+            Kind::Rock => Some(block_setup(scene)?),
+            Kind::Lattice | Kind::Particles => None,
+        };
+        let adapter = match &blocks {
+            Some(blocks) => search::adapter(scene, blocks, name)?,
+            None => Some(gpu::pick(name)?),
+        };
+        let (mut device, mut needs) = (None, None);
+        if let Some(adapter) = &adapter {
+            let of_scene = needs.insert(Needs::of(scene, adapter)?);
+            let limits = of_scene.limits.clone();
+            device = Some(gpu::open(adapter, of_scene.features, limits)?);
+        }
+        let pair = device.as_ref().map(|(device, queue)| (device, queue));
+        let mut simulation = drive(device.as_ref(), "the kernels", async {
+            match (blocks, pair, &needs) {
+                (Some(blocks), pair, _) => Simulation::of_rock(pair, scene, blocks).await,
+                (None, Some((device, queue)), Some(needs)) => {
+                    Simulation::with_needs(device, queue, scene, needs).await
+                }
+                // Refused: only blocks without a fluid have no device.
+                _ => Simulation::of_rock(None, scene, block_setup(scene)?).await,
+            }
+        })?;
+        let advice = drive(
+            device.as_ref(),
+            "looking for gaps",
+            simulation.advise_water(),
+        )?;
+        let all = advice.iter().chain(simulation.advice());
+        let solids = !scene.views.is_empty() && simulation.rock().is_none();
+        let info = adapter.map(|adapter| adapter.get_info());
+        let mut run = Self {
+            warnings: all.map(ToString::to_string).collect(),
+            start: simulation
+                .rock()
+                .map_or_else(EnergyLedger::default, |rock| rock.blocks().ledger()),
+            memory: needs
+                .and_then(|needs| needs.lattice)
+                .map(|lattice| lattice.memory),
+            solids: if solids {
+                solid_blocks(scene)
+            } else {
+                Vec::new()
+            },
+            // Pictures are drawn where the fluid is computed.
+            drawing_adapter: match (&info, kind) {
+                (Some(info), Kind::Lattice | Kind::Particles) => Some(info.name.clone()),
+                _ => name.map(Into::into),
+            },
+            adapter: info,
+            device,
+            simulation,
+            water_start: WaterLedger::default(),
+            last_water: None,
+            max_water_speed: 0.0,
+        };
+        if kind == Kind::Particles {
+            let water = run.water()?;
+            run.water_start = run.simulation.ledger(&water)?;
+        }
+        Ok(run)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        self.simulation.scene()
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.simulation.step()
+    }
+
+    /// Length of a step, s.
+    pub fn time_step(&self) -> f64 {
+        self.simulation.time_step()
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// The lattice and its units, if there is one.
+    pub fn lattice(&self) -> Option<(&Lattice, &Units)> {
+        self.simulation.lattice().zip(self.simulation.units())
+    }
+
+    /// Its blocks as they are now, if it has any.
+    pub fn rock(&self) -> Option<Rock<'_>> {
+        let simulation = &self.simulation;
+        let rock = simulation.rock()?;
+        let in_fluid = rock.setup().in_fluid;
+        // The faces of the domain that hold blocks come last, and are not shown.
+        let in_domain = in_fluid + self.scene().solids.len();
+        let (shown, loaded) = match simulation.kind() {
+            Kind::Rock => (rock.blocks().len(), 0),
+            Kind::Lattice => (in_domain, in_fluid),
+            Kind::Particles => (in_domain, in_domain),
+        };
+        (shown > 0).then(|| Rock {
+            step: simulation.step(),
+            time: simulation.time(),
+            setup: &rock.setup().setup,
+            blocks: rock.blocks(),
+            felt: &rock.external_load()[..loaded],
+            coupled: simulation.coupled(),
+            shown,
+            start: &self.start,
+        })
+    }
+
+    /// Whether its state is worth writing after steps that have left the range of the method: blocks without a fluid go
+    /// back to the last good step.
+    pub fn is_intact(&self) -> bool {
+        self.simulation.kind() == Kind::Rock
+    }
+
+    /// Takes `steps` steps; the device is idle at their end.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::advance`], and a device that does not answer.
+    pub fn advance(&mut self, steps: u64) -> Result<()> {
+        let what = format!("{steps} steps");
+        drive(self.device.as_ref(), &what, self.simulation.advance(steps))?;
+        if let Some((device, _)) = &self.device {
+            // Free water without blocks is still computed: its time would count as output.
+            let all = wgpu::PollType::Wait {
+                submission_index: None,
+                timeout: Some(PATIENCE),
+            };
+            let idle = device.poll(all);
+            idle.map_err(|error| Error::DeviceLost(error.to_string()))?;
+        }
+        Ok(())
+    }
+
+    /// Restores the state in the file.
+    ///
+    /// # Errors
+    /// Those of [`Checkpoint::read`] and [`Simulation::restore`].
+    pub fn restore(&mut self, path: &Path) -> Result<()> {
+        self.last_water = None;
+        self.simulation.restore(&Checkpoint::read(path)?)
+    }
+
+    /// Writes the state, from which a run goes on to the same bits.
+    ///
+    /// # Errors
+    /// If the device is lost, or the file cannot be written.
+    pub fn checkpoint(&mut self, path: &Path) -> Result<()> {
+        let state = self.simulation.checkpoint();
+        drive(self.device.as_ref(), "reading the state", state)?.write(path)
+    }
+
+    /// The given fields on all cells of the lattice.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::image`].
+    pub fn image(&mut self, fields: &[Field]) -> Result<Image> {
+        let image = self.simulation.image(fields);
+        drive(self.device.as_ref(), "reading the fields", image)
+    }
+
+    /// Sums over the lattice.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::totals`].
+    pub fn totals(&mut self) -> Result<Totals> {
+        let totals = self.simulation.totals();
+        drive(self.device.as_ref(), "summing up", totals)
+    }
+
+    /// The given fields on the given cells of the lattice; none of a scene without one, whose pictures need none.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::read`].
+    pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
+        if self.simulation.lattice().is_none() {
+            return Ok(Vec::new());
+        }
+        let read = self.simulation.read(fields, cells);
+        drive(self.device.as_ref(), "reading cells", read)
+    }
+
+    /// The largest y⁺ beside walls and blocks of the lattice.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::wall_units`].
+    pub fn wall_units(&mut self) -> Result<WallUnits> {
+        let found = self.simulation.wall_units();
+        drive(self.device.as_ref(), "reading cells beside walls", found)
+    }
+
+    /// The present state of free water.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::water`].
+    pub fn water(&mut self) -> Result<Rc<Water>> {
+        let step = self.simulation.step();
+        if let Some((read, water)) = &self.last_water
+            && *read == step
+        {
+            return Ok(water.clone());
+        }
+        let water = self.simulation.water();
+        let water = Rc::new(drive(self.device.as_ref(), "reading the water", water)?);
+        if let Some(particles) = self.simulation.particles() {
+            let totals = sph::Totals::of(particles.setup(), &water);
+            self.max_water_speed = self.max_water_speed.max(totals.max_speed);
+        }
+        self.last_water = Some((step, water.clone()));
+        Ok(water)
+    }
+
+    /// Energies of free water since the start of the scene.
+    fn water_ledger(&mut self) -> Result<WaterLedger> {
+        let water = self.water()?;
+        Ok(self.simulation.ledger(&water)?.since(&self.water_start))
+    }
+
+    /// The present values of `quantities`.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn values(&mut self, quantities: &[Quantity], log: &mut RunLog) -> Result<Vec<f64>> {
+        let fluid = match self.simulation.kind() {
+            _ if quantities.iter().all(|quantity| quantity.is_of_blocks()) => FluidValues::None,
+            Kind::Rock => FluidValues::None,
+            Kind::Lattice => {
+                let totals = self.totals()?;
+                log.max_speed = log.max_speed.max(totals.max_speed);
+                FluidValues::Lattice(totals)
+            }
+            Kind::Particles => {
+                let water = self.water()?;
+                let setup = self.simulation.particles().map(sph::SphSolver::setup);
+                let totals = setup.map(|setup| sph::Totals::of(setup, &water));
+                FluidValues::Water(totals.unwrap_or_default(), self.water_ledger()?)
+            }
+        };
+        let of_fluid = |quantity| fluid.value(quantity);
+        Ok(rock::values(self.rock(), quantities, log, of_fluid))
+    }
+
+    /// What writes the files of the scene until the step `last`, besides histories and checkpoints.
+    ///
+    /// # Errors
+    /// If a probe has no place in the scene, or a table cannot be written.
+    pub fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders> {
+        let scene = self.scene().clone();
+        let kind = self.simulation.kind();
+        let mut recorders = Recorders::new();
+        match kind {
+            Kind::Rock => {}
+            Kind::Lattice => recorders.push(Box::new(MaxSpeed::new(self, last))),
+            Kind::Particles => recorders.push(Box::new(Clouds::new(self, folder, last)?)),
+        }
+        for probe in &scene.probes {
+            match (&probe.place, kind) {
+                (
+                    ProbePlace::Block {
+                        block,
+                        faces,
+                        safety,
+                    },
+                    _,
+                ) => {
+                    let faces = *faces && kind == Kind::Lattice;
+                    let named = (probe, block.as_str());
+                    recorders.extend(rock::probes(self, folder, last, named, [faces, *safety])?);
+                }
+                (_, Kind::Rock) => {
+                    let message = "measures a fluid, and there is none";
+                    return Err(Error::scene(format!("probes.{}", probe.name), message).into());
+                }
+                (_, Kind::Lattice) => {
+                    recorders.push(Box::new(ProbeTable::new(self, folder, last, probe)?));
+                }
+                (_, Kind::Particles) => {
+                    recorders.push(Box::new(GaugeTable::new(self, folder, last, probe)?));
+                }
+            }
+        }
+        if kind == Kind::Lattice {
+            recorders.push(Box::new(Fields::new(self, folder, last)?));
+            for slice in &scene.output.slices {
+                recorders.push(Box::new(Pictures::new(self, folder, last, slice)));
+            }
+        }
+        if self.rock().is_some() {
+            recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
+        }
+        for view in &scene.views {
+            let adapter = self.drawing_adapter.clone();
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
+        }
+        Ok(recorders)
+    }
+
+    /// Where it runs, in a line.
+    pub fn describe_device(&self) -> String {
+        let adapter = self.adapter.as_ref().map(gpu::describe);
+        match (adapter, self.simulation.kind()) {
+            (Some(adapter), Kind::Rock) => format!("pairs on {adapter}"),
+            (Some(adapter), _) => adapter,
+            (None, _) => "pairs on the host".into(),
+        }
+    }
+
+    /// The blocks in numbers; none of free water in which no block moves.
+    fn rocks(&self, rocks: Option<Rocks>) -> Option<Rocks> {
+        let is_still = |rock: &riprap::coupling::Rock| !rock.moves();
+        let still = self.simulation.rock().is_some_and(is_still);
+        rocks.filter(|_| !(still && self.simulation.kind() == Kind::Particles))
+    }
+
+    /// What is known before the first step.
+    ///
+    /// # Errors
+    /// If the bandwidth of the device cannot be measured.
+    pub fn summary(&self) -> anyhow::Result<Summary> {
+        let simulation = &self.simulation;
+        let summary = Summary {
+            title: self.scene().title.clone(),
+            adapter: self.describe_device(),
+            time_step: self.time_step(),
+            first_step: self.step(),
+            warnings: self.warnings.clone(),
+            rocks: self.rocks(Rocks::of(self)),
+            pool: WaterSummary::of(self),
+            ..Summary::default()
+        };
+        let Some((lattice, units)) = self.lattice() else {
+            return Ok(summary);
+        };
+        let setup = lattice.setup();
+        Ok(Summary {
+            cells: self.scene().cells(),
+            fluid_cells: lattice.geometry().fluid_cells,
+            cell: units.cell,
+            tau: setup.tau(),
+            kernel: format!(
+                "{:?} {:?} {:?} lanes {}{}",
+                setup.collision,
+                setup.equilibrium,
+                setup.storage,
+                setup.lanes,
+                if setup.wale.is_some() { " Wale" } else { "" }
+            ),
+            bandwidth: self.bandwidth()?,
+            bytes_a_cell: bytes_a_cell(setup),
+            bytes_a_step: bytes_a_step(setup, lattice.grid(), lattice.geometry()),
+            coupling: Coupling::of(simulation, 0),
+            left_out: LeftOut::of_lattice(lattice),
+            ..summary
+        })
+    }
+
+    /// Bytes a second that the device copies.
+    fn bandwidth(&self) -> Result<f64> {
+        match &self.device {
+            Some((device, queue)) => copy_bandwidth(device, queue, BYTES),
+            None => Ok(0.0),
+        }
+    }
+
+    /// How fast it runs, in a few words.
+    pub fn describe(&self, summary: &Summary, throughput: &Throughput) -> String {
+        let activity = self.rock().map(|rock| rock.activity());
+        let fluid = match self.simulation.kind() {
+            Kind::Rock => {
+                let warm = throughput.warm();
+                let rate = warm.rate(warm.steps);
+                return format!("{rate:.0} steps/s, {}", activity.unwrap_or_default());
+            }
+            Kind::Lattice => {
+                let (mlups, share) = speed(summary, throughput);
+                format!("{mlups:.1} MLUPS, {:.0} % of memory speed", 100.0 * share)
+            }
+            Kind::Particles => {
+                let pool = WaterSummary::of(self);
+                let pool = pool.map(|pool| pool.since(summary.pool.as_ref(), throughput));
+                let updates = pool.map_or(0.0, |pool| pool.updates_a_second);
+                format!("{:.2} million particle updates/s", updates / 1e6)
+            }
+        };
+        match activity.filter(|_| summary.rocks.is_some()) {
+            Some(activity) => format!("{fluid}; {activity}"),
+            None => fluid,
+        }
+    }
+
+    /// Completes the summary after the last step.
+    pub fn finish(&mut self, summary: &mut Summary, log: &RunLog, throughput: &Throughput) {
+        summary.rocks = self.rocks(Rocks::finished(self, log, throughput));
+        match self.simulation.kind() {
+            Kind::Rock => {}
+            Kind::Lattice => {
+                // Others may have kept the device busy the first time.
+                if let Ok(again) = self.bandwidth() {
+                    summary.bandwidth = summary.bandwidth.max(again);
+                }
+                (summary.mlups, summary.bandwidth_share) = speed(summary, throughput);
+                let units = self.simulation.units();
+                summary.max_mach = units.map_or(0.0, |units| units.mach(log.max_speed));
+                summary.coupling = Coupling::of(&self.simulation, throughput.whole().steps);
+                self.report_wall_units(summary);
+            }
+            Kind::Particles => {
+                if let Some(pool) = WaterSummary::of(self) {
+                    let pool = pool.since(summary.pool.as_ref(), throughput);
+                    summary.warnings.extend(pool.warnings(self));
+                    summary.pool = Some(pool);
+                }
+                // On a lost device the run has already reported the error.
+                summary.water_energies = self.water_ledger().ok().map(Energies::of);
+            }
+        }
+    }
+}
+
+/// Million cell updates a second, and the part of what memory allows, once kernels are compiled.
+fn speed(summary: &Summary, throughput: &Throughput) -> (f64, f64) {
+    let warm = throughput.warm();
+    let rate = warm.rate(warm.steps);
+    (
+        rate * summary.fluid_cells as f64 / 1e6,
+        rate * summary.bytes_a_step as f64 / summary.bandwidth,
+    )
+}
+
+/// Sums over a fluid.
+enum FluidValues {
+    /// No fluid, or none of its quantities.
+    None,
+    Lattice(Totals),
+    Water(sph::Totals, WaterLedger),
+}
+
+impl FluidValues {
+    /// A quantity of the fluid; NaN for one that it does not have.
+    fn value(&self, quantity: Quantity) -> f64 {
+        match self {
+            Self::None => f64::NAN,
+            Self::Lattice(totals) => match quantity {
+                Quantity::KineticEnergy => totals.kinetic_energy,
+                Quantity::Enstrophy => totals.enstrophy,
+                Quantity::Mass => totals.mass,
+                Quantity::MomentumX => totals.momentum[0],
+                Quantity::MomentumY => totals.momentum[1],
+                Quantity::MomentumZ => totals.momentum[2],
+                Quantity::MaxSpeed => totals.max_speed,
+                _ => f64::NAN,
+            },
+            Self::Water(totals, ledger) => match quantity {
+                Quantity::Mass => totals.mass,
+                Quantity::MomentumX => totals.momentum[0],
+                Quantity::MomentumY => totals.momentum[1],
+                Quantity::MomentumZ => totals.momentum[2],
+                Quantity::KineticEnergy => totals.kinetic_energy,
+                Quantity::PotentialEnergy => ledger.potential,
+                Quantity::CompressionEnergy => ledger.compression,
+                Quantity::EscapedEnergy => ledger.escaped,
+                Quantity::BodyWork => ledger.bodies,
+                Quantity::PushWork => ledger.penalty,
+                Quantity::DummyWork => ledger.boundary,
+                Quantity::DissipatedEnergy => ledger.dissipated(),
+                Quantity::JointWork => ledger.joints,
+                Quantity::LostToWater => ledger.blocks,
+                Quantity::MaxSpeed => totals.max_speed,
+                _ => f64::NAN,
+            },
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! How fast a run goes: its first steps, in which drivers compile the kernels, are timed apart.
+
+use std::time::Duration;
+
+/// Steps that are timed apart: an in-place lattice has kernels for even and for odd steps, and drivers compile each at its
+/// first dispatch.
+const FIRST: u64 = 2;
+
+/// Steps and the time that they took, without what was written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timed {
+    /// Steps of the scene.
+    pub steps: u64,
+    /// Steps of its fluid: a step of the scene takes several of particles.
+    pub fluid_steps: u64,
+    /// What they took; the device is idle at both ends.
+    pub time: Duration,
+}
+
+impl Timed {
+    /// `count` over its time, 1/s.
+    pub fn rate(&self, count: u64) -> f64 {
+        count as f64 / self.time.as_secs_f64().max(1e-9)
+    }
+
+    fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.fluid_steps += other.fluid_steps;
+        self.time += other.time;
+    }
+}
+
+/// The steps of a run so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Throughput {
+    first: Timed,
+    rest: Timed,
+}
+
+impl Throughput {
+    /// Counts a batch of steps.
+    pub fn add(&mut self, batch: Timed) {
+        match self.first.steps < FIRST {
+            true => self.first.add(batch),
+            false => self.rest.add(batch),
+        }
+    }
+
+    /// All steps.
+    pub fn whole(&self) -> Timed {
+        let mut whole = self.first;
+        whole.add(self.rest);
+        whole
+    }
+
+    /// The steps from which speeds follow: without those in which kernels were compiled, or all where there are no others.
+    pub fn warm(&self) -> Timed {
+        match self.rest.steps {
+            0 => self.first,
+            _ => self.rest,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn batch(steps: u64, milliseconds: u64) -> Timed {
+        Timed {
+            steps,
+            fluid_steps: 3 * steps,
+            time: Duration::from_millis(milliseconds),
+        }
+    }
+
+    /// A first step of 2 s and 50 of 10 ms each: 100 steps a second, not 20.
+    #[test]
+    fn compilation_does_not_count_in_speeds() {
+        let mut throughput = Throughput::default();
+        throughput.add(batch(1, 2000));
+        // All that there is.
+        assert_eq!(throughput.warm(), batch(1, 2000));
+        throughput.add(batch(1, 1000));
+        assert_eq!(throughput.warm(), batch(2, 3000));
+        throughput.add(batch(10, 100));
+        throughput.add(batch(40, 400));
+        assert_eq!(throughput.warm(), batch(50, 500));
+        assert_eq!(throughput.whole(), batch(52, 3500));
+        let warm = throughput.warm();
+        assert!((warm.rate(warm.steps) - 100.0).abs() < 1e-9);
+        assert!((warm.rate(warm.fluid_steps) - 300.0).abs() < 1e-9);
+    }
+}

@@ -1,9 +1,0 @@
-// The flags of a cell, as cells_flagged.wgsl explains them.
-// needs scalar_grid
-
-@group(0) @binding(32) var<storage, read> flags: array<u32>;
-
-fn flags_of(cell: vec3<u32>) -> u32 {
-    let element = cell.x + NX * (cell.y + NY * (cell.z % SLICES));
-    return (flags[element] >> (8u * (cell.z / SLICES))) & 255u;
-}

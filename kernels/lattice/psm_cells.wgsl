@@ -1,0 +1,133 @@
+// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
+// e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
+// solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
+// needs velocity, moments, workgroup, psm_planes, joint_gap, $cell_flags, $operator, $reals
+
+// See psm_planes.wgsl; WORKGROUP elements a plane.
+@group(0) @binding(35) var<storage, read_write> psm_planes: array<Reals>;
+
+// Largest B in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations in
+// such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
+// the momentum between them. With this B fluid flows along the joint, and blocks slide on it: only the momentum of the solid
+// acts on the fluid there, so that its shear is that of its viscosity. As the joint opens, the cells become ordinary ones.
+const JOINT_WEIGHT = 0.25;
+
+struct PsmCell {
+    // Sum over the blocks; more than 1 where they overlap.
+    fraction: Real,
+    velocity: Vector,
+    near: Mask,
+    adjacent: Mask,
+    interior: Mask,
+    joint: Mask,
+}
+
+fn plane(slot: u32, n: u32, local: u32) -> u32 {
+    return plane_element(slot, n, WORKGROUP, local);
+}
+
+fn psm_cell(slot: u32, local: u32) -> PsmCell {
+    let sum = decode_sum(get_reals(psm_planes[plane(slot, PLANE_SUM, local)]));
+    let velocity = Vector(
+        get_reals(psm_planes[plane(slot, PLANE_VELOCITY, local)]),
+        get_reals(psm_planes[plane(slot, PLANE_VELOCITY + 1u, local)]),
+        get_reals(psm_planes[plane(slot, PLANE_VELOCITY + 2u, local)]),
+    );
+    return PsmCell(sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
+}
+
+// The velocity for the eddy viscosity of the next step: the solid's velocity in the solid.
+fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
+    let e = min(psm.fraction, Real(1.0));
+    return Vector(
+        u.x + e * (psm.velocity.x - u.x),
+        u.y + e * (psm.velocity.y - u.y),
+        u.z + e * (psm.velocity.z - u.z),
+    );
+}
+
+// Solid rotation has an eddy viscosity by the formula, which it must not have.
+fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
+    return nu_t * (1.0 - min(psm.fraction, Real(1.0)));
+}
+
+fn apply_solid(
+    p: Place,
+    slot: u32,
+    local: u32,
+    cell: u32,
+    psm: PsmCell,
+    tau_minus_half: Real,
+    rho: Real,
+    u: Vector,
+    h: ptr<function, array<Real, 27>>,
+    change: ptr<function, array<Real, 27>>,
+) {
+    let e = min(psm.fraction, Real(1.0));
+    // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
+    let open = e / (1.0 + (1.0 - e) / tau_minus_half);
+    let closure = clamp((e - Real(1.0 - OPEN_GAP)) / (OPEN_GAP - CLOSED_GAP), Real(0.0), Real(1.0));
+    let narrow = (closure > Real(0.0)) & !psm.interior;
+    var at_wall = Mask(false);
+    // Momentum that the fluid loses along walls.
+    var lost = Vector(Real(0.0), Real(0.0), Real(0.0));
+    for (var face = 0u; face < 6u; face++) { // unroll
+        let here = narrow & wall_at(p, cell, face);
+        at_wall = at_wall | here;
+        lost = lost_to_wall(face, here, h, lost);
+    }
+    let joint = select(Real(0.0), closure, psm.joint | at_wall);
+    let closed = open + joint * (min(open, Real(JOINT_WEIGHT)) - open);
+    let weight = select(closed, Real(1.0), psm.interior);
+    let v = psm.velocity;
+    var s = equilibrium(rho, v);
+    for (var k = 1u; k < 27u; k++) { // unroll
+        s[k] -= (*h)[k];
+    }
+    let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, &s);
+    let higher = (1.0 - joint) * weight;
+    for (var k = 1u; k < 27u; k++) { // unroll
+        let part = select(higher, weight, Mask(k == 1u || k == 3u || k == 9u));
+        (*change)[k] += part * (s[k] - (*change)[k]);
+    }
+    let fluid = (psm.fraction > Real(0.0)) & !solid(cell);
+    let adjacent = psm.adjacent & !solid(cell);
+    let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
+    let a = factor * rho;
+    let each = 2.0 * closure / max(psm.fraction, Real(1.0));
+    psm_planes[plane(slot, PLANE_BETA, local)] = put_reals(select(beta, Real(1.0), adjacent));
+    psm_planes[plane(slot, PLANE_A, local)] = put_reals(select(beta * a, (*h)[0u], adjacent));
+    psm_planes[plane(slot, PLANE_G, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, adjacent));
+    psm_planes[plane(slot, PLANE_G + 1u, local)] = put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, adjacent));
+    psm_planes[plane(slot, PLANE_G + 2u, local)] = put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, adjacent));
+}
+
+// Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where
+// `here`. A full cell at a wall has the friction of the lattice there, which acts on no block by itself: all of it acts on
+// the block, and less the more its joint is open.
+fn lost_to_wall(face: u32, here: Mask, h: ptr<function, array<Real, 27>>, before: Vector) -> Vector {
+    let sign_half = select(Real(0.5), Real(-0.5), Mask(face % 2u == 1u));
+    let zero = Real(0.0);
+    var found: Vector;
+    switch face / 2u {
+        case 0u: {
+            found = Vector(zero, leaving((*h)[3u], (*h)[4u], (*h)[5u], sign_half), leaving((*h)[9u], (*h)[10u], (*h)[11u], sign_half));
+        }
+        case 1u: {
+            found = Vector(leaving((*h)[1u], (*h)[4u], (*h)[7u], sign_half), zero, leaving((*h)[9u], (*h)[12u], (*h)[15u], sign_half));
+        }
+        default: {
+            found = Vector(leaving((*h)[1u], (*h)[10u], (*h)[19u], sign_half), leaving((*h)[3u], (*h)[12u], (*h)[21u], sign_half), zero);
+        }
+    }
+    return Vector(
+        before.x + select(zero, found.x, here),
+        before.y + select(zero, found.y, here),
+        before.z + select(zero, found.z, here),
+    );
+}
+
+// The sum of f c_t over the directions with c_n = 1 or -1, from those of f c_t, f c_t c_n and f c_t (c_n^2 - 1/3).
+fn leaving(first: Real, second: Real, third: Real, sign_half: Real) -> Real {
+    return 0.5 * (third + first * THIRD) + sign_half * second;
+}

@@ -1,0 +1,10 @@
+// No part is a sphere.
+// needs tables
+
+fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
+    return 0.0;
+}
+
+fn ball_fraction(part: Part, cell: vec3<i32>) -> f32 {
+    return 0.0;
+}

@@ -1,0 +1,25 @@
+// The layer of cells along one face of a convex polyhedron.
+// needs tables, faces
+
+struct LayerCell {
+    // Its foot on the plane of the face lies in the face, and the cell in the layer.
+    here: bool,
+    normal: vec3<f32>,
+    // Of its centre over the face.
+    height: f32,
+}
+
+// r: the centre of the cell from the part's centroid. The layer begins where cells no longer reach through the plane
+// and is one cell thick, so that it holds one cell for each unit of the face's area.
+fn layer_cell(part: Part, number: u32, r: vec3<f32>) -> LayerCell {
+    let own = faces[part.first_face + number];
+    let height = dot(own.xyz, r) - own.w;
+    let first = half_width(own.xyz) - TOUCH;
+    var here = height >= first && height < first + 1.0;
+    let foot = r - height * own.xyz;
+    for (var k = 0u; k < part.faces && here; k++) {
+        let face = faces[part.first_face + k];
+        here = k == number || dot(face.xyz, foot) <= face.w;
+    }
+    return LayerCell(here, own.xyz, height);
+}

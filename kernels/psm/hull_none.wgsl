@@ -1,0 +1,10 @@
+// All parts are spheres.
+// needs tables
+
+fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
+    return 0.0;
+}
+
+fn hull_fraction(part: Part, r: vec3<f32>) -> f32 {
+    return 0.0;
+}

@@ -1,5 +1,0 @@
-// Workgroups, numbered through a dispatch that is folded over two dimensions.
-
-fn turn_of(group: vec3<u32>, groups: vec3<u32>) -> u32 {
-    return group.x + group.y * groups.x;
-}

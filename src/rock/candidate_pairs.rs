@@ -1,0 +1,341 @@
+//! Candidate pairs: the boxes that a broadphase searches, the list of pairs, and how long the list stays complete.
+
+use super::{
+    Blocks, Body, Period,
+    body::State,
+    contact_list::NO_CONTACT,
+    deforming::DeformingBlocks,
+    period::{Image, Periods},
+    step::BLOCKS_PER_TASK,
+};
+#[cfg(doc)]
+use crate::rock::broadphase::Broadphase;
+use crate::{
+    Error, Result,
+    rock::{broadphase::Aabb, contact::Cache},
+};
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+
+/// A candidate pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct CandidatePair {
+    /// First and second part, in ascending order.
+    pub parts: [u32; 2],
+    /// Number of periods by which the second part is shifted to its image near the first.
+    pub offset: [i32; 3],
+    /// What the resolver remembers.
+    pub cache: Cache,
+    /// Its contact among all contacts, or [`NO_CONTACT`].
+    pub contact: u32,
+}
+
+impl CandidatePair {
+    pub fn new(parts: [u32; 2], offset: [i32; 3]) -> Self {
+        Self {
+            parts,
+            offset,
+            cache: Cache::default(),
+            contact: NO_CONTACT,
+        }
+    }
+
+    fn part_pair(&self) -> PartPair {
+        PartPair {
+            parts: self.parts,
+            offset: self.offset,
+        }
+    }
+}
+
+/// Pose of a block when the list was made, and how far it may move from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct SkinReference {
+    pub centre: DVec3,
+    pub rotation: DQuat,
+    /// By how much its boxes were grown, m.
+    pub skin_margin: f64,
+}
+
+impl SkinReference {
+    /// No point of the block has moved farther than this, m.
+    fn moved(&self, body: &Body, state: &State, deforming: &DeformingBlocks) -> f64 {
+        let travel = (state.centre - self.centre).length();
+        if let Some(moved_by_strain) = deforming.moved_by_strain(body) {
+            return travel + moved_by_strain;
+        }
+        let rotation = state.rotation * self.rotation.conjugate();
+        // A point at the distance r from the axis moves by 2 r sin(θ/2).
+        travel + 2.0 * rotation.xyz().length() * body.radius
+    }
+}
+
+/// By how much the boxes of a block are grown: half the skin, or what a fast one travels in two steps, m.
+pub(super) fn skin_margin(
+    body: &Body,
+    state: &State,
+    deforming: &DeformingBlocks,
+    skin: f64,
+    dt: f64,
+) -> f64 {
+    (0.5 * skin).max(2.0 * step_travel(body, state, deforming, dt))
+}
+
+/// Distance that the fastest point travels in a step, m.
+fn step_travel(body: &Body, state: &State, deforming: &DeformingBlocks, dt: f64) -> f64 {
+    if body.is_fixed() || state.asleep {
+        return 0.0;
+    }
+    deforming.fastest(body, state) * dt
+}
+
+/// Whether some block may leave its boxes within a step, so that pairs may be missing.
+pub(super) fn skin_exceeded(
+    bodies: &[Body],
+    states: &[State],
+    deforming: &DeformingBlocks,
+    skin_references: &[SkinReference],
+    dt: f64,
+) -> bool {
+    let all = bodies
+        .par_iter()
+        .zip(states)
+        .zip(skin_references)
+        .with_min_len(BLOCKS_PER_TASK);
+    all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
+        .any(|((body, state), reference)| {
+            let step_travel = step_travel(body, state, deforming, dt);
+            reference.moved(body, state, deforming) + step_travel > reference.skin_margin
+        })
+}
+
+/// A new list that keeps the caches and contacts of the pairs of the old one. A pair in contact that is not in `new` is
+/// kept all the same: its history ends only where the resolver says so.
+///
+/// `lasting`: the components of the periodic offset that identify a pair, see [`Periods::lasting`].
+pub(super) fn merged(
+    old: &[CandidatePair],
+    new: &[PartPair],
+    lasting: impl Fn(&PartPair) -> [i32; 3],
+) -> Vec<CandidatePair> {
+    let mut list = Vec::with_capacity(new.len());
+    let mut rest = old.iter().copied().peekable();
+    let key = |pair: PartPair| (pair.parts, lasting(&pair));
+    for &PartPair { parts, offset } in new {
+        let wanted = key(PartPair { parts, offset });
+        while let Some(pair) = rest.next_if(|pair| key(pair.part_pair()) < wanted) {
+            list.extend((pair.contact != NO_CONTACT).then_some(pair));
+        }
+        let kept = rest.next_if(|pair| key(pair.part_pair()) == wanted);
+        list.push(kept.map_or_else(
+            || CandidatePair::new(parts, offset),
+            |pair| CandidatePair { offset, ..pair },
+        ));
+    }
+    list.extend(rest.filter(|pair| pair.contact != NO_CONTACT));
+    list
+}
+
+/// Two parts that may touch, and the image of the second that may touch the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct PartPair {
+    /// First and second part, in ascending order.
+    pub parts: [u32; 2],
+    /// Number of periods by which the second is shifted.
+    pub offset: [i32; 3],
+}
+
+/// From pairs of boxes to pairs of parts, without those that are never computed: pairs of one block, and of two that forces
+/// do not move. `images`: the part of each box; without them each is its own.
+///
+/// # Errors
+/// If the list is not sorted, names a box that does not exist, or names a pair twice.
+pub(super) fn checked(
+    pairs: Vec<[u32; 2]>,
+    images: Option<&[Image]>,
+    block: &[u32],
+    bodies: &[Body],
+) -> Result<Vec<PartPair>> {
+    let aabbs = images.map_or(block.len(), <[Image]>::len);
+    let known = |pair: &[u32; 2]| pair[0] < pair[1] && (pair[1] as usize) < aabbs;
+    if let Some(pair) = pairs.iter().find(|pair| !known(pair)) {
+        return Err(Error::argument(
+            "pairs",
+            format!("{pair:?} must be two of the {aabbs} boxes in ascending order"),
+        ));
+    }
+    if !pairs.is_sorted_by(|a, b| a < b) {
+        let message = "the broadphase must return the pairs sorted, each once";
+        return Err(Error::argument("pairs", message));
+    }
+    let matters = |pair: &PartPair| {
+        let [a, b] = pair.parts.map(|part| block[part as usize]);
+        a != b && (bodies[a as usize].is_free() || bodies[b as usize].is_free())
+    };
+    let Some(images) = images else {
+        let own = pairs.into_iter().map(|parts| PartPair {
+            parts,
+            offset: [0; 3],
+        });
+        return Ok(own.filter(matters).collect());
+    };
+    let part_pair = |pair: [u32; 2]| {
+        let mut ends = pair.map(|aabb| images[aabb as usize]);
+        ends.sort_unstable_by_key(|image| image.part);
+        let [a, b] = ends;
+        PartPair {
+            parts: [a.part, b.part],
+            offset: std::array::from_fn(|axis| a.offset[axis] - b.offset[axis]),
+        }
+    };
+    let mut list: Vec<PartPair> = pairs.into_iter().map(part_pair).filter(matters).collect();
+    // Two parts and two of their images are the same pair.
+    list.sort_unstable();
+    list.dedup();
+    Ok(list)
+}
+
+/// A tenth of the mean radius of the parts that move: boxes grow little, and the list lives for many steps.
+pub(super) fn usual_skin(bodies: &[Body]) -> f64 {
+    let moving = bodies.iter().filter(|body| !body.is_fixed());
+    let (mut sum, mut count) = (0.0, 0.0f64);
+    for part in moving.flat_map(|body| body.shape.parts()) {
+        sum += part.form.radius();
+        count += 1.0;
+    }
+    0.1 * sum / count.max(1.0)
+}
+
+impl Blocks {
+    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more, and by
+    /// half the range of the films. Where space repeats, they are in the period, and the images that reach others follow.
+    pub fn aabbs(&self) -> Vec<Aabb> {
+        let mut aabbs = self.part_aabbs();
+        if let Some(periods) = &self.periods {
+            periods.images(&self.states, &self.parts.block, &mut aabbs);
+        }
+        aabbs
+    }
+
+    /// The boxes of the parts where the blocks are.
+    fn part_aabbs(&self) -> Vec<Aabb> {
+        let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.reach());
+        self.parts
+            .aabbs(&self.bodies, |block| self.skin_margin(block) + thin)
+    }
+
+    /// The period of the setup with what the blocks fill of it.
+    pub(super) fn periods_of(&self, period: Period) -> Result<Periods> {
+        let part_aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
+        let filled = self.bodies.iter().enumerate().map(|(block, body)| {
+            let own = part_aabbs[body.parts.clone()].iter();
+            let around = own.fold(
+                [DVec3::INFINITY, DVec3::NEG_INFINITY],
+                |[low, high], aabb| [low.min(aabb.min.into()), high.max(aabb.max.into())],
+            );
+            period.filled(body, around, &self.label(block))
+        });
+        Ok(Periods {
+            period,
+            filled: filled.collect::<Result<_>>()?,
+        })
+    }
+
+    /// Where space repeats.
+    pub fn period(&self) -> Option<Period> {
+        self.periods.as_ref().map(|periods| periods.period)
+    }
+
+    /// Shifts to those images of the second of two blocks, `separation` (m) from the first, that are within `range` (m) of it
+    /// along each axis, m. Along an axis that one of them fills, only the shift to the nearest image, as the others lie in it.
+    pub(crate) fn image_shifts(
+        &self,
+        blocks: [usize; 2],
+        separation: DVec3,
+        range: f64,
+    ) -> Vec<DVec3> {
+        let Some(periods) = &self.periods else {
+            return vec![DVec3::ZERO];
+        };
+        let filled = |axis: usize| blocks.iter().any(|&block| periods.filled[block][axis]);
+        let nearest = periods.period.nearest(separation);
+        let mut image_shifts = periods.period.image_shifts(separation, range);
+        image_shifts
+            .retain(|shift| (0..3).all(|axis| !filled(axis) || shift[axis] == nearest[axis]));
+        image_shifts
+    }
+
+    /// Part of each of [`Blocks::aabbs`], and the shift of its image, m.
+    pub(crate) fn images(&self) -> Vec<(usize, DVec3)> {
+        let Some(periods) = &self.periods else {
+            return (0..self.parts.block.len())
+                .map(|part| (part, DVec3::ZERO))
+                .collect();
+        };
+        let part_images = self.part_images(periods).into_iter();
+        part_images
+            .map(|image| (image.part as usize, -periods.period.shift(image.offset)))
+            .collect()
+    }
+
+    /// The images of all boxes.
+    fn part_images(&self, periods: &Periods) -> Vec<Image> {
+        periods.images(&self.states, &self.parts.block, &mut self.part_aabbs())
+    }
+
+    /// Whether a step needs a new list of pairs first: a block has moved by half the skin, or will in this step.
+    pub fn wants_pairs(&self) -> bool {
+        self.skin_references.len() < self.bodies.len()
+            || skin_exceeded(
+                &self.bodies,
+                &self.states,
+                &self.deforming,
+                &self.skin_references,
+                self.pair_horizon(),
+            )
+    }
+
+    /// The pairs of [`Blocks::aabbs`] that may touch. Caches and contacts of the pairs stay.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if they are not sorted pairs of boxes.
+    pub fn set_pairs(&mut self, pairs: Vec<[u32; 2]>) -> Result<()> {
+        let block = &self.parts.block;
+        let images = self
+            .periods
+            .as_ref()
+            .map(|periods| self.part_images(periods));
+        let pairs = checked(pairs, images.as_deref(), block, &self.bodies)?;
+        self.pairs = merged(&self.pairs, &pairs, |pair| {
+            let blocks = pair.parts.map(|part| block[part as usize]);
+            let periods = self.periods.as_ref();
+            periods.map_or(pair.offset, |periods| periods.lasting(blocks, pair.offset))
+        });
+        let reference = |(i, state): (usize, &State)| SkinReference {
+            centre: state.centre,
+            rotation: state.rotation,
+            skin_margin: self.skin_margin(i),
+        };
+        self.skin_references = self.states.iter().enumerate().map(reference).collect();
+        self.deforming.set_skin_reference();
+        Ok(())
+    }
+
+    /// By how much the boxes of a block are grown, m.
+    fn skin_margin(&self, block: usize) -> f64 {
+        let (body, state) = (&self.bodies[block], &self.states[block]);
+        skin_margin(body, state, &self.deforming, self.skin, self.pair_horizon())
+    }
+
+    /// Time for which the list must stay complete, s.
+    fn pair_horizon(&self) -> f64 {
+        // Without free blocks no step is too long, and there are no pairs.
+        if self.time_step.is_finite() {
+            self.time_step
+        } else {
+            0.0
+        }
+    }
+}

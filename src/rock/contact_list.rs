@@ -1,0 +1,215 @@
+//! Contacts of all pairs, in the order of the pairs, and their sums over each block.
+
+use super::{
+    Body, body::MidStep, candidate_pairs::CandidatePair, deforming::DeformingBlocks, films::Film,
+    narrowphase::Joints,
+};
+use crate::rock::{
+    contact::{Bond, Placed},
+    law::{Force, Stiffness},
+};
+use glam::DVec3;
+
+/// No contact.
+pub(super) const NO_CONTACT: u32 = u32::MAX;
+
+/// The resolver's limit is a tenth of the smaller distance from centroid to face, of which overlaps are
+/// given as shares.
+pub(super) const DISTANCES_PER_LIMIT: f64 = 10.0;
+
+/// A contact, vectors along the world's axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Contact {
+    pub parts: [u32; 2],
+    pub blocks: [u32; 2],
+    /// Shift of the second part to its image near the first, m: whole periods.
+    pub image_shift: DVec3,
+    /// Point of contact, m.
+    pub point: DVec3,
+    /// Where the force acts, m.
+    pub pressure_centre: DVec3,
+    /// From the first to the second.
+    pub normal: DVec3,
+    /// m.
+    pub overlap: f64,
+    /// That its springs count with, m²; 0 while the pair touches within rounding.
+    pub area: f64,
+    /// Of the section itself, which strength counts with, m².
+    pub section: f64,
+    /// m.
+    pub width: f64,
+    /// Overlap from which the blocks are no longer hard, m.
+    pub limit: f64,
+    /// On the second block.
+    pub force: Force,
+    /// Where its faces are bonded.
+    pub bond: Bond,
+    /// Work done on the springs less that taken by friction, J.
+    pub stored: f64,
+    /// Rate of work on the springs at the end of the last step, W.
+    pub power: f64,
+}
+
+/// Pairs that one thread takes at a time: enough to outweigh the handing out.
+pub(super) const CHUNK: usize = 64;
+
+/// Contacts in one list for each [`CHUNK`] pairs: whoever resolves them writes a list of its own, which the
+/// step after the next uses again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ContactList {
+    pub chunks: Vec<Chunk>,
+}
+
+/// Contacts of neighbouring pairs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Chunk {
+    /// At most [`CHUNK`].
+    pub contacts: Vec<Contact>,
+    /// Films in the gaps of pairs that nearly touch.
+    pub films: Vec<Film>,
+    /// What the springs held whose contact has ended in this step, J.
+    pub ended: Vec<f64>,
+    /// Room for the image of a part.
+    pub image: Placed,
+    /// Power that the dashpots of each contact take, W.
+    pub dashpots: Vec<f64>,
+}
+
+impl ContactList {
+    /// Makes room for the contacts of `pairs` pairs.
+    pub fn reset(&mut self, pairs: usize) {
+        let count = pairs.div_ceil(CHUNK);
+        self.chunks.resize_with(count, Chunk::default);
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Contact> {
+        self.chunks.iter().flat_map(|chunk| &chunk.contacts)
+    }
+
+    /// The films of all pairs, in their order.
+    pub fn films(&self) -> impl Iterator<Item = &Film> {
+        self.chunks.iter().flat_map(|chunk| &chunk.films)
+    }
+
+    /// The contact that a pair names.
+    pub fn of(&self, pair: &CandidatePair) -> Option<&Contact> {
+        let id = pair.contact as usize;
+        (pair.contact != NO_CONTACT).then(|| &self.chunks[id / CHUNK].contacts[id % CHUNK])
+    }
+
+    /// All contacts into one list, and into `pairs` their places in it.
+    pub fn list(&self, pairs: &mut [CandidatePair], list: &mut Vec<Contact>) {
+        list.clear();
+        let mut firsts = Vec::with_capacity(self.chunks.len());
+        for chunk in &self.chunks {
+            firsts.push(list.len() as u32);
+            list.extend_from_slice(&chunk.contacts);
+        }
+        for pair in pairs.iter_mut().filter(|pair| pair.contact != NO_CONTACT) {
+            let id = pair.contact as usize;
+            pair.contact = firsts[id / CHUNK] + (id % CHUNK) as u32;
+        }
+    }
+
+    /// The contacts of a list, whose places name them, and films.
+    pub fn from_list(list: &[Contact], films: &[Film]) -> Self {
+        let chunk = |contacts: &[Contact]| Chunk {
+            contacts: contacts.to_vec(),
+            ..Chunk::default()
+        };
+        let mut chunks: Vec<Chunk> = list.chunks(CHUNK).map(chunk).collect();
+        if !films.is_empty() {
+            chunks.resize_with(chunks.len().max(1), Chunk::default);
+            chunks[0].films = films.to_vec();
+        }
+        Self { chunks }
+    }
+}
+
+/// One contact at the end of the last step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// First and second block.
+    pub blocks: [usize; 2],
+    /// First and second part, among the parts of all blocks.
+    pub parts: [usize; 2],
+    /// Where the force acts on the first block, m.
+    pub point: DVec3,
+    /// Shift of the second block to its image near the first, m: zero, or whole periods.
+    pub image_shift: DVec3,
+    /// Unit normal from the first block to the second.
+    pub normal: DVec3,
+    /// Force on the second block, N; the first gets the opposite.
+    pub force: DVec3,
+    /// Overlap, m.
+    pub overlap: f64,
+    /// Area that its springs count with, m².
+    pub area: f64,
+    /// Area of the section itself, m², with which cohesion counts: less than `area` where that is of a corner.
+    pub section: f64,
+    /// Whether its tensile strength still holds.
+    pub bonded: bool,
+}
+
+impl ContactPoint {
+    pub(super) fn of(contact: &Contact) -> Self {
+        Self {
+            blocks: contact.blocks.map(|block| block as usize),
+            parts: contact.parts.map(|part| part as usize),
+            point: contact.pressure_centre,
+            image_shift: contact.image_shift,
+            normal: contact.normal,
+            force: contact.force.total(),
+            overlap: contact.overlap,
+            area: contact.area,
+            section: contact.section,
+            bonded: contact.force.history.bonded,
+        }
+    }
+}
+
+/// Sum of the contacts of one block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ContactSum {
+    /// N.
+    pub force: DVec3,
+    /// About its centroid, N m.
+    pub torque: DVec3,
+    /// Springs that hold it.
+    pub stiffness: Stiffness,
+}
+
+/// The sums of all blocks, in the order of the contacts.
+pub(super) fn sum_contacts(
+    contacts: &ContactList,
+    bodies: &[Body],
+    deforming: &DeformingBlocks,
+    mid_steps: &[MidStep],
+    joints: &Joints,
+    contact_sums: &mut Vec<ContactSum>,
+) {
+    contact_sums.clear();
+    contact_sums.resize(mid_steps.len(), ContactSum::default());
+    for contact in contacts.iter() {
+        let [a, b] = contact.blocks.map(|block| block as usize);
+        let joint = joints.of(mid_steps[a].material, mid_steps[b].material);
+        let (force, moment) = (contact.force.total(), contact.force.couple());
+        let at = contact.pressure_centre;
+        for (block, at, force, moment) in [
+            (a, at, -force, -moment),
+            (b, at - contact.image_shift, force, moment),
+        ] {
+            let sum = &mut contact_sums[block];
+            let arm = at - mid_steps[block].centre;
+            sum.force += force;
+            sum.torque += arm.cross(force) + moment;
+            // Among rigid blocks alone the bodies, which are far away in memory, are not read.
+            let (arm, width) = match deforming.is_empty() {
+                true => (arm, contact.width),
+                false => deforming.lever(&bodies[block], arm, contact.width),
+            };
+            sum.stiffness.add(joint, contact.area, arm, width);
+        }
+    }
+}

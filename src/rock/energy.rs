@@ -1,0 +1,233 @@
+//! The energy ledger: where the energy is and where it went. Works follow the trapezoidal rule over a step, as in velocity Verlet.
+
+use super::{
+    Body,
+    body::State,
+    contact_list::{Chunk, ContactList},
+    deforming::{DeformingBlocks, StepParams},
+};
+use crate::{geometry::skew, rock::law::inner};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+/// Energies since the start, J.
+///
+/// A block's kinetic and potential energy counts only if it is free. The law's springs conserve energy
+/// only while the area of their contact stays (k_n A u_n has a potential in u_n alone): what they hold is
+/// therefore the work that was done on them, and what they still hold when their contact ends is counted
+/// as `lost`, positive or negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyLedger {
+    /// ½mv² + ½ω·L of the free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of those that deform.
+    pub kinetic: f64,
+    /// −m g·x of the free blocks, from the origin of the coordinates.
+    pub potential: f64,
+    /// ∫ ½E:C:E + σ₀:E of the blocks that deform.
+    pub strain: f64,
+    /// Work done on the springs of the present contacts, less what friction took of it. Negative where the area of a
+    /// contact grew while it was pressed: its springs then give back more than they took.
+    pub elastic: f64,
+    /// Taken by friction.
+    pub friction: f64,
+    /// Taken by the dashpots of the contacts.
+    pub dashpot: f64,
+    /// Taken by the mass damping α.
+    pub mass_damping: f64,
+    /// Taken by films of fluid between blocks that nearly touch.
+    pub film: f64,
+    /// Held by springs whose contact ended: what the contact law took out, or put in where it is negative.
+    pub lost: f64,
+    /// Done on the blocks by what moves the driven ones.
+    pub driven: f64,
+    /// Done on the blocks by external loads, point loads and accelerations.
+    pub loads: f64,
+}
+
+impl EnergyLedger {
+    /// What is there and what was taken, less what was put in: constant but for the error of the time
+    /// integration.
+    pub fn balance(&self) -> f64 {
+        self.kinetic + self.potential + self.strain + self.elastic + self.taken()
+            - self.driven
+            - self.loads
+    }
+
+    /// Taken for good.
+    pub fn taken(&self) -> f64 {
+        self.friction + self.dashpot + self.mass_damping + self.film + self.lost
+    }
+}
+
+/// Chunks of contacts that one thread takes at least.
+const CHUNKS_PER_TASK: usize = 8;
+
+/// Sums since the start, J, and the powers at the end of the last step, W.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct WorkSums {
+    pub friction: f64,
+    pub lost: f64,
+    pub film: f64,
+    /// Of the dashpots, the mass damping, the drives and the loads.
+    pub work: [f64; 4],
+    pub power: [f64; 4],
+}
+
+/// All blocks and their state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodyStates<'a> {
+    pub bodies: &'a [Body],
+    pub states: &'a [State],
+    pub deforming: &'a DeformingBlocks,
+}
+
+impl BodyStates<'_> {
+    /// Velocity of a block where it is at `at` (m), m/s.
+    fn velocity(&self, block: usize, at: DVec3) -> DVec3 {
+        let state = &self.states[block];
+        let r = at - state.centre;
+        // Among rigid blocks alone the bodies, which are far away in memory, are not read.
+        let strained = !self.deforming.is_empty();
+        let strain = strained
+            .then(|| self.deforming.of(&self.bodies[block]))
+            .flatten();
+        match strain {
+            None => state.velocity + state.spin.cross(r),
+            Some((_, strain)) => state.velocity + strain.gradient() * r,
+        }
+    }
+}
+
+impl WorkSums {
+    /// Adds the works of a step that ends with `contacts` and the velocities of `all`.
+    pub fn add_step(
+        &mut self,
+        all: BodyStates<'_>,
+        contacts: &mut ContactList,
+        params: StepParams,
+    ) {
+        let BodyStates {
+            bodies,
+            states,
+            deforming,
+        } = all;
+        let (damping, dt) = (params.damping, params.dt);
+        let chunks = contacts.chunks.par_iter_mut().with_min_len(CHUNKS_PER_TASK);
+        chunks.for_each(|chunk| work(chunk, &all, dt));
+        let mut power = [0.0; 4];
+        // One after the other: the bits must not depend on the number of threads.
+        for chunk in &contacts.chunks {
+            for (contact, dashpots) in chunk.contacts.iter().zip(&chunk.dashpots) {
+                power[0] -= dashpots;
+                self.friction += contact.force.friction;
+            }
+            self.lost = chunk
+                .ended
+                .iter()
+                .fold(self.lost, |lost, stored| lost + stored);
+        }
+        for (body, state) in bodies.iter().zip(states) {
+            if body.is_free() {
+                power[1] += damping * 2.0 * kinetic(deforming, body, state);
+                power[3] += load_power(deforming, body, state, params.time + dt);
+            } else if !body.is_fixed() {
+                power[2] -= state.force.dot(state.velocity) + state.torque.dot(state.spin);
+            }
+        }
+        for (k, power) in power.into_iter().enumerate() {
+            self.work[k] += 0.5 * dt * (self.power[k] + power);
+        }
+        self.power = power;
+    }
+
+    /// Takes new loads over: the next step begins under them at the time `t` (s).
+    pub fn reload(&mut self, all: BodyStates<'_>, t: f64) {
+        let each = all.bodies.iter().zip(all.states);
+        let free = each.filter(|(body, _)| body.is_free());
+        self.power[3] = free
+            .map(|(body, state)| load_power(all.deforming, body, state, t))
+            .sum();
+    }
+
+    /// The ledger of the present state.
+    pub fn ledger(
+        &self,
+        all: BodyStates<'_>,
+        contacts: &ContactList,
+        gravity: DVec3,
+    ) -> EnergyLedger {
+        let BodyStates {
+            bodies,
+            states,
+            deforming,
+        } = all;
+        let free = || bodies.iter().zip(states).filter(|(body, _)| body.is_free());
+        let strained = deforming.list.iter().zip(&deforming.strains);
+        let [dashpot, mass_damping, driven, loads] = self.work;
+        EnergyLedger {
+            kinetic: free()
+                .map(|(body, state)| kinetic(deforming, body, state))
+                .sum(),
+            potential: free()
+                .map(|(body, state)| -body.mass * gravity.dot(state.centre))
+                .sum(),
+            strain: strained
+                .map(|(one, strain)| one.affine.strain_energy(strain.deformation))
+                .sum(),
+            elastic: contacts.iter().map(|contact| contact.stored).sum(),
+            friction: self.friction,
+            dashpot,
+            mass_damping,
+            film: self.film,
+            lost: self.lost,
+            driven,
+            loads,
+        }
+    }
+}
+
+/// Works on the springs of some contacts in a step of `dt` (s), and the powers at its end.
+fn work(chunk: &mut Chunk, all: &BodyStates<'_>, dt: f64) {
+    chunk.dashpots.clear();
+    for contact in &mut chunk.contacts {
+        let force = contact.force;
+        let [first, second] = contact.blocks.map(|block| block as usize);
+        let velocity = all.velocity(second, contact.pressure_centre - contact.image_shift)
+            - all.velocity(first, contact.pressure_centre);
+        let spin = all.states[second].spin - all.states[first].spin;
+        let spring = -force.spring.dot(velocity) - force.bending.dot(spin);
+        let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
+        chunk.dashpots.push(dashpots);
+        contact.stored += 0.5 * dt * (contact.power + spring) - force.friction;
+        contact.power = spring;
+    }
+}
+
+/// Kinetic energy of a free block, J.
+fn kinetic(deforming: &DeformingBlocks, body: &Body, state: &State) -> f64 {
+    match deforming.of(body) {
+        None => state.kinetic(body.mass),
+        Some((one, strain)) => {
+            0.5 * body.mass * state.velocity.length_squared() + one.affine.kinetic(strain.rate)
+        }
+    }
+}
+
+/// Power of the load and of the applied forces on a free block at the time `t` (s), W.
+fn load_power(deforming: &DeformingBlocks, body: &Body, state: &State, t: f64) -> f64 {
+    let strain = deforming.of(body).map(|(_, strain)| strain);
+    let turning = match strain {
+        None => state.load_torque.dot(state.spin),
+        Some(strain) => inner(strain.load, strain.gradient()),
+    };
+    let power = state.load.dot(state.velocity) + turning;
+    let Some(applied_forces) = body.applied_forces() else {
+        return power;
+    };
+    let (deformation, gradient) = match strain {
+        None => (DMat3::from_quat(state.rotation), skew(state.spin)),
+        Some(strain) => (strain.deformation, strain.gradient()),
+    };
+    let wrench = applied_forces.wrench(deformation, body.mass, t);
+    power + wrench.force.dot(state.velocity) + inner(wrench.moment, gradient)
+}

@@ -1,0 +1,339 @@
+//! The forces of all contacts: in parallel over the pairs, in the order of the pairs.
+
+use super::{
+    Body,
+    body::MidStep,
+    bonds::unbonded,
+    candidate_pairs::CandidatePair,
+    contact_list::{CHUNK, Chunk, Contact, ContactList, DISTANCES_PER_LIMIT, NO_CONTACT},
+    deforming::{DeformingBlocks, RIGID},
+    films::Film,
+    period::Periods,
+    placed_parts::PlacedParts,
+    resolver_pool::ResolverPool,
+};
+use crate::{
+    Error, Result,
+    rock::{
+        contact::{Bond, ContactGeometry, Resolver, ThinGap, Verdict},
+        law::{self, History, Joint},
+    },
+};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Share of the square of a block's width that one of the four corners of its face carries: see
+/// [`Setup::corner_area`](super::Setup::corner_area).
+const CORNER_SHARE: f64 = 0.25;
+
+/// Parts and blocks of a pair, and the image of the second part that it means.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PairIds {
+    pub parts: [u32; 2],
+    pub blocks: [u32; 2],
+    /// Shift of the second part to its image, m.
+    pub image_shift: DVec3,
+}
+
+/// What the contacts are computed from.
+pub(super) struct Narrowphase<'a> {
+    pub bodies: &'a [Body],
+    pub mid_steps: &'a [MidStep],
+    pub deforming: &'a DeformingBlocks,
+    pub parts: &'a PlacedParts,
+    pub joints: &'a Joints,
+    /// Contacts of the last step.
+    pub contacts: &'a ContactList,
+    /// s; 0 at the start.
+    pub time_step: f64,
+    /// Whether faces that touch now are bonded.
+    pub bonding: bool,
+    /// Largest overlap, as a share of the smaller distance from centroid to face.
+    pub largest_overlap: f64,
+    /// Least area of a contact's springs, as a share of the square of twice that distance.
+    pub corner_area: f64,
+    /// Fluid in thin gaps.
+    pub film: Option<&'a law::Film>,
+    pub periods: Option<&'a Periods>,
+}
+
+/// The joint of every two materials.
+#[derive(Clone, Debug)]
+pub(super) struct Joints {
+    pub materials: u32,
+    pub table: Vec<Joint>,
+}
+
+impl Joints {
+    pub fn of(&self, a: u32, b: u32) -> &Joint {
+        &self.table[(a * self.materials + b) as usize]
+    }
+}
+
+/// Resolves all `pairs` into `next`; their contacts into `found`, whatever the number of threads.
+///
+/// # Errors
+/// That of the first pair that cannot be resolved.
+pub(super) fn resolve(
+    narrowphase: &Narrowphase<'_>,
+    resolver_pool: &mut ResolverPool,
+    pairs: &[CandidatePair],
+    next: &mut Vec<CandidatePair>,
+    found: &mut ContactList,
+) -> Result<()> {
+    resolver_pool.prepare(rayon::current_num_threads());
+    let resolver_pool = &*resolver_pool;
+    next.resize(pairs.len(), CandidatePair::new([0; 2], [0; 3]));
+    found.reset(pairs.len());
+    let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
+    let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
+    let failed = chunks.filter_map(|(n, (pairs, (next, found)))| {
+        let done =
+            resolver_pool.with(|resolver| narrowphase.chunk(resolver, n, pairs, next, found));
+        done.err().map(|error| (n, error))
+    });
+    match failed.min_by_key(|(n, _)| *n) {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
+    }
+}
+
+impl Narrowphase<'_> {
+    /// The chunk `n` of the pairs.
+    fn chunk(
+        &self,
+        resolver: &mut Resolver,
+        n: usize,
+        pairs: &[CandidatePair],
+        next: &mut [CandidatePair],
+        found: &mut Chunk,
+    ) -> Result<()> {
+        found.contacts.clear();
+        found.ended.clear();
+        found.films.clear();
+        for (pair, next) in pairs.iter().zip(next) {
+            *next = *pair;
+            let before = self.contacts.of(pair);
+            let contact = self.pair(resolver, next, before, found)?;
+            next.contact = match contact {
+                Some(_) => (n * CHUNK + found.contacts.len()) as u32,
+                None => NO_CONTACT,
+            };
+            if let (Some(before), None) = (before, contact) {
+                // Its force acted during the first half of the step.
+                let stored = before.stored + 0.5 * self.time_step * before.power;
+                found.ended.push(stored);
+            }
+            found.contacts.extend(contact);
+        }
+        Ok(())
+    }
+
+    fn pair(
+        &self,
+        resolver: &mut Resolver,
+        pair: &mut CandidatePair,
+        before: Option<&Contact>,
+        found: &mut Chunk,
+    ) -> Result<Option<Contact>> {
+        let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
+        if blocks.iter().all(|&b| self.mid_steps[b as usize].rests) {
+            // Nothing slips where nothing moves.
+            return Ok(before.map(|contact| Contact {
+                force: law::Force {
+                    friction: 0.0,
+                    ..contact.force
+                },
+                ..*contact
+            }));
+        }
+        let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
+        let image_shift = self
+            .periods
+            .map_or(DVec3::ZERO, |periods| periods.period.shift(pair.offset));
+        let second = match pair.offset {
+            [0, 0, 0] => second,
+            _ => {
+                found.image.copy_moved(second, image_shift);
+                &found.image
+            }
+        };
+        let ids = PairIds {
+            parts: pair.parts,
+            blocks,
+            image_shift,
+        };
+        if let Some(contact) = before.filter(|contact| contact.bond.area > 0.0)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], &contact.bond, before)
+        {
+            return self.check_depth(bonded, blocks).map(Some);
+        }
+        let joint = self.joint(blocks);
+        if self.bonding
+            && joint.tensile_strength > 0.0
+            && let Some(bond) = Bond::between(first, second)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], &bond, None)
+        {
+            return Ok(Some(bonded));
+        }
+        let verdict = resolver
+            .resolve(first, second, &mut pair.cache)
+            .map_err(|error| {
+                let [a, b] = blocks.map(|block| self.name(block));
+                Error::argument(format!("{a} and {b}"), error.to_string())
+            })?;
+        if let (Some(film), Verdict::Apart | Verdict::Undecided) = (self.film, verdict)
+            && blocks
+                .iter()
+                .all(|&b| self.bodies[b as usize].deforming == RIGID)
+            && let Some(thin_gap) = ThinGap::between(first, second, film.reach())
+        {
+            let [a, b] = blocks.map(|block| self.mid_steps[block as usize].centre);
+            let centres = [a, b + image_shift];
+            found
+                .films
+                .extend(Film::of(&thin_gap, film, blocks, centres));
+        }
+        Ok(match verdict {
+            Verdict::Apart => None,
+            Verdict::Undecided => before.map(|contact| Contact {
+                bond: Bond::default(),
+                overlap: 0.0,
+                area: 0.0,
+                section: 0.0,
+                force: law::Force {
+                    history: unbonded(contact),
+                    ..law::Force::default()
+                },
+                ..*contact
+            }),
+            Verdict::Contact(geometry) => {
+                let contact = self.contact(ids, &geometry, before);
+                Some(self.check_depth(contact, blocks)?)
+            }
+        })
+    }
+
+    /// Refuses a contact that is too deep.
+    fn check_depth(&self, contact: Contact, blocks: [u32; 2]) -> Result<Contact> {
+        let limit = DISTANCES_PER_LIMIT * self.largest_overlap * contact.limit;
+        if contact.overlap <= limit {
+            return Ok(contact);
+        }
+        let usual = "take a greater normal_stiffness, press them together more slowly, or allow a \
+                     greater largest_overlap";
+        let corner = CORNER_SHARE * (2.0 * DISTANCES_PER_LIMIT * contact.limit).powi(2);
+        Err(Error::DeepOverlap {
+            first: self.name(blocks[0]),
+            second: self.name(blocks[1]),
+            depth: contact.overlap,
+            limit,
+            remedy: match contact.area < corner {
+                true => format!(
+                    "they touch with a corner or an edge, over {:.1e} m², which is soft: set \
+                     rock.corner_area = {CORNER_SHARE}, which counts it as {corner:.1e} m²; or {usual}",
+                    contact.area
+                ),
+                false => usual.into(),
+            },
+        })
+    }
+
+    pub(super) fn joint(&self, blocks: [u32; 2]) -> &Joint {
+        let [a, b] = blocks.map(|block| self.mid_steps[block as usize].material);
+        self.joints.of(a, b)
+    }
+
+    /// Relative motion of two blocks at the point `at` (m) of the first; the second is its image, shifted by
+    /// `image_shift` (m).
+    pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, image_shift: DVec3) -> law::Motion {
+        let [a, b] = blocks.map(|block| &self.mid_steps[block as usize]);
+        let [ra, rb] = [at - a.centre, at - image_shift - b.centre];
+        let mut mean = b.velocity + b.spin.cross(rb) - a.velocity - a.spin.cross(ra);
+        let mut end = b.end_velocity + b.end_spin.cross(rb) - a.end_velocity - a.end_spin.cross(ra);
+        if !self.deforming.is_empty() {
+            let [more, end_more] = self.strain_velocity(blocks, [ra, rb]);
+            (mean, end) = (mean + more, end + end_more);
+        }
+        law::Motion {
+            displacement: mean * self.time_step,
+            velocity: end,
+            spin: b.spin - a.spin,
+            frame: a.rotation,
+            time_step: self.time_step,
+            mass: 1.0 / (a.inverse_mass + b.inverse_mass),
+        }
+    }
+
+    fn contact(
+        &self,
+        ids: PairIds,
+        geometry: &ContactGeometry,
+        before: Option<&Contact>,
+    ) -> Contact {
+        let at = geometry.pressure_centre;
+        let PairIds {
+            parts,
+            blocks,
+            image_shift,
+        } = ids;
+        let joint = self.joint(blocks);
+        let motion = self.motion(blocks, at, image_shift);
+        let square = (2.0 * DISTANCES_PER_LIMIT * geometry.limit).powi(2);
+        let section = law::Section {
+            normal: geometry.normal,
+            overlap: geometry.overlap,
+            area: geometry.area,
+            elastic_area: geometry.area.max(self.corner_area * square),
+            rolls: parts
+                .iter()
+                .any(|&part| self.parts.placed[part as usize].is_sphere()),
+            opening: 0.0,
+        };
+        // A broken bond stays broken.
+        let history = before.map_or_else(History::default, unbonded);
+        Contact {
+            parts,
+            blocks,
+            image_shift,
+            point: geometry.point,
+            pressure_centre: at,
+            normal: geometry.normal,
+            overlap: geometry.overlap,
+            area: section.elastic_area,
+            section: section.area,
+            width: geometry.width,
+            limit: geometry.limit,
+            force: law::force(joint, &section, &motion, &history),
+            bond: Bond::default(),
+            stored: before.map_or(0.0, |contact| contact.stored),
+            power: before.map_or(0.0, |contact| contact.power),
+        }
+    }
+
+    /// What deformation adds to the velocity of the second of two blocks against the first, over the step and
+    /// at its end, m/s: the symmetric part of ∂v/∂x, whose skew part is the spin.
+    fn strain_velocity(&self, blocks: [u32; 2], arms: [DVec3; 2]) -> [DVec3; 2] {
+        let mut sums = [DVec3::ZERO; 2];
+        for ((block, arm), sign) in blocks.into_iter().zip(arms).zip([-1.0, 1.0]) {
+            let body = &self.bodies[block as usize];
+            for (sum, gradient) in sums
+                .iter_mut()
+                .zip(self.deforming.gradients(body).iter().flat_map(|g| g.iter()))
+            {
+                let symmetric = (*gradient + gradient.transpose()) * 0.5;
+                *sum += symmetric * arm * sign;
+            }
+        }
+        sums
+    }
+
+    fn name(&self, block: u32) -> String {
+        label(block as usize, &self.bodies[block as usize].name)
+    }
+}
+
+/// A block in a message.
+pub(super) fn label(index: usize, name: &str) -> String {
+    format!("blocks[{index}] ({name})")
+}

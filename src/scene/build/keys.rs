@@ -1,0 +1,59 @@
+//! From fields of setups to the keys of scenes that give them.
+
+/// The key of a scene that gives the field `what` of a [`lattice::Setup`](crate::lattice::Setup) or of the initial
+/// [`lattice::State`](crate::lattice::State).
+pub(crate) fn lattice_key(what: &str) -> String {
+    match what {
+        "cells" => "domain.cell".into(),
+        "nu" => "fluid.viscosity".into(),
+        "force" => "fluid.acceleration".into(),
+        "wale" => "numerics.wale_constant".into(),
+        "lanes" | "lambda" | "wall_lambda" | "solid_lambda" | "odd_rate_floor"
+        | "solid_operator" => format!("numerics.{what}"),
+        "excess" => "initial.pressure".into(),
+        "solid" => "solids".into(),
+        _ => match (what.strip_prefix("faces."), what.strip_prefix("velocity.")) {
+            (Some(face), _) => format!("boundaries.{face}"),
+            (_, Some(axis)) => format!("initial.velocity.{axis}"),
+            _ => what.into(),
+        },
+    }
+}
+
+/// The key of a scene that gives the field `what` of an [`sph::Setup`](crate::sph::Setup).
+#[cfg(feature = "sph")]
+pub(crate) fn particle_key(what: &str) -> String {
+    match what {
+        "spacing"
+        | "smoothing"
+        | "sound_speed"
+        | "courant"
+        | "artificial_viscosity"
+        | "density_diffusion" => format!("particles.{what}"),
+        "density" => "fluid.density".into(),
+        "laminar_viscosity" | "scheme.viscosity" => "fluid.viscosity".into(),
+        "gravity" => "fluid.acceleration".into(),
+        "origin" => "domain.origin".into(),
+        "size" | "size.x" | "size.y" | "size.z" => "domain.size".into(),
+        "faces" => "boundaries".into(),
+        "bodies" => "blocks".into(),
+        "positions" => "water".into(),
+        _ => what.into(),
+    }
+}
+
+/// The key of a scene that gives the field `what` of a [`rock::Setup`](crate::rock::Setup).
+#[cfg(feature = "rock")]
+pub(crate) fn rock_key(what: &str) -> String {
+    match what {
+        "time_step" | "skin" | "largest_overlap" | "corner_area" | "gravity" | "sleep.speed" => {
+            format!("rock.{what}")
+        }
+        "damping" => "rock.mass_damping".into(),
+        "sleep.after" => "rock.sleep.time".into(),
+        _ => match what.strip_prefix("pairs[") {
+            Some(pair) => format!("material_pairs[{pair}"),
+            None => what.into(),
+        },
+    }
+}

@@ -1,0 +1,385 @@
+//! A fluid on a lattice, with the cells of the blocks that are in it.
+
+use super::{
+    checkpoint::{LatticeState, differ, other_scene},
+    rock_step::check_substep_count,
+};
+use crate::{
+    Error, Result,
+    coupling::{Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, couple},
+    error::told,
+    geometry::Pose,
+    gpu::timer::{Phases, begin_pass},
+    lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
+    scene::{
+        Advice, Boundary, Face, SUGA_EXCESS, Scene,
+        build::{block_setup, face_velocity, lattice_key},
+    },
+    units::Units,
+};
+use std::{sync::Arc, time::Instant};
+
+/// The fluid of a scene, and its coupling to the blocks.
+#[derive(Debug)]
+pub(super) struct LatticeFluid {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub scene: Arc<Scene>,
+    pub units: Units,
+    pub lattice: Lattice,
+    pub observer: Observer,
+    /// Velocity faces whose formulas contain the time.
+    time_dependent_faces: Vec<Face>,
+    /// The coupling to the blocks in it, if there are any.
+    coupling: Option<LatticeCoupling>,
+    /// Times of the phases of a step, if requested.
+    pub phases: Option<Phases>,
+}
+
+impl LatticeFluid {
+    /// Compiles the kernels of a scene and sets its initial state; also the blocks in it, and warnings about them.
+    ///
+    /// # Errors
+    /// What the scene lacks, or what the device cannot hold.
+    pub async fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        (scene, units): (&Arc<Scene>, Units),
+        setup: Setup,
+    ) -> Result<(Self, Option<Rock>, Advice)> {
+        let mut start = start(scene, &units)?;
+        let time_dependent = |(face, boundary): (Face, &Boundary)| match boundary {
+            Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
+            _ => None,
+        };
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made = async {
+            let mut lattice =
+                Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
+            let observer = Observer::new(device, &lattice)?;
+            let mut advice = Advice::new();
+            let mut blocks = None;
+            if scene.has_blocks() {
+                let setup = block_setup(scene)?;
+                let (rock, coupling) =
+                    couple(device, queue, &lattice, (scene, &units), setup).await?;
+                check_substep_count(units.time_step, rock.blocks())?;
+                let coupled = Coupled::new(&rock, &coupling);
+                advice = coupled.advise(scene);
+                coupled.set_interior_velocity(&scene.domain, &mut start);
+                blocks = Some((rock, coupling));
+            }
+            lattice
+                .start(device, queue, &start, true)
+                .map_err(|error| error.at_key(lattice_key))?;
+            Ok((lattice, observer, blocks, advice))
+        };
+        let made = made.await;
+        // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = (validity.await, memory.await);
+        let (lattice, observer, blocks, advice) = made?;
+        if let Some(error) = refused.1.or(refused.0) {
+            let bytes: u64 = lattice.bytes().iter().map(|(_, bytes)| bytes).sum();
+            return Err(Error::Device(format!(
+                "it does not hold {} cells, {bytes} bytes in its buffers ({}); use a larger cell or 16-bit storage",
+                lattice.grid().cell_count(),
+                told(&error)
+            )));
+        }
+        let (rock, coupling) = blocks.unzip();
+        let fluid = Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            time_dependent_faces: scene.boundaries.iter().filter_map(time_dependent).collect(),
+            scene: scene.clone(),
+            units,
+            lattice,
+            observer,
+            coupling,
+            phases: None,
+        };
+        Ok((fluid, rock, advice))
+    }
+
+    /// The blocks in it, if there are any.
+    pub fn coupled<'a>(&'a self, rock: Option<&'a Rock>) -> Option<Coupled<'a>> {
+        Some(Coupled::new(rock?, self.coupling.as_ref()?))
+    }
+
+    /// Which cells are solid, x fastest; empty where there are none.
+    pub fn solid(&self) -> &[bool] {
+        &self.lattice.setup().solid
+    }
+
+    /// Without blocks, until the time `end` (s).
+    ///
+    /// # Errors
+    /// Those of formulas of faces.
+    pub async fn run(&mut self, end: f64) -> Result<()> {
+        while self.time() < end {
+            self.advance(&[], ExchangeInterval::Static, end).await?;
+        }
+        Ok(())
+    }
+
+    /// Checks that the flow is within the range of the method, after an advance that ended with `done`.
+    ///
+    /// # Errors
+    /// [`Error::Diverged`]; that of `done`; a lost device.
+    pub async fn check(&mut self, rock: Option<&Rock>, done: Result<()>) -> Result<()> {
+        let (device, queue) = (&self.device, &self.queue);
+        let fault = self.observer.fault(device, queue, &self.lattice).await?;
+        // A fault of the flow reaches the blocks: it is the cause of their errors.
+        if let Some(fault) = fault {
+            return Err(self.diverged(rock, fault));
+        }
+        done?;
+        self.check_suga().await
+    }
+
+    /// The published operator is unstable where WALE lifts the relaxation time over its bound.
+    async fn check_suga(&mut self) -> Result<()> {
+        let setup = self.lattice.setup();
+        if setup.collision != Collision::Suga || setup.wale.is_none() {
+            return Ok(());
+        }
+        let tau = setup.tau();
+        let (device, queue) = (&self.device, &self.queue);
+        let viscosity = self
+            .observer
+            .derived(device, queue, &mut self.lattice, Derived::EddyViscosity)
+            .await?;
+        let largest = viscosity.into_iter().fold(0.0, f32::max);
+        let effective = tau + 3.0 * f64::from(largest);
+        let bound = 0.5 + SUGA_EXCESS.end();
+        if effective <= bound {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "numerics.collision",
+            format!(
+                "in step {} WALE lifts the relaxation time to {effective:.3}, and `suga` is unstable above \
+                 {bound}; use collision = \"hermite\", or a time step of {:.2e} s",
+                self.lattice.step(),
+                self.units.time_step * (bound - 0.5) / (effective - 0.5)
+            ),
+        ))
+    }
+}
+
+impl Fluid for LatticeFluid {
+    fn time(&self) -> f64 {
+        self.lattice.step() as f64 * self.units.time_step
+    }
+
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        let last = (end / self.units.time_step).round() as u64;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        if let Some(coupling) = &mut self.coupling {
+            let (device, queue) = (&self.device, &self.queue);
+            coupling
+                .place(
+                    device,
+                    queue,
+                    &mut self.lattice,
+                    (&mut encoder, &mut self.phases),
+                    poses,
+                )
+                .await?;
+        }
+        loop {
+            let next = self.lattice.step() + 1;
+            if self
+                .coupling
+                .as_ref()
+                .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
+            {
+                return self.exchange(encoder).await;
+            }
+            self.record_psm(&mut encoder);
+            if let Some(coupling) = self
+                .coupling
+                .as_mut()
+                .filter(|coupling| coupling.needs_loads(interval, next, last))
+            {
+                let phases = &mut self.phases;
+                coupling.record_loads(&self.device, (&mut encoder, phases), next);
+            }
+            self.record_rest(&mut encoder);
+            let coming = self.changed_faces();
+            let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
+            if self.lattice.step() == last || !goes_on {
+                // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
+                // written between two submissions.
+                self.submit(encoder).await?;
+                self.set_faces()?;
+                return Ok(None);
+            }
+        }
+    }
+}
+
+impl LatticeFluid {
+    /// Records the boundaries and the bricks with blocks.
+    fn record_psm(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if self.phases.is_some() {
+            let mut pass = begin_pass(&mut self.phases, encoder, "boundaries");
+            self.lattice.record_boundaries(&mut pass);
+        }
+        let mut pass = begin_pass(&mut self.phases, encoder, "bricks with blocks");
+        self.lattice.record_psm(&mut pass);
+    }
+
+    /// Records the other bricks.
+    fn record_rest(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = begin_pass(&mut self.phases, encoder, "bulk");
+        self.lattice.record_rest(&mut pass);
+    }
+
+    /// Submits steps that end without an exchange.
+    async fn submit(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<()> {
+        if let Some(phases) = &self.phases {
+            phases.resolve(&mut encoder);
+        }
+        self.queue.submit([encoder.finish()]);
+        match &mut self.phases {
+            Some(phases) => phases.collect(&self.device, &self.queue).await,
+            None => Ok(()),
+        }
+    }
+
+    /// The last step of a stretch, at whose end blocks and fluid meet: the fluid around them runs first, and the rest
+    /// of it while their loads are read.
+    async fn exchange(
+        &mut self,
+        mut encoder: wgpu::CommandEncoder,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        let step = self.lattice.step() + 1;
+        self.record_psm(&mut encoder);
+        if let Some(coupling) = &mut self.coupling {
+            coupling.record_loads(&self.device, (&mut encoder, &mut self.phases), step);
+            coupling.record_faces(&self.device, (&mut encoder, &mut self.phases), step);
+        }
+        self.queue.submit([encoder.finish()]);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        self.record_rest(&mut encoder);
+        if let Some(phases) = &self.phases {
+            phases.resolve(&mut encoder);
+        }
+        self.queue.submit([encoder.finish()]);
+        let Some(coupling) = &mut self.coupling else {
+            return Ok(None);
+        };
+        let start = self.phases.is_some().then(Instant::now);
+        coupling.read_loads().await?;
+        if let (Some(phases), Some(start)) = (&mut self.phases, start) {
+            phases.add("readback wait", start.elapsed().as_secs_f64());
+            phases.collect(&self.device, &self.queue).await?;
+        }
+        let loads = coupling.exchange();
+        self.set_faces()?;
+        Ok(Some(loads))
+    }
+
+    /// The velocity faces whose values at the present time are not those that they have.
+    fn changed_faces(&self) -> Result<Vec<(Face, Vec<[f32; 3]>)>> {
+        let mut changed = Vec::new();
+        for &face in &self.time_dependent_faces {
+            let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
+            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+            match &self.lattice.setup().faces[axis][side] {
+                lattice::Face::Velocity(old) if *old == velocity => {}
+                _ => changed.push((face, velocity)),
+            }
+        }
+        Ok(changed)
+    }
+
+    /// Gives the velocity faces what they have at the present time.
+    ///
+    /// # Errors
+    /// Those of their formulas.
+    pub fn set_faces(&mut self) -> Result<()> {
+        for (face, velocity) in self.changed_faces()? {
+            let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+            self.lattice
+                .set_face_velocity(&self.queue, axis, side, velocity)
+                .map_err(|error| error.at_key(lattice_key))?;
+        }
+        Ok(())
+    }
+
+    /// The present state.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(&mut self) -> Result<LatticeState> {
+        let coupling = match &mut self.coupling {
+            Some(coupling) => Some(coupling.state().await?),
+            None => None,
+        };
+        let (device, queue, lattice) = (&self.device, &self.queue, &mut self.lattice);
+        Ok(LatticeState {
+            cell: self.units.cell,
+            inside: self.observer.inside(device, queue, lattice).await?,
+            populations: lattice.populations(device, queue).await?,
+            coupling,
+        })
+    }
+
+    /// Checks that a state fits.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if it is of another grid or other blocks.
+    pub fn check_state(&self, state: &LatticeState) -> Result<()> {
+        if differ(state.cell, self.units.cell) {
+            let cells = |cell: f64| format!("cells of {cell:e} m");
+            return Err(other_scene(cells(state.cell), cells(self.units.cell)));
+        }
+        self.lattice.check_populations(&state.populations)?;
+        state.inside.check(self.lattice.grid())?;
+        match (&self.coupling, &state.coupling) {
+            (Some(coupling), Some(state)) => coupling.check(state),
+            (None, None) => Ok(()),
+            (Some(_), None) => Err(other_scene("a fluid without blocks", "blocks in a fluid")),
+            (None, Some(_)) => Err(other_scene("blocks in a fluid", "a fluid without blocks")),
+        }
+    }
+
+    /// Restores a state that [`LatticeFluid::check_state`] accepts.
+    ///
+    /// # Errors
+    /// Those of the lattice and of formulas of faces.
+    pub fn restore(&mut self, state: &LatticeState) -> Result<()> {
+        if let (Some(coupling), Some(state)) = (&mut self.coupling, &state.coupling) {
+            coupling.restore(state);
+        }
+        let (device, queue) = (&self.device, &self.queue);
+        self.lattice
+            .set_populations(device, queue, &state.populations)?;
+        self.observer
+            .keep_inside(device, &self.lattice, &state.inside)?;
+        self.set_faces()
+    }
+}
+
+/// The initial state in lattice units; cells of static solids are at rest.
+fn start(scene: &Scene, units: &Units) -> Result<State> {
+    let fields = scene.initial_fields()?;
+    let excess = |p: &f32| (units.pressure_to_lattice((*p).into()) - 1.0) as f32;
+    let speed = |u: &f32| units.velocity_to_lattice((*u).into()) as f32;
+    Ok(State {
+        excess: fields.pressure.iter().map(excess).collect(),
+        velocity: fields
+            .velocity
+            .each_ref()
+            .map(|u| u.iter().map(speed).collect()),
+    })
+}

@@ -1,0 +1,307 @@
+//! Free water (SPH), and its exchanges with the blocks.
+
+use super::{
+    Reading, WaterLedger,
+    checkpoint::{WaterState, other_scene},
+    rock_step::check_substep_count,
+    sensors::Sensors,
+};
+use crate::{
+    Error, Result,
+    coupling::{
+        CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange,
+        particle_advice,
+    },
+    error::told,
+    geometry::{Load, Pose},
+    rock::Motion,
+    scene::{
+        Advice, Scene,
+        build::{block_setup, particle_key, particle_setup, scene_step},
+    },
+    sph::{NeighbourSearch, SphSolver, Totals, Water},
+};
+use glam::{DMat3, DVec3};
+
+/// The water of a scene and its exchanges with the blocks.
+#[derive(Debug)]
+pub(super) struct SphFluid {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pub particles: SphSolver,
+    joint_seal: JointSeal,
+    /// Blocks with a load in the last exchange of the step, and all blocks at its start: only their joints can have water.
+    wet: Vec<bool>,
+    /// Longest time between two exchanges while blocks may move, s.
+    longest: f64,
+    time: f64,
+    average: bool,
+    /// Mean loads of the last exchange; empty before the first one.
+    last: Vec<Load>,
+    /// Work of blocks since the start in joints that have no particles, J.
+    joints: f64,
+    /// Steps that sorted the particles.
+    pub sorts: u64,
+    sensors: Sensors,
+}
+
+impl Fluid for SphFluid {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        let until = self.next(interval, end);
+        let (device, queue, time) = (&self.device, &self.queue, until - self.time);
+        let sealed = self.joint_seal.find_joints(poses, &self.wet);
+        let rims = sealed.rim_places();
+        self.particles
+            .set_probes(device, queue, &rims, self.sensors.probes())?;
+        let mut done = self.particles.advance(device, queue, poses, time).await?;
+        let own = done.loads.clone();
+        let loads = &mut done.loads;
+        let (rims, walls) = done.pressures.split_at(rims.len());
+        self.joint_seal.add_loads(sealed, rims, poses, loads);
+        if self.particles.setup().plane {
+            loads.iter_mut().for_each(|load| *load = load.in_plane());
+        }
+        self.sensors.record(walls, time);
+        self.joints += joints_work(&own, loads, poses, time);
+        let wet = |load: &Load| load.force != DVec3::ZERO;
+        self.wet = done.loads.iter().map(wet).collect();
+        self.time = until;
+        self.sorts += u64::from(done.sorts);
+        if !self.average || self.last.is_empty() {
+            self.last.clone_from(&done.loads);
+        }
+        let mean = |(last, new): (&Load, &Load)| FluidLoad {
+            flow: Load {
+                force: 0.5 * (last.force + new.force),
+                moment: 0.5 * (last.moment + new.moment),
+                ..Load::default()
+            },
+            buoyancy: Load::default(),
+        };
+        let loads = self.last.iter().zip(&done.loads).map(mean).collect();
+        self.last = done.loads;
+        Ok(Some(loads))
+    }
+}
+
+impl SphFluid {
+    /// The water of a scene at its start, its blocks, and the length of a step, s.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the scene is invalid; [`Error::Limit`] or [`Error::Device`] if the device cannot hold it.
+    pub async fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+    ) -> Result<(Self, Rock, f64)> {
+        let setup = block_setup(scene)?;
+        let (mut water, start) = particle_setup(scene, &setup)?;
+        if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
+            water.neighbours = NeighbourSearch::Lists;
+        }
+        let time_step = scene_step(scene, water.acoustic_step());
+        let params = CouplingParams {
+            time_step,
+            // The tolerance covers the rounding of exchange times.
+            hold: scene.coupling.hold * (1.0 - 1e-12),
+            inside: None,
+        };
+        let rock = Rock::new(Some((device, queue)), scene, setup, Some(params)).await?;
+        check_substep_count(time_step, rock.blocks())?;
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let particles = SphSolver::new(
+            device,
+            queue,
+            water,
+            &start.positions,
+            &start.velocities,
+            &start.pressures,
+        );
+        // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
+        let [validity, memory] = [validity.pop(), memory.pop()];
+        let refused = (validity.await, memory.await);
+        let particles = particles.map_err(|error| error.at_key(particle_key))?;
+        if let Some(error) = refused.1.or(refused.0) {
+            return Err(Error::Device(format!(
+                "it does not hold {} particles ({}); use a larger spacing",
+                particles.counts().fluid,
+                told(&error)
+            )));
+        }
+        let blocks = &rock.setup().setup.blocks;
+        let shapes = blocks.iter().map(|block| block.shape.clone()).collect();
+        let loaded: Vec<bool> = blocks
+            .iter()
+            .map(|block| block.motion == Motion::Free || scene.probes_block(&block.name))
+            .collect();
+        let setup = particles.setup();
+        let fluid = Self {
+            wet: vec![true; setup.bodies.len()],
+            device: device.clone(),
+            queue: queue.clone(),
+            joint_seal: JointSeal::new(shapes, rock.blocks().period(), setup, &loaded),
+            longest: longest_exchange(&rock, setup.density * setup.sound_speed),
+            sensors: Sensors::of(scene, setup),
+            particles,
+            time: 0.0,
+            average: scene.coupling.average,
+            last: Vec::new(),
+            joints: 0.0,
+            sorts: 0,
+        };
+        Ok((fluid, rock, time_step))
+    }
+
+    /// Begins a step at `time` (s). The step depends only on state that a checkpoint contains.
+    pub fn begin(&mut self, time: f64) {
+        self.time = time;
+        self.wet.fill(true);
+        self.sensors.begin();
+        self.particles.force_sort();
+    }
+
+    /// Time of the next exchange. The exchanges until `end` are of equal length.
+    fn next(&self, interval: ExchangeInterval, end: f64) -> f64 {
+        let interval = match interval {
+            ExchangeInterval::Static => return end,
+            ExchangeInterval::Asleep(steps) => steps as f64 * self.particles.step_limit(),
+            ExchangeInterval::Awake(steps) => {
+                (steps as f64 * self.particles.step_limit()).min(self.longest)
+            }
+        };
+        let parts = ((end - self.time) / interval * (1.0 - 1e-6))
+            .ceil()
+            .max(1.0);
+        if parts == 1.0 {
+            end
+        } else {
+            self.time + (end - self.time) / parts
+        }
+    }
+
+    /// The present state of the water.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn water(&mut self) -> Result<Water> {
+        self.particles.water(&self.device, &self.queue).await
+    }
+
+    /// Measurement of the sensor `name`; `None` if there is no such probe.
+    pub fn sensor(&self, name: &str) -> Option<Reading> {
+        self.sensors.reading(name)
+    }
+
+    /// Warnings about the water of `scene` and the blocks in it.
+    ///
+    /// # Errors
+    /// If the device is lost; those of the search for gaps.
+    pub async fn advise(&mut self, scene: &Scene, rock: &Rock) -> Result<Advice> {
+        let water = self.water().await?;
+        let setup = self.particles.setup();
+        particle_advice(scene, rock.setup(), rock.blocks(), setup, &water.positions).await
+    }
+
+    /// Energy ledger of `water`, the present state; `blocks` is the work of the blocks on it, J.
+    pub fn ledger(&self, water: &Water, blocks: f64) -> WaterLedger {
+        let totals = Totals::of(self.particles.setup(), water);
+        let work = self.particles.work();
+        WaterLedger {
+            kinetic: totals.kinetic_energy,
+            potential: totals.potential_energy,
+            compression: totals.compression_energy,
+            escaped: water.escaped.energy(),
+            bodies: work.bodies,
+            penalty: work.penalty,
+            boundary: work.boundary,
+            joints: self.joints,
+            blocks,
+        }
+    }
+
+    /// The present state, of the water of `scene`.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(&mut self, scene: &Scene) -> Result<WaterState> {
+        Ok(WaterState {
+            origin: DVec3::from(scene.domain.origin),
+            size: DVec3::from(scene.domain.size),
+            spacing: self.particles.setup().spacing,
+            particles: self.particles.particles(&self.device, &self.queue).await?,
+            solver: self.particles.state(),
+            loads: self.last.clone(),
+            joints: self.joints,
+            sensors: self.sensors.readings.clone(),
+        })
+    }
+
+    /// Checks that a state is of the water of `scene`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if its domain, particles or sensors differ.
+    pub fn check_state(&self, scene: &Scene, state: &WaterState) -> Result<()> {
+        let domain = |origin: DVec3, size: DVec3, spacing: f64| {
+            format!("a domain from {origin} m, {size} m wide, with particles every {spacing} m")
+        };
+        let own = [scene.domain.origin, scene.domain.size].map(DVec3::from);
+        let spacing = self.particles.setup().spacing;
+        if [state.origin, state.size] != own || state.spacing != spacing {
+            return Err(other_scene(
+                domain(state.origin, state.size, state.spacing),
+                domain(own[0], own[1], spacing),
+            ));
+        }
+        let (its, own) = (state.sensors.len(), self.sensors.readings.len());
+        if its != own {
+            return Err(Error::argument(
+                "restart",
+                format!(
+                    "the checkpoint has {its} pressure sensors and the scene {own}; restart with the scene that wrote it"
+                ),
+            ));
+        }
+        self.particles.check(&state.particles)
+    }
+
+    /// Restores a state that [`SphFluid::check_state`] accepts.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn restore(&mut self, state: &WaterState) -> Result<()> {
+        self.sensors.readings.clone_from(&state.sensors);
+        self.particles
+            .restore(&self.queue, &state.particles, &state.solver)?;
+        self.last.clone_from(&state.loads);
+        self.joints = state.joints;
+        Ok(())
+    }
+}
+
+/// Work (J) of blocks at `poses` in `time` (s) against the loads beyond their `own`, those in joints.
+fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
+    let each = own.iter().zip(all).zip(poses);
+    let moving = each.filter(|((own, all), pose)| {
+        own != all && (pose.velocity, pose.deformation_rate) != (DVec3::ZERO, DMat3::ZERO)
+    });
+    moving
+        .map(|((own, all), pose)| {
+            let joint = Load {
+                force: all.force - own.force,
+                moment: all.moment - own.moment,
+                ..Load::default()
+            };
+            -joint.work(pose, &pose.after(time))
+        })
+        .sum()
+}

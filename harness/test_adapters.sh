@@ -15,7 +15,7 @@ trap 'rm -f "$log"' EXIT
 # A test program, and the modules or names of its tests.
 filters=(
     "gpu lost_device:: memory:: timer::"
-    "lattice divergence_guard:: golden:: kernels:: limits:: reproducibility::"
+    "lattice divergence_guard::s golden:: kernels:: limits::"
     "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise::"
     "sph mueller:: refusals:: step::"
     "rock broadphase::"

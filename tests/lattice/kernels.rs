@@ -19,7 +19,7 @@ fn distance(setup: &Setup, steps: usize) -> f64 {
     rig.run(&mut lattice, steps);
     twin.run(steps);
     let end = rig.populations(&mut lattice);
-    let n = twin.domain.len();
+    let n = twin.domain.cell_count();
     let mut worst: f64 = 0.0;
     for cell in (0..n).filter(|&cell| !twin.domain.solid[cell]) {
         for q in 0..27 {
@@ -111,7 +111,7 @@ fn consistent_start_and_macroscopic_fields() {
         let mut setup = walled(lanes, storage);
         setup.force = Force::Constant([1e-3, 2e-3, -1e-3]);
         let mut twin = twin_of(&setup);
-        let n = twin.domain.len();
+        let n = twin.domain.cell_count();
         let state = State {
             excess: (0..n).map(|k| 0.01 * noise(k) as f32).collect(),
             velocity: [1, 2, 3].map(|a| (0..n).map(|k| 0.05 * noise(a * n + k) as f32).collect()),
@@ -177,7 +177,7 @@ fn derived_fields_and_sums() {
     let mut observer = Observer::new(&rig.device, &lattice).unwrap();
     let u = twin.velocity();
     let rho = twin.density();
-    let n = twin.domain.len();
+    let n = twin.domain.cell_count();
     let gradient = |cell| twin::wale::gradient(&twin.domain, &u, cell);
     let fluid: Vec<usize> = (0..n).filter(|&cell| !twin.domain.solid[cell]).collect();
     let kinds = [

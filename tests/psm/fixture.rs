@@ -163,7 +163,7 @@ impl Subject {
     /// Largest |f − f_twin| / w_i over the fluid cells.
     pub fn population_error(&mut self) -> f64 {
         let end = self.rig.populations(&mut self.lattice);
-        let n = self.twin.domain.len();
+        let n = self.twin.domain.cell_count();
         let mut worst: f64 = 0.0;
         for cell in (0..n).filter(|&cell| !self.twin.domain.solid[cell]) {
             for q in 0..Q {

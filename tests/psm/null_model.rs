@@ -52,7 +52,7 @@ fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
             with.rig.run(&mut with.lattice, steps);
         }
         let found = with.rig.populations(&mut with.lattice).values;
-        let n = with.twin.domain.len();
+        let n = with.twin.domain.cell_count();
         let fluid = (0..found.len()).filter(|&k| !with.twin.domain.solid[k % n]);
         let worst = fluid
             .map(|k| f64::from((found[k] - expected[k]).abs()) / W[k / n])

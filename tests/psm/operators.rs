@@ -129,7 +129,7 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
     let twin = &subject.twin;
     let nu_t = twin.nu_t();
     let mut loads = vec![Load::default(); boxes.len()];
-    for cell in (0..twin.domain.len()).filter(|&cell| !twin.domain.solid[cell]) {
+    for cell in (0..twin.domain.cell_count()).filter(|&cell| !twin.domain.solid[cell]) {
         let solid = twin.solid_at(cell);
         let tau = twin.config.tau_eff(nu_t[cell]);
         for (load, block) in loads.iter_mut().zip(boxes) {

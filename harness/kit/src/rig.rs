@@ -15,6 +15,12 @@ pub struct Rig {
     pub queue: wgpu::Queue,
 }
 
+impl Default for Rig {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Rig {
     /// The [selected](gpu::selected) adapter with all it offers; panics with the install hint where there is none.
     pub fn new() -> Self {

@@ -247,7 +247,7 @@ fn periodic_box_conserves_mass_and_momentum() {
             ..Config::new(0.52)
         },
     );
-    for cell in 0..flow.domain.len() {
+    for cell in 0..flow.domain.cell_count() {
         flow.f[cell] = random_populations(cell).map(|f| 0.1 * f);
     }
     let totals = |flow: &Twin| {
@@ -314,11 +314,11 @@ fn product_equilibrium_restores_galilean_invariance_of_viscosity() {
 /// in a quiescent box of 16³ cells with noise of 1e-6.
 fn growth_of_noise(config: Config, steps: usize) -> f64 {
     let mut flow = Twin::new(Domain::periodic([16; 3]), config);
-    for cell in 0..flow.domain.len() {
+    for cell in 0..flow.domain.cell_count() {
         flow.f[cell] = noise::populations(cell, 1e-6);
     }
     let spread = |flow: &Twin| {
-        let cells = flow.domain.len() as f64;
+        let cells = flow.domain.cell_count() as f64;
         (0..Q)
             .map(|i| {
                 let mean = flow.f.iter().map(|f| f[i]).sum::<f64>() / cells;

@@ -54,7 +54,7 @@ fn gradient_of_a_linear_field_is_exact_beside_walls_and_zero_across_single_cells
     let mut domain = Domain::new([5, 5, 1], faces);
     let obstacle = domain.index([2, 2, 0]);
     domain.solid[obstacle] = true;
-    let u: Vec<_> = (0..domain.len())
+    let u: Vec<_> = (0..domain.cell_count())
         .map(|cell| {
             let y = domain.position(cell)[1] as f64;
             [0.01 * y, -0.02 * y, 0.03 * y]
@@ -81,13 +81,13 @@ fn solid_rotation_has_the_known_energy_enstrophy_and_q() {
     let (n, omega) = (6, 0.01);
     let faces = [const { Face::FreeSlip }; 6];
     let domain = Domain::new([n, n, 2], faces);
-    let u: Vec<_> = (0..domain.len())
+    let u: Vec<_> = (0..domain.cell_count())
         .map(|cell| {
             let [x, y, _] = domain.position(cell).map(|p| p as f64 - 2.5);
             [-omega * y, omega * x, 0.0]
         })
         .collect();
-    let cells = domain.len() as f64;
+    let cells = domain.cell_count() as f64;
     let energy = diagnostics::kinetic_energy(&domain, &vec![1.0; u.len()], &u);
     // Mean of x² + y² over centres ±½, ±3/2, ±5/2 is 35/6.
     assert!((energy / (0.5 * omega * omega * cells * 35.0 / 6.0) - 1.0).abs() < 1e-13);

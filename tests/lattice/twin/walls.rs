@@ -39,7 +39,7 @@ fn swirl(position: [usize; 3]) -> [f64; 3] {
 }
 
 fn start_with_swirl(flow: &mut Twin) {
-    let u: Vec<_> = (0..flow.domain.len())
+    let u: Vec<_> = (0..flow.domain.cell_count())
         .map(|cell| swirl(flow.domain.position(cell)))
         .collect();
     flow.start(&vec![1.0; u.len()], &u);
@@ -167,7 +167,7 @@ fn velocity_face_reflects_with_the_density_that_results() {
     let collided = flow.collided();
     flow.step();
     let mut moving_links = 0;
-    for cell in 0..flow.domain.len() {
+    for cell in 0..flow.domain.cell_count() {
         let rho = flow.macroscopic(cell).0;
         for i in 0..Q {
             if let Link::Moving(u_w) = flow.domain.link(cell, i) {
@@ -220,7 +220,7 @@ fn free_slip_faces_are_mirrors() {
     let mut octant = Twin::new(Domain::new(n, [const { Face::FreeSlip }; 6]), config);
     let mut whole = Twin::new(Domain::periodic(n.map(|cells| 2 * cells)), config);
     let populations = |flow: &mut Twin| {
-        for cell in 0..flow.domain.len() {
+        for cell in 0..flow.domain.cell_count() {
             let mut position = flow.domain.position(cell);
             let mut sign = [1.0; 3];
             for axis in 0..3 {
@@ -237,7 +237,7 @@ fn free_slip_faces_are_mirrors() {
     };
     populations(&mut octant);
     populations(&mut whole);
-    for cell in 0..octant.domain.len() {
+    for cell in 0..octant.domain.cell_count() {
         let twin_cell = whole.domain.index(octant.domain.position(cell));
         for i in 0..Q {
             let difference = octant.f[cell][i] - whole.f[twin_cell][i];
@@ -266,14 +266,14 @@ fn layer_of_solid_cells_is_a_wall_face() {
         Face::FreeSlip,
     ];
     let mut domain = Domain::new([7, 4, 5], faces);
-    for cell in 0..domain.len() {
+    for cell in 0..domain.cell_count() {
         let [x, _, z] = domain.position(cell);
         domain.solid[cell] = x == 0 || x == 6 || z == 0 || z == 4;
     }
     let mut with_cells = Twin::new(domain, config);
     with_faces.run(100);
     with_cells.run(100);
-    for cell in 0..with_faces.domain.len() {
+    for cell in 0..with_faces.domain.cell_count() {
         let [x, y, z] = with_faces.domain.position(cell);
         let same = with_cells.domain.index([x + 1, y, z + 1]);
         assert_eq!(with_faces.odd_class(cell), with_cells.odd_class(same));

@@ -37,5 +37,5 @@ pub fn q_criterion(g: &[[f64; 3]; 3]) -> f64 {
 }
 
 fn fluid_cells(domain: &Domain) -> impl Iterator<Item = usize> + '_ {
-    (0..domain.len()).filter(|&cell| !domain.solid[cell])
+    (0..domain.cell_count()).filter(|&cell| !domain.solid[cell])
 }

@@ -70,7 +70,7 @@ impl Domain {
     }
 
     /// Number of cells.
-    pub fn len(&self) -> usize {
+    pub fn cell_count(&self) -> usize {
         self.solid.len()
     }
 
@@ -174,7 +174,7 @@ impl Domain {
 
     /// Links of all cells, 27 a cell; those of solid cells have no meaning.
     pub fn links(&self) -> Vec<[Link; Q]> {
-        (0..self.len())
+        (0..self.cell_count())
             .map(|cell| std::array::from_fn(|i| self.link(cell, i)))
             .collect()
     }

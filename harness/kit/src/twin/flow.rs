@@ -38,7 +38,7 @@ impl Twin {
     /// Fluid at rest, ρ = 1, without force. The domain must not be changed afterwards.
     pub fn new(domain: Domain, config: Config) -> Self {
         Self {
-            f: vec![[0.0; Q]; domain.len()],
+            f: vec![[0.0; Q]; domain.cell_count()],
             links: domain.links(),
             domain,
             config,
@@ -142,7 +142,7 @@ impl Twin {
     /// because their rotation would have one.
     pub fn nu_t(&self) -> Vec<f64> {
         let Some(c_w) = self.config.c_w else {
-            return vec![0.0; self.domain.len()];
+            return vec![0.0; self.domain.cell_count()];
         };
         let u = match &self.previous_velocity {
             Some(previous) => previous,
@@ -266,6 +266,6 @@ impl Twin {
     }
 
     fn cells(&self) -> std::ops::Range<usize> {
-        0..self.domain.len()
+        0..self.domain.cell_count()
     }
 }

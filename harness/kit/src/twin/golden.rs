@@ -39,7 +39,7 @@ pub fn config() -> Config {
 /// uses, and noise of 5 % of the weights.
 pub fn start() -> Vec<[f64; Q]> {
     let domain = Domain::periodic(CELLS);
-    (0..domain.len())
+    (0..domain.cell_count())
         .map(|cell| {
             let [x, y, z] = domain.position(cell);
             let wave = |at: usize, n: usize| 0.02 * (TAU * at as f64 / n as f64).sin();

@@ -50,7 +50,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
         config.lambda_wall = lambda;
     }
     config.lambda_solid = setup.solid_lambda;
-    let nothing = vec![twin::Solid::default(); domain.len()];
+    let nothing = vec![twin::Solid::default(); domain.cell_count()];
     let mut twin = Twin::new(domain, config);
     let blocks = |operator| match operator {
         SolidOperator::Holdych => (twin::SolidOperator::Holdych, nothing),
@@ -68,7 +68,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
 
 /// Populations of order 0.025 w_i as in the golden trajectory, exactly the same in f32 and f64, with their own velocity.
 pub fn random_populations(twin: &mut Twin) -> Populations {
-    let n = twin.domain.len();
+    let n = twin.domain.cell_count();
     let mut values = vec![0f32; 27 * n];
     for cell in (0..n).filter(|&cell| !twin.domain.solid[cell]) {
         for q in 0..27 {

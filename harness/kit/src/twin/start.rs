@@ -9,7 +9,7 @@ use super::wale::gradient;
 /// f̃_i = f̃_i^eq(ρ, u) + w_i 9/2 (c_ia c_ib − δ_ab/3) Π_ab with Π_ab = −ρ c_s² τ (∂_a u_b + ∂_b u_a)
 /// (Latt & Chopard 2006), in every fluid cell; 0 in solids.
 pub fn consistent(domain: &Domain, config: &Config, rho: &[f64], u: &[[f64; 3]]) -> Vec<[f64; Q]> {
-    (0..domain.len())
+    (0..domain.cell_count())
         .map(|cell| {
             if domain.solid[cell] {
                 return [0.0; Q];

@@ -350,7 +350,7 @@ impl Blocks {
     /// `broadphase` when they are wanted.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and of the finder, and [`Error::Scene`] if that time is not finite.
+    /// Those of [`Blocks::step`], and of the broadphase, and [`Error::Scene`] if that time is not finite.
     pub async fn advance(&mut self, broadphase: &mut impl Broadphase, until: f64) -> Result<()> {
         is_time(until)?;
         while self.time < until {

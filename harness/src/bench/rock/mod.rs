@@ -13,9 +13,9 @@ mod targets;
 pub use crate::kit::exponent::exponent;
 pub use row::Row;
 
-use super::report::Machine;
+use super::{Bench, report::Machine};
 use core::Core;
-use riprap::{Result, wgpu};
+use riprap::Result;
 
 /// How much is measured.
 #[derive(Clone, Debug)]
@@ -46,19 +46,11 @@ impl Plan {
     }
 }
 
-/// Where the device's broadphase runs.
-pub struct Gpu<'a> {
-    /// The device.
-    pub device: &'a wgpu::Device,
-    /// Its queue.
-    pub queue: &'a wgpu::Queue,
-}
-
 /// Measures all of the plan and prints a table as it goes; without a device, the host's part.
 ///
 /// # Errors
 /// If the device fails, or a step.
-pub fn measure(plan: &Plan, device: Option<&Gpu<'_>>, machine: &Machine) -> Result<Vec<Row>> {
+pub fn measure(plan: &Plan, device: Option<&Bench<'_>>, machine: &Machine) -> Result<Vec<Row>> {
     println!(
         "\nrock: the fastest of {} samples\n{}",
         plan.rounds,

@@ -336,7 +336,7 @@ mod tests {
         let more = |change: fn(&mut Setup)| {
             let mut setup = plain.clone();
             change(&mut setup);
-            let [with, without] = [&setup, &plain].map(|setup| step(setup));
+            let [with, without] = [&setup, &plain].map(step);
             let flops = with.flops as i64 - without.flops as i64;
             [flops, with.bytes() as i64 - without.bytes() as i64]
         };

@@ -218,7 +218,7 @@ fn a_run_that_searches_pairs_on_a_device_is_the_same() {
     let on_host = args(&folder, PILE, "host");
     go(&on_host);
     let title = "title = \"pile\"\n";
-    let text = PILE.replace(title, &format!("{title}[rock]\nsearch = \"device\"\n"));
+    let text = PILE.replace(title, &format!("{title}[rock]\nbroadphase = \"device\"\n"));
     let on_device = args(&folder, &text, "device");
     go(&on_device);
     for table in ["history.csv", "top.csv"] {

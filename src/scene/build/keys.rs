@@ -57,3 +57,31 @@ pub(crate) fn rock_key(what: &str) -> String {
         },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Error;
+
+    #[test]
+    fn errors_of_setups_name_keys_of_scenes() {
+        let of_scene = |what: &str, key: fn(&str) -> String| {
+            Error::argument(what, "is 0").at_key(key).to_string()
+        };
+        for (what, key) in [
+            ("nu", "fluid.viscosity"),
+            ("faces.x_min", "boundaries.x_min"),
+            ("velocity.y", "initial.velocity.y"),
+            ("lanes", "numerics.lanes"),
+        ] {
+            assert_eq!(of_scene(what, lattice_key), format!("{key}: is 0"));
+        }
+        #[cfg(feature = "rock")]
+        assert_eq!(
+            of_scene("pairs[2].normal_stiffness", rock_key),
+            "material_pairs[2].normal_stiffness: is 0"
+        );
+        #[cfg(feature = "sph")]
+        assert_eq!(of_scene("spacing", particle_key), "particles.spacing: is 0");
+    }
+}

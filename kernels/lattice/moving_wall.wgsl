@@ -47,7 +47,9 @@ fn move_wall(
         let u = select(select(u_z, u_y, (here.through_y & (1u << q)) != 0u), u_x, (here.through_x & (1u << q)) != 0u);
         push[q] = 6.0 * weight(q) * dot(vec3<f32>(C[q]), u);
         sum += f[q];
-        flux += select(0.0, push[q], through);
+        if (through) {
+            flux += push[q];
+        }
     }
     let rho = sum / (1.0 + flux);
     for (var q = 1u; q < 27u; q++) { // unroll

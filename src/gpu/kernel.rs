@@ -15,7 +15,7 @@ pub struct Kernel {
     size: [u32; 3],
 }
 
-/// A storage or uniform buffer that a kernel wants.
+/// A storage or uniform buffer that a kernel needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binding {
     /// Name of the variable in WGSL.

@@ -55,11 +55,11 @@ impl Readback {
 fn check(buffer: &wgpu::Buffer, bytes: u64) -> Result<()> {
     let message = if bytes > buffer.size() {
         let held = buffer.size();
-        format!("reading back {bytes} bytes of a buffer that has {held}; ask for fewer")
+        format!("reading back {bytes} bytes of a buffer that has {held}; request fewer")
     } else if !bytes.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
         let word = wgpu::COPY_BUFFER_ALIGNMENT;
         format!(
-            "reading back {bytes} bytes, which are no whole number of words of {word}; ask for more or fewer"
+            "reading back {bytes} bytes, which are no whole number of words of {word}; request more or fewer"
         )
     } else if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
         "reading back a buffer that was made without `BufferUsages::COPY_SRC`; make it with that"

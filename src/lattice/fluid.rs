@@ -188,8 +188,8 @@ impl Lattice {
         self.close(pass);
     }
 
-    /// Records the first part of a step: the boundaries, and the bricks that blocks reach. What the
-    /// blocks feel is known after it.
+    /// Records the first part of a step: the boundaries, and the bricks that blocks reach. The
+    /// loads on the blocks are known after it.
     pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
         self.streams.record(pass, self.parity(), true);

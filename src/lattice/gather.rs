@@ -1,4 +1,4 @@
-//! Reading fields where somebody looks, and nowhere else.
+//! Reading the values of listed cells.
 
 use super::{Lattice, fluid};
 use crate::{

@@ -278,7 +278,7 @@ impl Survey<'_> {
         !solid.is_empty() && solid[self.grid.index(cell)]
     }
 
-    /// Whether all 26 neighbours are fluid cells of the domain, or may be taken so: the quick way
+    /// Whether all 26 neighbours are fluid cells of the domain, or may be taken so: the early
     /// out for the bulk of the cells. Cells at faces answer no where solids have to be looked up.
     fn is_inside(&self, cell: [u32; 3]) -> bool {
         let off_the_face = |a: usize| (1..self.grid.cells[a].saturating_sub(1)).contains(&cell[a]);
@@ -369,7 +369,7 @@ impl Survey<'_> {
     /// cell next to it towards the same faces; bounce-back where that one is not fluid.
     fn slip(&self, cell: [u32; 3], q: usize, axes: [bool; 3]) -> Link {
         let entering = opposite(q);
-        // The entering direction with its normal components turned towards the face again.
+        // The entering direction with its normal components reversed towards the face again.
         let sent = [0, 1, 2].map(|a| if axes[a] { C[q][a] } else { C[entering][a] });
         let tangential = [0, 1, 2].map(|a| if axes[a] { 0 } else { C[q][a] });
         let along = tangential.iter().position(|&t| t != 0).map_or(0, |_| {

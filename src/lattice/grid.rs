@@ -41,7 +41,7 @@ impl Grid {
         };
         if !allowed.contains(&lanes) {
             let message = format!(
-                "{:?} storage wants one of {allowed:?} lanes, not {lanes}",
+                "{:?} storage needs one of {allowed:?} lanes, not {lanes}",
                 setup.storage
             );
             return Err(Error::argument("lanes", message));

@@ -4,7 +4,7 @@ use super::{Grid, Lattice, Observer, fluid::storage, observe::VELOCITY_OUT};
 use crate::{Error, Result, gpu::kernel::Kernel};
 use std::sync::Arc;
 
-/// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which no population tells.
+/// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which the populations do not contain.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inside {

@@ -29,7 +29,7 @@ impl Derived {
     fn check(self, lattice: &Lattice) -> Result<()> {
         match self {
             Self::EddyViscosity if lattice.setup.wale.is_none() => {
-                let message = "this lattice is laminar and has no eddy viscosity; set `wale`, or do not ask for it";
+                let message = "this lattice is laminar and has no eddy viscosity; set `wale`, or do not request it";
                 Err(Error::argument("derived", message))
             }
             Self::Vorticity(axis) if axis > 2 => {

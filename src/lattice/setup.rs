@@ -36,7 +36,7 @@ pub enum SolidOperator {
 pub enum Storage {
     /// 4 bytes a population.
     F32,
-    /// 2 bytes a population; wants 2 or 4 lanes.
+    /// 2 bytes a population; needs 2 or 4 lanes.
     F16,
 }
 
@@ -140,7 +140,7 @@ pub struct Setup {
     pub collision: Collision,
     /// Its constant rates.
     pub rates: Rates,
-    /// Magic parameter Λ of the odd rates beside walls; `None` keeps `rates` there too.
+    /// Magic parameter Λ of the odd rates next to walls; `None` keeps `rates` there too.
     pub wall_lambda: Option<f64>,
     /// Magic parameter of the odd rates everywhere, without a floor, for laminar flows: 3/16 makes
     /// Poiseuille flow exact at every τ. `None` keeps `rates` away from walls.
@@ -149,7 +149,7 @@ pub struct Setup {
     pub odd_rate_floor: f64,
     /// Blocks may be in the fluid, with this operator; `None` has no code for them.
     pub solid_operator: Option<SolidOperator>,
-    /// Magic parameter of the odd rates in cells with a block and beside them, floored as beside walls;
+    /// Magic parameter of the odd rates in cells with a block and next to them, floored as next to walls;
     /// `None` keeps `rates` there too.
     pub solid_lambda: Option<f64>,
     /// Equilibrium.
@@ -171,7 +171,7 @@ pub struct Setup {
     /// Elements of a brick along x, y, z; their product is the workgroup: 32, 64, 128 or 256.
     pub brick: [u32; 3],
     /// Storage bindings over which the populations are spread; `None` takes as many as the
-    /// device's limits ask.
+    /// device's limits require.
     pub bindings: Option<u32>,
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
@@ -252,7 +252,7 @@ impl Setup {
         [0, 1, 2].map(|a| self.faces[a][0] == Face::Periodic)
     }
 
-    /// Whether every cell is and stays a fluid cell without a wall beside it.
+    /// Whether every cell is and stays a fluid cell without a wall next to it.
     pub fn is_all_fluid(&self) -> bool {
         self.periodic_axes() == [true; 3] && self.solid.is_empty() && self.solid_operator.is_none()
     }

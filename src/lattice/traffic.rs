@@ -35,9 +35,9 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
     let lists = 4 * count(geometry.mixed.len() + geometry.plain.len());
     let links = count(geometry.links.len()) * (count(size_of::<Link>()) + 2 * word);
     let moving = |cell: &MovingCell| {
-        let turned: u32 = cell.through.iter().map(|bits| bits.count_ones()).sum();
+        let reflected: u32 = cell.through.iter().map(|bits| bits.count_ones()).sum();
         // All populations give the density; those through the faces are written.
-        u64::from(Q + turned) * word + count(size_of::<MovingCell>()) + 3 * VECTOR
+        u64::from(Q + reflected) * word + count(size_of::<MovingCell>()) + 3 * VECTOR
     };
     let moving: u64 = geometry.moving.iter().map(moving).sum();
     let open = |cell: &FaceCell| {

@@ -19,7 +19,7 @@ pub struct PlaneFace {
     pub area: f64,
 }
 
-/// What a fluid does to one plane face of a block, from the cells of the layer beside it: what a face of less
+/// What a fluid does to one plane face of a block, from the cells of the layer along it: what a face of less
 /// than some cells shows is coarse. Without a cell of fluid along it, it has no load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceLoad {
@@ -51,7 +51,7 @@ pub struct FaceLoad {
 
 impl FaceLoad {
     /// Mean pressure on the wetted area, Pa, that pushes onto the rock where it is positive; NaN without fluid
-    /// beside it.
+    /// along it.
     pub fn pressure(&self) -> f64 {
         -self.force.dot(self.face.normal) / self.wetted
     }
@@ -62,7 +62,7 @@ impl FaceLoad {
         (self.force - self.force.dot(normal) * normal) / self.wetted
     }
 
-    /// Where on the face a force acts that has no moment beside that of the mean traction, m: the centroid of a face
+    /// Where on the face a force acts that has no moment other than that of the mean traction, m: the centroid of a face
     /// that is wet all over but for seams, else the mean foot of the cells next to it.
     pub fn acts_at(&self) -> DVec3 {
         match self.wetted == self.inside {
@@ -87,7 +87,7 @@ impl FaceLoad {
         let (centre, inside) = outside(corners, seams, face.centre);
         let at = |n: usize| f64::from(sums[n]);
         let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
-        let [cells, beside] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
+        let [cells, counted] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
         if cells == 0.0 {
             return Self {
                 face,
@@ -96,7 +96,7 @@ impl FaceLoad {
                 ..Self::default()
             };
         }
-        let wetted = inside * (cells / beside);
+        let wetted = inside * (cells / counted);
         let cell = frame.units.cell;
         // The traction of a cell acts on its share of the wetted area.
         let share = wetted / (cells * cell * cell);

@@ -79,7 +79,7 @@ impl Frame {
 }
 
 /// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
-pub(super) const FARTHEST: f64 = 1e9;
+pub(super) const MAX_DISTANCE: f64 = 1e9;
 
 /// Whole numbers of cells; what lies beyond all integers is as far away as they go.
 pub(super) fn whole(base: DVec3) -> [i32; 3] {

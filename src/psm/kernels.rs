@@ -49,8 +49,8 @@ impl Growing {
     }
 }
 
-/// Turns of the loops of `hull_fraction` for a part of so many faces: through all of them, and again for each column.
-fn turns(faces: u32) -> u64 {
+/// Iterations of the loops of `hull_fraction` for a part of so many faces: through all of them, and again for each column.
+fn loop_iterations(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));
     let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
     faces + columns * (1 + columns * (1 + faces))
@@ -95,12 +95,12 @@ const KERNELS: [(&str, Option<&str>); 5] = [
 /// Cells of tiles for each at an edge, of blocks of some ten cells: where there are more, an invocation of
 /// `voxelise_edges` does several.
 const CELLS_AN_EDGE: u64 = 16;
-/// Turns of all loops of an invocation together that every adapter does: some end them after 65 535 without a word.
-const TURNS: u64 = 60_000;
+/// Iterations of all loops of an invocation that every adapter executes: some end loops after 65 535 without an error.
+const MAX_LOOP_ITERATIONS: u64 = 60_000;
 /// A place in a list that is not used.
 const NOTHING: u32 = u32::MAX;
 /// Most workgroups that folding a dispatch of 2³² adds.
-const SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
+const MAX_FOLD_SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
 
 /// Kernels with their memory.
 #[derive(Debug)]
@@ -145,7 +145,7 @@ impl Kernels {
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
             walk,
-            at_once: (TURNS / turns(faces)).clamp(1, CELLS_AN_EDGE),
+            at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_AN_EDGE),
         };
         kernels.bind(device, lattice)?;
         Ok(kernels)
@@ -181,8 +181,8 @@ impl Kernels {
             words(loaded + 1),
             words(WRENCH * tiles),
             words(WRENCH * loaded),
-            words(tiles + SURPLUS),
-            words(plan.lane_count() + SURPLUS),
+            words(tiles + MAX_FOLD_SURPLUS),
+            words(plan.lane_count() + MAX_FOLD_SURPLUS),
             words(tiles) * self.workgroup + 4,
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
@@ -272,11 +272,11 @@ impl Kernels {
 
 #[cfg(test)]
 mod tests {
-    use super::{TURNS, turns};
-    use crate::psm::MOST_FACES;
+    use super::{MAX_LOOP_ITERATIONS, loop_iterations};
+    use crate::psm::MAX_FACES;
 
     #[test]
-    fn a_cell_of_any_part_takes_fewer_turns_than_there_are() {
-        assert!((1..=MOST_FACES).all(|faces| turns(faces) <= TURNS));
+    fn a_cell_of_any_part_takes_fewer_iterations_than_there_are() {
+        assert!((1..=MAX_FACES).all(|faces| loop_iterations(faces) <= MAX_LOOP_ITERATIONS));
     }
 }

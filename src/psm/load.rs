@@ -70,7 +70,7 @@ impl SolidCells {
 
     /// The loads on the faces of all blocks where they were placed last, from the numbers of
     /// [`SolidCells::face_sums`]; others have none, nor have spheres. Pressures are those in the cells
-    /// beside a face, without what a body force adds on the way to it.
+    /// next to a face, without the part of a body force over the distance to it.
     ///
     /// # Errors
     /// If there are too few numbers.

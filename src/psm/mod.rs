@@ -10,7 +10,7 @@
 //! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
 //! 5. where loads on single faces are requested, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
-//!    cells along them. What cells inside the solid feel belongs to no face: full ones reflect what was in them
+//!    cells along them. The force on cells inside the solid belongs to no face: full ones reflect what was in them
 //!    when they were covered, and only over the whole block that cancels.
 //!
 //! ```
@@ -43,7 +43,7 @@
 //! {
 //!     let mut pass = encoder.begin_compute_pass(&Default::default());
 //!     cells.record_cells(&mut pass);
-//!     lattice.record_saturated(&mut pass);
+//!     lattice.record_psm(&mut pass);
 //!     cells.record_loads(&mut pass);
 //!     lattice.record_rest(&mut pass);
 //! }
@@ -74,7 +74,7 @@ pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 #[doc(hidden)]
 pub use program::{
-    Forms, MOST_BINDINGS, MOST_FACES, WHOLE, Walk, combine_parts, constants, reduce_blocks,
+    Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, Walk, combine_parts, constants, reduce_blocks,
     reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
 };
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};

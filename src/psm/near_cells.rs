@@ -141,9 +141,9 @@ mod tests {
         assert!(covered.iter().all(|near| near.distance <= -0.5));
         let around = cells_of(&cube, 1.0, [false; 3]);
         assert_eq!(around.len(), 6 * 6 * 6);
-        let beside: Vec<_> = around.iter().filter(|near| near.distance > 0.0).collect();
-        assert_eq!(beside.len(), 6 * 6 * 6 - 4 * 4 * 4);
-        assert!(beside.iter().all(|near| near.distance == 0.5));
+        let outside: Vec<_> = around.iter().filter(|near| near.distance > 0.0).collect();
+        assert_eq!(outside.len(), 6 * 6 * 6 - 4 * 4 * 4);
+        assert!(outside.iter().all(|near| near.distance == 0.5));
     }
 
     #[test]

@@ -60,8 +60,8 @@ impl Plan {
         let Some(then) = &self.found[block].pose else {
             return f64::INFINITY;
         };
-        let turned = pose.deformation - then.deformation;
-        let columns = [turned.x_axis, turned.y_axis, turned.z_axis];
+        let change = pose.deformation - then.deformation;
+        let columns = [change.x_axis, change.y_axis, change.z_axis];
         let square: f64 = columns.iter().map(|c| c.length_squared()).sum();
         ((pose.centre - then.centre).length() + square.sqrt() * radius) / cell
     }

@@ -4,10 +4,10 @@ use crate::{gpu::link::Program, lattice::Grid};
 
 /// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
 /// cell that many faces cut takes four columns through all of them.
-pub const MOST_FACES: u32 = 8192;
+pub const MAX_FACES: u32 = 8192;
 
 /// Storage buffers of the kernel that has the most of them, `reduce_faces`.
-pub const MOST_BINDINGS: u32 = 8;
+pub const MAX_STORAGE_BUFFERS: u32 = 8;
 
 /// Added to a number in `work`: all of its cells are to be done, as where nothing stands in memory yet, not only those
 /// that parts can reach.
@@ -108,7 +108,7 @@ pub fn reduce_blocks() -> Program {
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
 /// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
 /// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes`, and
-/// `face_partials`, [`super::FACE_LOAD`] numbers a job; beside [`constants`] it takes `VISCOSITY`. Spheres have no
+/// `face_partials`, [`super::FACE_LOAD`] numbers a job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid) -> Program {
     base("reduce_faces", grid)

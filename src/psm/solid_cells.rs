@@ -1,9 +1,9 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Forms, Frame, MOST_FACES, Motion, Part, Plan,
+    Forms, Frame, MAX_FACES, Motion, Part, Plan,
     face_sums::FaceSums,
-    frame::FARTHEST,
+    frame::MAX_DISTANCE,
     kernels::Kernels,
     outline::{outline, rows},
     tiles::{Outline, Tiling},
@@ -95,11 +95,11 @@ impl SolidCells {
                 if let Form::Convex(shape) = &part.form {
                     forms.polyhedra = true;
                     let count = shape.faces().len() as u32;
-                    if count > MOST_FACES {
+                    if count > MAX_FACES {
                         return Err(Error::Limit {
                             name: "faces of a convex part in a fluid".into(),
                             wants: count.into(),
-                            has: MOST_FACES.into(),
+                            has: MAX_FACES.into(),
                             remedy: "simplify its mesh".into(),
                         });
                     }
@@ -162,10 +162,10 @@ impl SolidCells {
         for (block, pose) in poses.iter().enumerate() {
             pose.check_volume(|| format!("block {block}"))?;
         }
-        let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > FARTHEST;
+        let far = |pose: &Pose| self.frame.place(pose.centre).abs().max_element() > MAX_DISTANCE;
         if let Some(bad) = poses.iter().position(far) {
             let message = format!(
-                "its centroid {} is farther away than cells are counted ({FARTHEST:.0e}): it has left the scene; \
+                "its centroid {} is farther away than cells are counted ({MAX_DISTANCE:.0e}): it has left the scene; \
                  end the run before, or close the boundary through which it went",
                 poses[bad].centre
             );

@@ -1,4 +1,4 @@
-//! What the host tells the device about blocks, as it lies in `kernels/psm/tables.wgsl`. Lattice
+//! What the host passes to the device about blocks, as it lies in `kernels/psm/tables.wgsl`. Lattice
 //! units: a cell and a step are one.
 
 use bytemuck::{Pod, Zeroable};

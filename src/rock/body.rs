@@ -93,7 +93,7 @@ impl Body {
         }
     }
 
-    /// Whether it may sleep: what deforms swings on, and formulas of time wake nobody.
+    /// Whether it may sleep: deformable blocks keep oscillating, and formulas of time wake no block.
     pub fn may_sleep(&self) -> bool {
         matches!(self.drive, Drive::Forces(None)) && self.deforming == RIGID
     }

@@ -54,7 +54,7 @@ pub(super) struct Contact {
 /// Pairs that one thread takes at a time: enough to outweigh the handing out.
 pub(super) const CHUNK: usize = 64;
 
-/// Contacts in one list for each [`CHUNK`] pairs: whoever resolves them writes a list of its own, which the
+/// Contacts in one list for each [`CHUNK`] pairs: each task writes a list of its own, which the
 /// step after the next uses again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ContactList {

@@ -20,7 +20,7 @@ impl Blocks {
     ///
     /// # Errors
     /// [`Error::Overlaps`] with what is left after `sweeps`; the blocks stay where they got to. Those of
-    /// the finder.
+    /// the broadphase.
     pub async fn relax(
         &mut self,
         broadphase: &mut impl Broadphase,

@@ -44,8 +44,8 @@ pub struct Setup {
     /// that part of the face from the first touch on. Contacts of a larger area stay as they are; cohesion
     /// and tensile strength go by the true area.
     pub corner_area: f64,
-    /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and nobody else computes
-    /// what it does there.
+    /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and no fluid solver
+    /// resolves its flow there.
     pub film: Option<Film>,
     /// The box after which space repeats, if it does: blocks then meet the images of others, too.
     pub period: Option<Period>,

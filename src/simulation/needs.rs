@@ -59,7 +59,7 @@ impl Needs {
             limits.max_buffer_size = has.max_buffer_size;
             buffers = buffers.max(rock::broadphase::MAX_STORAGE_BUFFERS);
             buffers = buffers.max(match kind {
-                Kind::Lattice => psm::MOST_BINDINGS,
+                Kind::Lattice => psm::MAX_STORAGE_BUFFERS,
                 Kind::Particles => sph::MAX_STORAGE_BUFFERS,
                 Kind::Rock => 0,
             });

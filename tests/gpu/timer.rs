@@ -1,7 +1,7 @@
 //! GPU timestamps of compute passes.
 
 use riprap::{
-    gpu::timer::{self, Timer},
+    gpu::timer::{self, Phases, Timer, begin_pass},
     lattice::{Lattice, Setup, State},
     wgpu,
 };
@@ -56,4 +56,35 @@ fn without_the_feature_there_is_no_timer() {
     let rig = kit::Rig::new();
     assert!(Timer::new(&rig.device, &rig.queue, 1).is_none());
     assert!(timer::pass(None, "plain").timestamp_writes.is_none());
+}
+
+/// A phase that runs several times in a round is counted each time.
+#[test]
+fn phases_add_up_the_times_of_their_passes() {
+    let Some((device, queue)) = timed() else {
+        return;
+    };
+    let setup = Setup::periodic([16; 3], 0.01);
+    let mut lattice = Lattice::new(&device, setup).unwrap();
+    let mut phases = Some(Phases::new(&device, &queue));
+    for _round in 0..2 {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        for name in ["bulk", "bulk", "reduce"] {
+            lattice.record(&mut begin_pass(&mut phases, &mut encoder, name));
+        }
+        let phases = phases.as_mut().unwrap();
+        phases.resolve(&mut encoder);
+        queue.submit([encoder.finish()]);
+        let collect = phases.collect(&device, &queue);
+        kit::gpu::drive(&device, Duration::from_secs(60), "the phases", collect)
+            .unwrap()
+            .unwrap();
+    }
+    let phases = phases.unwrap();
+    let [bulk, reduce] = phases.times() else {
+        panic!("{phases:?}");
+    };
+    assert_eq!((bulk.name.as_str(), bulk.count), ("bulk", 4));
+    assert_eq!((reduce.name.as_str(), reduce.count), ("reduce", 2));
+    assert!(bulk.seconds > 0.0 && reduce.seconds > 0.0, "{phases:?}");
 }

@@ -70,6 +70,21 @@ pub enum Part {
     Unused,
 }
 
+/// What is measured on, and how thoroughly.
+#[derive(Clone, Copy, Debug)]
+pub struct Bench<'a> {
+    /// The device.
+    pub device: &'a wgpu::Device,
+    /// Its queue.
+    pub queue: &'a wgpu::Queue,
+    /// Where and when.
+    pub machine: &'a Machine,
+    /// Only the main kernels, for a short time.
+    pub quick: bool,
+    /// Large sizes, too.
+    pub full: bool,
+}
+
 /// A result of a part: one object of the file.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -117,52 +132,49 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     };
     println!("{machine}");
     let asked = |part| !args.all && args.only.is_none_or(|only| only == part);
+    let bench = device.as_ref().map(|(_, device, queue)| Bench {
+        device,
+        queue,
+        machine: &machine,
+        quick: args.quick,
+        full: args.full,
+    });
     let mut measured: Vec<Measured> = Vec::new();
     let mut targets = Vec::new();
-    if let Some((_, device, queue)) = &device
+    if let Some(bench) = &bench
         && asked(Part::Fluid)
     {
-        let (rows, judged) = fluid(&args, &machine, device, queue)?;
+        let (rows, judged) = fluid(&args, bench)?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Fluid));
     }
     if asked(Part::Rock) {
-        let gpu = device
-            .as_ref()
-            .map(|(_, device, queue)| rock::Gpu { device, queue });
         let plan = rock::Plan::new(args.quick, args.full);
-        let (rows, judged) = rock::measure(&plan, gpu.as_ref(), &machine)?;
+        let (rows, judged) = rock::measure(&plan, bench.as_ref(), &machine)?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Rock));
     }
-    if let Some((_, device, queue)) = &device
-        && asked(Part::Water)
-    {
-        let rows = water::measure((args.quick, args.full), device, queue, &machine)?;
-        measured.extend(rows.into_iter().map(Measured::Water));
-    }
-    if let Some((_, device, queue)) = &device
-        && asked(Part::Solids)
-    {
-        let (rows, judged) = solids::measure((args.quick, args.full), device, queue, &machine)?;
-        targets.extend(judged);
-        measured.extend(rows.into_iter().map(Measured::Solids));
-    }
-    if let Some((_, device, queue)) = &device
-        && asked(Part::Unused)
-    {
-        let (rows, judged) = unused::measure(args.quick, device, queue, &machine)?;
-        targets.extend(judged);
-        measured.extend(rows.into_iter().map(Measured::Solids));
-    }
-    if let Some((_, device, queue)) = &device
-        && args.all
-    {
-        // A GPU says itself when its memory ends.
-        let limited = machine.software || args.memory.is_some();
-        let most = limited.then(|| budget(args.memory, machine.software));
-        let rows = table::measure(device, queue, &machine, most)?;
-        measured.extend(rows.into_iter().map(Measured::Table));
+    if let Some(bench) = &bench {
+        if asked(Part::Water) {
+            measured.extend(water::measure(bench)?.into_iter().map(Measured::Water));
+        }
+        if asked(Part::Solids) {
+            let (rows, judged) = solids::measure(bench)?;
+            targets.extend(judged);
+            measured.extend(rows.into_iter().map(Measured::Solids));
+        }
+        if asked(Part::Unused) {
+            let (rows, judged) = unused::measure(bench)?;
+            targets.extend(judged);
+            measured.extend(rows.into_iter().map(Measured::Solids));
+        }
+        if args.all {
+            // A GPU says itself when its memory ends.
+            let limited = machine.software || args.memory.is_some();
+            let most = limited.then(|| budget(args.memory, machine.software));
+            let rows = table::measure(bench, most)?;
+            measured.extend(rows.into_iter().map(Measured::Table));
+        }
     }
     let judged = targets.into_iter().map(|target| Judged {
         part: "target",
@@ -178,12 +190,13 @@ pub fn run(args: Args) -> anyhow::Result<()> {
 }
 
 /// The kernels of the fluid on each grid.
-fn fluid(
-    args: &Args,
-    machine: &Machine,
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+fn fluid(args: &Args, bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+    let Bench {
+        device,
+        queue,
+        machine,
+        ..
+    } = *bench;
     let mut clock = Clock::new(device, queue, machine.software);
     let budget = budget(args.memory, machine.software);
     let mut rows: Vec<Row> = Vec::new();

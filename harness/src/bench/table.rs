@@ -1,6 +1,6 @@
 //! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
 
-use super::{report::Machine, solids::crowd};
+use super::{Bench, report::Machine, solids::crowd};
 use glam::{DQuat, DVec3};
 use kit::{
     clock::{Clock, Spent},
@@ -98,12 +98,13 @@ impl fmt::Display for Row {
 ///
 /// # Errors
 /// If the device is lost or silent.
-pub fn measure(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    machine: &Machine,
-    budget: Option<u64>,
-) -> Result<Vec<Row>> {
+pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
+    let Bench {
+        device,
+        queue,
+        machine,
+        ..
+    } = *bench;
     println!("\nkind     store   grid |     MLUPS      GB/s  steps       s");
     let mut clock = Clock::new(device, queue, machine.software);
     let mut rows: Vec<Row> = Vec::new();

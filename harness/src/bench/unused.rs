@@ -1,7 +1,7 @@
 //! What a feature costs that nobody uses, and what the cost of a moving block follows: pairs of scenes, in turns.
 
 use super::{
-    report::Machine,
+    Bench,
     solids::{Row, Turns, World},
     targets::{Target, show},
 };
@@ -9,7 +9,6 @@ use riprap::{
     formula::Formula,
     scene::{EddyViscosity, SolidOperator},
     simulation::Simulation,
-    wgpu,
 };
 
 /// Cells across the block.
@@ -34,12 +33,14 @@ struct Pair {
 ///
 /// # Errors
 /// If the device fails.
-pub fn measure(
-    quick: bool,
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    machine: &Machine,
-) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+    let Bench {
+        device,
+        queue,
+        machine,
+        quick,
+        ..
+    } = *bench;
     let (n, rounds) = match (machine.software, quick) {
         (true, true) => (32, 5),
         (true, false) => (48, 21),

@@ -1,6 +1,6 @@
 //! Steps of free water: particles and pairs a second.
 
-use super::{copy_bandwidth, report::Machine};
+use super::{Bench, copy_bandwidth, report::Machine};
 use cpu_time::ProcessTime;
 use kit::{exponent::exponent, gpu, tank::Tank};
 use riprap::{sph::NeighbourSearch, wgpu};
@@ -75,12 +75,14 @@ pub struct Row {
 ///
 /// # Errors
 /// If the device fails.
-pub fn measure(
-    (quick, full): (bool, bool),
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    machine: &Machine,
-) -> anyhow::Result<Vec<Row>> {
+pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
+    let Bench {
+        device,
+        queue,
+        machine,
+        quick,
+        full,
+    } = *bench;
     let bandwidth = copy_bandwidth(device, queue, COPIED)?;
     println!(
         "\nwater, h/Δx = 2; the device copies {:.1} GB/s\n{:>10} {:>6} {:>7} {:>11} {:>7} {:>10} {:>16} {:>16} {:>10} {:>10} \

@@ -1,6 +1,6 @@
 //! `riprap run`: computes a scene and writes what it asks for.
 //!
-//! [`SceneRun`] is a scene on a device, and `Runner` takes it to its end. Everything that a run writes is a `Recorder` with
+//! `SceneRun` is a scene on a device, and `Runner` takes it to its end. Everything that a run writes is a `Recorder` with
 //! a schedule. The scene advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
 //! the flow diverges, what is on disk is complete and can be continued.
 

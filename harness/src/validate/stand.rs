@@ -4,7 +4,8 @@ use super::{
     record::{Trial, describe},
     stopwatch::{Spent, Stopwatch, WARM_UP},
 };
-use crate::gpu;
+use crate::{gpu, picture::Chart};
+use anyhow::Context;
 use riprap::{
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
     wgpu,
@@ -52,6 +53,39 @@ impl Stand {
             full,
             pictures: None,
         })
+    }
+
+    /// Draws a chart into NAME.png, where pictures are wanted.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn draw(&self, name: &str, chart: &Chart) -> anyhow::Result<()> {
+        match &self.pictures {
+            Some(folder) => chart.draw(&folder.join(name).with_extension("png")),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes numbers below the heads of their columns into NAME.csv, where pictures are wanted.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write_table<const N: usize>(
+        &self,
+        name: &str,
+        heads: [&str; N],
+        rows: &[[f64; N]],
+    ) -> anyhow::Result<()> {
+        let Some(folder) = &self.pictures else {
+            return Ok(());
+        };
+        let mut text = heads.join(",") + "\n";
+        for row in rows {
+            let numbers = row.map(|number| format!("{number:.6}"));
+            text += &(numbers.join(",") + "\n");
+        }
+        let path = folder.join(name).with_extension("csv");
+        std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))
     }
 
     /// A periodic box with the library's defaults and the lanes and bricks that suit the adapter.

@@ -545,3 +545,34 @@ fn what_cannot_be_is_refused_with_what_to_change() {
         &["coupling.interval", "at least 1"],
     );
 }
+
+#[test]
+fn phases_of_a_step_are_timed_by_name_and_change_no_bits() {
+    let folder = folder("timings");
+    let plain = args(&folder, CHANNEL, "plain");
+    go(&plain);
+    let run = |out: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_riprap"))
+            .args(["run", plain.scene.to_str().unwrap(), "--timings", "--out"])
+            .arg(folder.join(out))
+            .output()
+            .unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let text = run("timed");
+    for phase in ["readback wait", "broadphase", "contact", "integrate"] {
+        assert!(text.contains(phase), "{phase}: {text}");
+    }
+    // Passes are timed where the device has timestamps: all or none of them.
+    let passes = [
+        "voxelise",
+        "boundaries",
+        "bricks with blocks",
+        "reduce",
+        "bulk",
+    ];
+    let timed = passes.map(|pass| text.lines().any(|line| line.starts_with(pass)));
+    assert!(timed == [true; 5] || timed == [false; 5], "{text}");
+    let history = |out: &str| fs::read(folder.join(out).join("history.csv")).unwrap();
+    assert_eq!(history("plain"), history("timed"));
+}

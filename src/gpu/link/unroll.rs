@@ -36,12 +36,12 @@ pub fn unroll(lines: Vec<Line>, file: &str) -> Result<Vec<Line>> {
         }
         for turn in (head.from..head.to).step_by(head.step) {
             let literal = format!("{turn}u");
-            let turned = body
+            let written = body
                 .iter()
                 .map(|(line, text)| (*line, replace(text, &head.counter, &literal)))
                 .collect();
             out.push((number, "{".into()));
-            out.extend(unroll(turned, file)?);
+            out.extend(unroll(written, file)?);
             out.push((number, "}".into()));
         }
     }

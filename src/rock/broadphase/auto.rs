@@ -1,9 +1,9 @@
-//! The cheaper of the two finders.
+//! The cheaper of the two broadphases.
 
 use super::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase};
 use crate::Result;
 
-/// Searches on the host for few items and on the device for many; the list is the same.
+/// Searches on the host for few boxes and on the device for many; the list is the same.
 ///
 /// The kernels are compiled when the device is first used.
 #[derive(Debug)]
@@ -16,12 +16,12 @@ pub struct AutoBroadphase {
 
 impl AutoBroadphase {
     /// Items from which on a GPU is used. An estimate: the host takes 0.5 to 1 µs of CPU time an
-    /// item, and two submissions that are waited for take some hundred microseconds with a usual driver.
+    /// box, and two submissions that are waited for take some hundred microseconds with a usual driver.
     /// `cargo bench --bench broadphase` measures it for a device.
     pub const GPU_CROSSOVER: usize = 1000;
 
-    /// Uses `device` from [`Self::GPU_CROSSOVER`] items on, and not at all if it computes on the
-    /// CPU: on lavapipe a search takes 5 to 8 times the CPU time of the host's for 10³ to 10⁵ items
+    /// Uses `device` from [`Self::GPU_CROSSOVER`] boxes on, and not at all if it computes on the
+    /// CPU: on lavapipe a search takes 5 to 8 times the CPU time of the host's for 10³ to 10⁵ boxes
     /// of one size or of sizes 1:100, and more for fewer.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let crossover = match device.adapter_info().device_type {

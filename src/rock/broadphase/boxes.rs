@@ -24,9 +24,9 @@ const DIGITS: i32 = 22;
 /// numbers: boxes that overlap do so still. The search in f32 may find too much, never too little.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Boxes {
-    /// One an item, in their order.
+    /// One for each box, in their order.
     pub boxes: Vec<DeviceBox>,
-    /// From fine to coarse; only those with an item.
+    /// From fine to coarse; only those with a box.
     pub levels: Vec<Level>,
 }
 
@@ -34,9 +34,9 @@ impl Boxes {
     /// Makes the boxes of `aabbs`.
     ///
     /// # Errors
-    /// [`Error::Argument`] that names the item if a corner is not finite or farther than
+    /// [`Error::Argument`] that names the box if a corner is not finite or farther than
     /// [`FARTHEST`], or if a lower corner is above the upper one; [`Error::Limit`] for more than
-    /// 2²⁴ items.
+    /// 2²⁴ boxes.
     pub fn new(aabbs: &[Aabb]) -> Result<Self> {
         let origin = check(aabbs)?;
         let mut boxes = Vec::with_capacity(aabbs.len());

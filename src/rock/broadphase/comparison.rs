@@ -17,9 +17,9 @@ const SLICE: u32 = 8192;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Search {
-    /// Levels that have items.
+    /// Levels that have boxes.
     pub levels: u32,
-    /// Invocations of an item.
+    /// Invocations of a box.
     pub slices: u32,
     /// The pair that the first place of the list is for.
     pub first_pair: u32,
@@ -29,9 +29,9 @@ pub struct Search {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Header {
-    /// Candidates of the item that has most, if some were not looked at.
+    /// Candidates of the box that has most, if some were not looked at.
     pub candidates: u32,
-    /// Pairs of all items.
+    /// Pairs of all boxes.
     pub pairs: u32,
 }
 

@@ -15,13 +15,13 @@ use crate::{
 
 /// Finds pairs on the caller's device, in O(N) for all mixtures of sizes.
 ///
-/// Buffers are kept from call to call, for as many items as the last call had. Nothing blocks:
+/// Buffers are kept from call to call, for as many boxes as the last call had. Nothing blocks:
 /// the caller polls the device while it awaits the list.
 ///
 /// ```
 /// use riprap::{rock::broadphase::DeviceBroadphase, wgpu};
 /// let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-/// let finder = DeviceBroadphase::new(&device, &queue)?;
+/// let broadphase = DeviceBroadphase::new(&device, &queue)?;
 /// # Ok::<(), riprap::Error>(())
 /// ```
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub struct DeviceBroadphase {
     prepared: Option<Prepared>,
 }
 
-/// The buffers of a number of items.
+/// The buffers of a number of boxes.
 #[derive(Debug)]
 struct Prepared {
     sorted: BinsOf,

@@ -1,5 +1,5 @@
 //! Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, with a grid for each size: every
-//! item lies in the one cell of its level that holds its lower corner, and looks through the cells
+//! box lies in the one cell of its level that holds its lower corner, and looks through the cells
 //! of its own and all coarser levels from which a box can reach it.
 
 use super::{Aabb, Boxes, Broadphase, sorted_pairs};
@@ -18,7 +18,7 @@ const BRUTE_FORCE_MAX: usize = 64;
 const BOXES_PER_TASK: usize = 1024;
 
 /// Finds pairs on the host, in O(N) for all mixtures of sizes; with threads from a few thousand
-/// items on.
+/// boxes on.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HostBroadphase;
 
@@ -108,7 +108,7 @@ impl<'a> Bins<'a> {
         }
     }
 
-    /// Adds the pairs of `item` with the items of its level that come after it, and with those of
+    /// Adds the pairs of `item` with the boxes of its level that come after it, and with those of
     /// coarser levels.
     fn search_from(&self, item: &DeviceBox, found: &mut Vec<[u32; 2]>) {
         let own = item.level();

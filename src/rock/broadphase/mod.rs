@@ -1,7 +1,7 @@
-//! Which pairs may touch: a list that is complete, sorted and the same from every finder.
+//! Which pairs may touch: a list that is complete, sorted and the same from every implementation.
 //!
-//! Finders take boxes as they are given: whoever wants a list to live for several steps grows its
-//! boxes by a skin first, and asks again once something has moved half of it.
+//! Broadphases take boxes as they are given: to keep a list for several steps, grow the
+//! boxes by a skin first, and search again once something has moved half of it.
 
 use crate::Result;
 
@@ -32,7 +32,7 @@ pub struct Aabb {
 impl Aabb {
     /// Whether the two boxes have a point in common.
     pub fn overlaps(&self, other: &Self) -> bool {
-        // Without branches, which nobody could predict.
+        // Without branches, which would be mispredicted.
         let along = |a: usize| (self.min[a] <= other.max[a]) & (other.min[a] <= self.max[a]);
         along(0) & along(1) & along(2)
     }
@@ -43,12 +43,12 @@ impl Aabb {
     }
 }
 
-/// Finds the pairs of items of different groups whose boxes overlap.
+/// Finds the pairs of boxes of different groups that overlap.
 pub trait Broadphase {
-    /// The pairs (i, j), i < j, sorted, each once. Two finders give the same list, bit for bit.
+    /// The pairs (i, j), i < j, sorted, each once. Two broadphases give the same list, bit for bit.
     ///
     /// # Errors
-    /// If a device fails, or an item is not finite.
+    /// If a device fails, or a box is not finite.
     fn pairs(&mut self, aabbs: &[Aabb]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
 }
 

@@ -2,7 +2,7 @@
 
 use super::Aabb;
 
-/// Sorts pairs (i, j), i < j, by counting, linear in items and pairs, and takes those whose boxes
+/// Sorts pairs (i, j), i < j, by counting, linear in boxes and pairs, and takes those whose boxes
 /// overlap in f64.
 pub(super) fn exact(aabbs: &[Aabb], found: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut ends = vec![0; aabbs.len() + 1];

@@ -8,7 +8,7 @@ use crate::{
 };
 use std::f64::consts::PI;
 
-/// A fluid between blocks whose flow in thin gaps is not resolved by whoever computes it.
+/// A fluid between blocks whose flow in thin gaps is not resolved by the fluid solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     /// Dynamic viscosity μ, Pa s.

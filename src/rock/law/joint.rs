@@ -34,7 +34,7 @@ impl Default for Joint {
 }
 
 impl Joint {
-    /// Where two materials meet and nobody has said what their joint is like: the harmonic mean of
+    /// The joint of two materials without a pair of their own: the harmonic mean of
     /// the stiffnesses (springs in series), the weaker of the strengths, the mean of the dampings.
     /// Two faces of one material have that material's joint.
     pub fn between(a: &Self, b: &Self) -> Self {

@@ -13,9 +13,9 @@ mod targets;
 pub use kit::exponent::exponent;
 pub use row::Row;
 
-use super::{report::Machine, targets::Target};
+use super::{Bench, report::Machine, targets::Target};
 use core::Core;
-use riprap::{Result, wgpu};
+use riprap::Result;
 
 /// How much is measured.
 #[derive(Clone, Debug)]
@@ -46,21 +46,13 @@ impl Plan {
     }
 }
 
-/// Where the device's broadphase runs.
-pub struct Gpu<'a> {
-    /// The device.
-    pub device: &'a wgpu::Device,
-    /// Its queue.
-    pub queue: &'a wgpu::Queue,
-}
-
 /// Measures all of the plan and prints a table as it goes; without a device, the host's part.
 ///
 /// # Errors
 /// If the device fails, or a step.
 pub fn measure(
     plan: &Plan,
-    device: Option<&Gpu<'_>>,
+    device: Option<&Bench<'_>>,
     machine: &Machine,
 ) -> Result<(Vec<Row>, Vec<Target>)> {
     println!(

@@ -1,7 +1,7 @@
 //! Finding pairs, on the host and on a device.
 
 use super::{
-    Gpu, Plan,
+    Bench, Plan,
     core::{Core, Cost, time_on_all},
     row::{Basis, Done, Row, push},
 };
@@ -25,7 +25,7 @@ pub const RATIOS: [u32; 2] = [1, 100];
 pub fn measure(
     plan: &Plan,
     core: &Core,
-    device: Option<&Gpu<'_>>,
+    device: Option<&Bench<'_>>,
     machine: &Machine,
     rows: &mut Vec<Row>,
 ) -> Result<()> {

@@ -9,9 +9,8 @@ pub use row::{HEAD, Row};
 pub use turns::Turns;
 pub use world::{World, crowd};
 
-use super::{report::Machine, targets::Target, targets::show};
+use super::{Bench, report::Machine, targets::Target, targets::show};
 use kit::exponent::exponent;
-use riprap::wgpu;
 
 /// Cells across the spheres of a crowd.
 const ACROSS: f64 = 16.0;
@@ -65,12 +64,14 @@ impl Plan {
 ///
 /// # Errors
 /// If the device fails.
-pub fn measure(
-    (quick, full): (bool, bool),
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    machine: &Machine,
-) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
+    let Bench {
+        device,
+        queue,
+        machine,
+        quick,
+        full,
+    } = *bench;
     let plan = Plan::new(machine, quick, full);
     let turns = Turns::new(device, queue, machine, plan.rounds, plan.long);
     let mut rows = Vec::new();

@@ -97,7 +97,7 @@ impl BlockProbe {
     }
 }
 
-/// The blocks of an run, and the number of that which a probe follows.
+/// The blocks of a run, and the number of that which a probe follows.
 pub fn find<'a>(run: &'a SceneRun, probe: &Probe, name: &str) -> riprap::Result<(Rock<'a>, usize)> {
     let found = run.rock().and_then(|rock| {
         let mut blocks = rock.setup.blocks.iter();

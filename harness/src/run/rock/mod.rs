@@ -24,7 +24,7 @@ use riprap::{
 };
 use std::path::Path;
 
-/// The blocks of an run as they are now.
+/// The blocks of a run as they are now.
 #[derive(Clone, Copy)]
 pub struct Rock<'a> {
     /// Steps done.

@@ -3,7 +3,7 @@
 
 use super::{
     super::{Method, Outcome, Record, Stand, Trial},
-    tank::{self, Tank, block, numbers, write_table},
+    tank::{self, Tank, block, numbers},
 };
 use crate::picture::{Chart, Curve, Mark, Measure};
 use riprap::scene::{BlockShape, Motion};
@@ -240,16 +240,14 @@ pub fn map(stand: &Stand) -> Outcome {
             mark: Mark::LinePoints,
         });
     }
-    if let Some(folder) = &stand.pictures {
-        let chart = Chart::profile(
-            "Error of the drag of a cubic array of spheres, c = 0.125",
-            Measure::linear("relaxation time τ", ""),
-            Measure::linear("K / K(Zick & Homsy) − 1", "%"),
-            curves,
-        );
-        chart.draw(&folder.join("solids_array.png"))?;
-        let heads = ["diameter", "tau", "error_percent", "steps", "seconds"];
-        write_table(&folder.join("solids_array.csv"), heads, &table)?;
-    }
+    let chart = Chart::profile(
+        "Error of the drag of a cubic array of spheres, c = 0.125",
+        Measure::linear("relaxation time τ", ""),
+        Measure::linear("K / K(Zick & Homsy) − 1", "%"),
+        curves,
+    );
+    stand.draw("solids_array", &chart)?;
+    let heads = ["diameter", "tau", "error_percent", "steps", "seconds"];
+    stand.write_table("solids_array", heads, &table)?;
     Ok(records)
 }

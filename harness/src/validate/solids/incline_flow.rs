@@ -88,15 +88,13 @@ pub fn run(stand: &Stand) -> Outcome {
         let quantity = "drag at the start, by a line through the grids where cells end, N";
         records.push(trial.relative(quantity, without_cells(&starts), push, 5e-2));
     }
-    if let Some(folder) = &stand.pictures {
-        let chart = Chart::profile(
-            "Drag on a cube held in water that starts down a slope of 30°",
-            Measure::linear("time", "s"),
-            Measure::linear("force along the slope", "N"),
-            curves,
-        );
-        chart.draw(&folder.join("solids_incline_flow.png"))?;
-    }
+    let chart = Chart::profile(
+        "Drag on a cube held in water that starts down a slope of 30°",
+        Measure::linear("time", "s"),
+        Measure::linear("force along the slope", "N"),
+        curves,
+    );
+    stand.draw("solids_incline_flow", &chart)?;
     Ok(records)
 }
 

@@ -10,7 +10,6 @@ use super::{
     tank::Tank,
 };
 use crate::picture::{Chart, Curve, Mark, Measure};
-use anyhow::Context;
 use riprap::scene::Scene;
 use std::path::Path;
 
@@ -212,16 +211,13 @@ pub fn whole(stand: &Stand) -> Outcome {
             before = Some(fall);
         }
     }
-    if let Some(folder) = &stand.pictures {
-        let chart = Chart::profile(
-            "Settling sphere of ten Cate et al. (2002)",
-            Measure::linear("time", "s"),
-            Measure::linear("height above the floor", "m"),
-            curves,
-        );
-        let path = folder.join("solids_settling.png");
-        chart.draw(&path).context("the trajectories")?;
-    }
+    let chart = Chart::profile(
+        "Settling sphere of ten Cate et al. (2002)",
+        Measure::linear("time", "s"),
+        Measure::linear("height above the floor", "m"),
+        curves,
+    );
+    stand.draw("solids_settling", &chart)?;
     Ok(records)
 }
 

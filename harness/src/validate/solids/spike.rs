@@ -2,7 +2,7 @@
 
 use super::{
     super::{Outcome, Stand},
-    tank::{self, Tank, block, write_table},
+    tank::{self, Tank, block},
 };
 use crate::picture::{Chart, Curve, Mark, Measure};
 use riprap::{
@@ -80,16 +80,14 @@ pub fn run(stand: &Stand) -> Outcome {
             mark: Mark::LinePoints,
         });
     }
-    if let Some(folder) = &stand.pictures {
-        let chart = Chart::profile(
-            "Swing of the drag of a cube as its faces cross cells",
-            Measure::linear("relaxation time τ", ""),
-            Measure::linear("swing / mean drag", "%"),
-            curves,
-        );
-        chart.draw(&folder.join("solids_spike.png"))?;
-        let heads = ["edge", "tau", "jump_percent", "swing_percent"];
-        write_table(&folder.join("solids_spike.csv"), heads, &table)?;
-    }
+    let chart = Chart::profile(
+        "Swing of the drag of a cube as its faces cross cells",
+        Measure::linear("relaxation time τ", ""),
+        Measure::linear("swing / mean drag", "%"),
+        curves,
+    );
+    stand.draw("solids_spike", &chart)?;
+    let heads = ["edge", "tau", "jump_percent", "swing_percent"];
+    stand.write_table("solids_spike", heads, &table)?;
     Ok(records)
 }

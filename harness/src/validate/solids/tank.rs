@@ -5,7 +5,6 @@ use super::super::{
     record::describe,
     stopwatch::{Spent, Stopwatch, WARM_UP},
 };
-use anyhow::Context;
 use riprap::{
     coupling::FluidLoad,
     formula::Formula,
@@ -76,23 +75,6 @@ pub fn block(shape: BlockShape, position: [f64; 3], motion: Motion) -> Block {
         guide: None,
         repeat: Vec::new(),
     }
-}
-
-/// A table of numbers with the heads of its columns, as CSV.
-///
-/// # Errors
-/// If the file cannot be written.
-pub fn write_table<const N: usize>(
-    path: &Path,
-    heads: [&str; N],
-    rows: &[[f64; N]],
-) -> anyhow::Result<()> {
-    let mut text = heads.join(",") + "\n";
-    for row in rows {
-        let numbers = row.map(|number| format!("{number:.6}"));
-        text += &(numbers.join(",") + "\n");
-    }
-    std::fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// The `n`th of a sequence of turns that fill all turns evenly: multiples of irrational numbers.

@@ -169,7 +169,7 @@ fn a_checkpoint_changes_lanes_and_bindings() {
     let whole = run(&rig, setup(), 60).1;
     let saved = run(&rig, setup(), 31).1;
     let mut other = setup();
-    (other.lanes, other.bindings) = (4, Some(9));
+    (other.lanes, other.bindings) = (4, Some(rig.most_bindings().min(9)));
     let mut lattice = Lattice::new(&rig.device, other).unwrap();
     lattice
         .set_populations(&rig.device, &rig.queue, &saved)

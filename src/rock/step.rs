@@ -38,7 +38,7 @@ impl Blocks {
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
     /// the contacts, [`Error::DeepOverlap`] if two blocks are pressed into each other,
-    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Narrowphase`] if pairs are wanted first, or if a block moves by more
+    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Scene`] if pairs are wanted first, or if a block moves by more
     /// than half its width, so that it could pass through others unseen. After an error everything is as it was before
     /// the step.
     pub fn step(&mut self) -> Result<()> {
@@ -51,7 +51,7 @@ impl Blocks {
     /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and [`Error::Narrowphase`] if that time is past.
+    /// Those of [`Blocks::step`], and [`Error::Scene`] if that time is past.
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         if until < self.time {

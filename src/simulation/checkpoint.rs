@@ -121,14 +121,11 @@ impl Checkpoint {
         }
     }
 
-    /// Checks that it is of a simulation of the same kind and time step.
+    /// Checks that it is of a simulation of the same time step.
     ///
     /// # Errors
-    /// [`Error::Scene`] if not.
-    pub(super) fn check(&self, kind: Kind, time_step: f64) -> Result<()> {
-        if self.kind() != kind {
-            return Err(other_scene(self.kind(), kind));
-        }
+    /// [`Error::Argument`] if not.
+    pub(super) fn check_time_step(&self, time_step: f64) -> Result<()> {
         if differ(self.time_step, time_step) {
             return Err(other_scene(
                 format!("steps of {:e} s", self.time_step),

@@ -420,8 +420,7 @@ impl Simulation {
     /// # Errors
     /// [`Error::Scene`] if it is of another kind, time step, grid, or number of particles or blocks.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        checkpoint.check(self.kind(), self.time_step)?;
-        // All is checked before the first change.
+        // All is checked before the first change, and the length of a step last: it follows from the rest.
         match (&self.fluid, &checkpoint.fluid) {
             (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
                 fluid.check_state(state)?;
@@ -429,9 +428,10 @@ impl Simulation {
             (Some(Fluid::Particles(fluid)), Some(FluidState::Particles(state))) => {
                 fluid.check_state(&self.scene, state)?;
             }
-            // The kinds agree.
-            _ => {}
+            (None, None) => {}
+            _ => return Err(other_scene(checkpoint.kind(), self.kind())),
         }
+        checkpoint.check_time_step(self.time_step)?;
         match (&mut self.rock, &checkpoint.rock) {
             (Some(rock), Some(state)) => rock.restore(state)?,
             (None, None) => {}

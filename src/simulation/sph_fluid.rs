@@ -249,7 +249,7 @@ impl SphFluid {
     /// Checks that a state is of the water of `scene`.
     ///
     /// # Errors
-    /// [`Error::Scene`] if its domain, particles or sensors differ.
+    /// [`Error::Argument`] if its domain, particles or sensors differ.
     pub fn check_state(&self, scene: &Scene, state: &WaterState) -> Result<()> {
         let domain = |origin: DVec3, size: DVec3, spacing: f64| {
             format!("a domain from {origin} m, {size} m wide, with particles every {spacing} m")

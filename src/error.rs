@@ -1,4 +1,4 @@
-//! Every way in which the library can refuse or fail, made once where it is known.
+//! Every error of the library, made once where it is known.
 //!
 //! Misuse of a function or a setup is an [`Error::Argument`], which names the argument or field; what is wrong with a scene is an
 //! [`Error::Scene`], which names the key and, for scenes from text, the line.
@@ -52,7 +52,7 @@ pub enum Error {
         /// The compiler's words.
         message: String,
     },
-    /// The adapter cannot hold or run what was asked.
+    /// The adapter cannot hold or run what was requested.
     #[error("{name}: wants {wants}, the adapter has {has}; {remedy}")]
     Limit {
         /// Name of the limit.
@@ -141,12 +141,12 @@ pub enum Error {
     },
     /// The step is too long for the springs of the contacts, or for the elasticity of a block.
     #[error(
-        "time_step = {asked:.3e} s is too long for the springs of {block}, its contacts and its own elasticity: at most {bound:.3e} s \
+        "time_step = {requested:.3e} s is too long for the springs of {block}, its contacts and its own elasticity: at most {bound:.3e} s \
          ({usual:.3e} s is usual), or a lower stiffness"
     )]
     TimeStep {
         /// Step, s.
-        asked: f64,
+        requested: f64,
         /// Longest step allowed, s.
         bound: f64,
         /// Step taken without `time_step`, s.
@@ -253,8 +253,8 @@ impl Overlap {
 /// Two numbers with as many digits as it takes to tell them apart, four at least.
 fn unlike(a: f64, b: f64) -> [String; 2] {
     let written = |digits: usize| [a, b].map(|x| format!("{x:.digits$e}"));
-    let told = (3..16).map(written).find(|[a, b]| a != b);
-    told.unwrap_or_else(|| written(3))
+    let distinct = (3..16).map(written).find(|[a, b]| a != b);
+    distinct.unwrap_or_else(|| written(3))
 }
 
 impl Error {
@@ -306,7 +306,7 @@ impl Error {
 }
 
 /// What a device says of an error, with its causes, in one line.
-pub(crate) fn told(error: &wgpu::Error) -> String {
+pub(crate) fn error_chain(error: &wgpu::Error) -> String {
     let first: &dyn std::error::Error = error;
     let causes = std::iter::successors(Some(first), |error| error.source());
     let lines: Vec<String> = causes.map(ToString::to_string).collect();
@@ -341,9 +341,9 @@ mod tests {
             second: "b".into(),
             depth,
         });
-        let told = Overlap::list(&pairs);
+        let list = Overlap::list(&pairs);
         assert_eq!(
-            told,
+            list,
             "a and b, of which one lies inside the other, a and b by 5.000e-1 m"
         );
     }

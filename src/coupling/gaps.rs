@@ -49,11 +49,11 @@ pub(crate) async fn gaps(
         parts.extend(own.map(|part| (block, Placed::of(part, pose))));
     }
     let (mut owners, mut placed) = (Vec::new(), Vec::new());
-    for (part, way) in blocks.images() {
+    for (part, shift) in blocks.images() {
         let (block, at) = &parts[part];
         owners.push(*block);
         placed.push(Placed {
-            centre: at.centre + way,
+            centre: at.centre + shift,
             ..at.clone()
         });
     }

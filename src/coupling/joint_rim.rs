@@ -38,7 +38,7 @@ pub(super) struct RimEdge {
     pub loss: DVec3,
 }
 
-/// What [`find_rim`] needs beside the joint.
+/// What [`find_rim`] needs besides the joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RimParams<'a> {
     /// m.

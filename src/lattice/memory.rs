@@ -42,7 +42,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         Face::Velocity(_) => true,
         _ => false,
     });
-    // Bindings beside the populations: of collide_stream, of a boundary pass, of macroscopic.
+    // Bindings besides the populations: of collide_stream, of a boundary pass, of macroscopic.
     let field = u32::from(matches!(setup.force, Force::Field(_)));
     let flags = u32::from(!fluid);
     let step = field
@@ -51,10 +51,10 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         + u32::from(setup.max_speed > 0.0)
         + u32::from(setup.solid_operator.is_some());
     let boundary = if moving { 2 } else { flags };
-    let beside = step.max(boundary).max(4 + flags + field);
+    let other_bindings = step.max(boundary).max(4 + flags + field);
     let free = limits
         .max_storage_buffers_per_shader_stage
-        .saturating_sub(beside);
+        .saturating_sub(other_bindings);
     let each = (binding_limit / direction.max(1)).min(Q.into()) as u32;
     let wanted = match setup.bindings {
         Some(n) => n.clamp(1, Q),
@@ -65,7 +65,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
     if free == 0 || setup.bindings.is_some() && wanted > free {
         let least = setup.bindings.map_or(1, |_| wanted);
         let mut remedy = format!(
-            "the populations take {least} of them and the rest of this setup {beside}; open the device with a higher \
+            "the populations take {least} of them and the rest of this setup {other_bindings}; open the device with a higher \
              `max_storage_buffers_per_shader_stage`, if its adapter has it"
         );
         if wanted > free && free > 0 {
@@ -73,7 +73,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         }
         return Err(Error::Limit {
             name: "storage buffers a shader stage of this device".into(),
-            wants: u64::from(least + beside),
+            wants: u64::from(least + other_bindings),
             has: limits.max_storage_buffers_per_shader_stage.into(),
             remedy,
         });
@@ -118,6 +118,6 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
             .map(|(_, bytes)| bytes)
             .sum(),
         largest_binding: (direction * u64::from(Q.div_ceil(wanted))).max(widest * scalars),
-        most_bindings: wanted + beside,
+        most_bindings: wanted + other_bindings,
     })
 }

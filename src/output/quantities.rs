@@ -6,7 +6,7 @@ use super::{Array, Image};
 
 /// Derivatives of an image's `velocity`, m/s, taken among fluid cells only.
 ///
-/// Central differences, second order; beside a solid or a face of the domain one-sided, second
+/// Central differences, second order; next to a solid or a face of the domain one-sided, second
 /// order where two fluid cells follow each other there, first order where only one does, zero
 /// where none does.
 #[derive(Clone, Copy, Debug)]

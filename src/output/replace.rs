@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes `path` through `content`, beside it first and renamed at the end, so that a killed run
+/// Writes `path` through `content`, next to it first and renamed at the end, so that a killed run
 /// or a full disk leaves the former file, never half of the new one.
 ///
 /// # Errors

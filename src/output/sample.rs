@@ -6,7 +6,7 @@ impl Image {
     /// The array `name` at `point` (m), by trilinear interpolation between cell centres.
     ///
     /// A point outside the outermost centres takes the value at the nearest place between them.
-    /// Solid cells carry no weight, so that a value beside a wall is the fluid's. `None` where
+    /// Solid cells carry no weight, so that a value next to a wall is the fluid's. `None` where
     /// there is no such array, where all cells around the point are solid, or where the point is
     /// not a number.
     pub fn sample(&self, name: &str, point: [f64; 3]) -> Option<Vec<f64>> {

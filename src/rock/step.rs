@@ -373,7 +373,7 @@ impl Blocks {
             return Ok(());
         }
         Err(Error::TimeStep {
-            asked: dt,
+            requested: dt,
             bound,
             usual: law::longest_step(law::USUAL_SHARE, frequency_squared),
             block: self.label(block),

@@ -56,7 +56,7 @@ pub struct Block {
     /// Forces on points of a free block, deformable or rigid; it never sleeps. Default none.
     #[schemars(default)]
     pub point_loads: Vec<PointLoad>,
-    /// Acceleration of a free block beside gravity, m/s²: three numbers or formulas of t; it never sleeps.
+    /// Acceleration of a free block besides gravity, m/s²: three numbers or formulas of t; it never sleeps.
     /// Default none.
     #[schemars(default)]
     pub acceleration: Option<[Formula; 3]>,

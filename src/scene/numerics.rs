@@ -28,7 +28,7 @@ pub struct Numerics {
     /// Largest speed that is expected, m/s. Default: the largest one in the boundaries and in the
     /// initial state at the time 0.
     pub velocity_scale: Option<f64>,
-    /// Magic parameter Λ beside bounce-back walls, no unit. Default 3/16, with which a wall of a
+    /// Magic parameter Λ next to bounce-back walls, no unit. Default 3/16, with which a wall of a
     /// channel lies half a cell beyond the last cell centre at any viscosity.
     pub wall_lambda: f64,
     /// One magic parameter Λ everywhere, for laminar scenes, no unit. Default: none.
@@ -38,7 +38,7 @@ pub struct Numerics {
     pub odd_rate_floor: f64,
     /// How partially saturated cells are drawn to the block in them. Default `holdych`.
     pub solid_operator: SolidOperator,
-    /// Magic parameter Λ in cells with a block and beside them, no unit. Default 1/10, with which the
+    /// Magic parameter Λ in cells with a block and next to them, no unit. Default 1/10, with which the
     /// drag depends least on the viscosity.
     pub solid_lambda: f64,
 }

@@ -7,7 +7,7 @@ use super::tagged::{need, refuse_others, through};
 use super::{Axis, Direction, Field};
 
 /// A measurement, written as CSV; the forces on a `block`, the level of a `gauge`, a `run_up` and the volume of water in a
-/// `box` are drawn over time beside it, as PNG.
+/// `box` are drawn over time next to it, as PNG.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Probe {
@@ -101,7 +101,7 @@ pub enum ProbePlace {
         /// The point, x and y, m.
         at: [f64; 2],
     },
-    /// A sensor on a wall or a fixed block beside particles: the mean `pressure` on a square patch over the last time step
+    /// A sensor on a wall or a fixed block next to particles: the mean `pressure` on a square patch over the last time step
     /// (Pa), and its `impulse` since the start (Pa s), from which the mean over any time follows. Where there is no water
     /// both are of nothing, 0.
     Sensor {

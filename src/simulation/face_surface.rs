@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// The faces of the blocks whose loads somebody asks for, with the number of their block, pressure and shear stress
-/// (Pa), and the share of them that is wet; NaN for what no fluid lies beside.
+/// (Pa), and the share of them that is wet; NaN for what no fluid lies next to.
 pub fn face_surface(coupled: &Coupled<'_>) -> Surface {
     let mut made = Surface::default();
     let mut shown: Vec<(usize, &FaceLoad)> = Vec::new();

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Error, Result,
     coupling::{Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, couple},
-    error::told,
+    error::error_chain,
     geometry::Pose,
     gpu::timer::{Phases, begin_pass},
     lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
@@ -85,7 +85,7 @@ impl LatticeFluid {
             return Err(Error::Device(format!(
                 "it does not hold {} cells, {bytes} bytes in its buffers ({}); use a larger cell or 16-bit storage",
                 lattice.grid().cell_count(),
-                told(&error)
+                error_chain(&error)
             )));
         }
         let (rock, coupling) = blocks.unzip();

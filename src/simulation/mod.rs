@@ -1,6 +1,5 @@
 //! A scene on a device: blocks, a fluid, or both, in one loop.
 
-mod beside;
 mod block_fields;
 pub mod checkpoint;
 mod diverged;
@@ -13,6 +12,7 @@ pub mod probe;
 mod rock_step;
 mod sensors;
 mod sph_fluid;
+mod wall_cells;
 mod wall_units;
 mod water_ledger;
 

@@ -62,8 +62,11 @@ mod tests {
     #[test]
     fn steps_that_never_end_are_refused() {
         assert!(bound(1e-3, 1e-8).is_ok() && bound(1e-3, f64::INFINITY).is_ok());
-        let told = bound(1e-3, 1e-12).unwrap_err().to_string();
-        assert!(told.contains("normal_stiffness smaller by 1.0e6"), "{told}");
+        let message = bound(1e-3, 1e-12).unwrap_err().to_string();
+        assert!(
+            message.contains("normal_stiffness smaller by 1.0e6"),
+            "{message}"
+        );
         assert!(bound(1e-3, 0.0).is_err());
     }
 }

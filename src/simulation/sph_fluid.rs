@@ -12,7 +12,7 @@ use crate::{
         CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange,
         particle_advice,
     },
-    error::told,
+    error::error_chain,
     geometry::{Load, Pose},
     rock::Motion,
     scene::{
@@ -135,7 +135,7 @@ impl SphFluid {
             return Err(Error::Device(format!(
                 "it does not hold {} particles ({}); use a larger spacing",
                 particles.counts().fluid,
-                told(&error)
+                error_chain(&error)
             )));
         }
         let blocks = &rock.setup().setup.blocks;

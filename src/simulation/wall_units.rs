@@ -1,7 +1,7 @@
 //! How well the grid resolves the shear at walls and blocks.
 //!
 //! Walls and blocks hold the fluid (no slip), and there is no wall model: the shear stress that they feel
-//! is what the cells beside them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
+//! is what the cells next to them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
 //! units y⁺ = u_τ y/ν with the friction velocity u_τ = √(τ_w/ρ). Here τ_w follows from the linear profile of
 //! the viscous sublayer, u⁺ = y⁺ (Pope 2000, section 7.1.4), with the velocity u along the wall at the
 //! first centre: u_τ = √(ν u/y).
@@ -11,7 +11,7 @@
 //! where a flow separates from a smooth surface is uncertain. Pressure, and with it the drag of bodies with
 //! edges at which the flow separates anyway, does not depend on it much.
 
-use super::{Simulation, beside::BesideWall, lattice_fluid::LatticeFluid};
+use super::{Simulation, lattice_fluid::LatticeFluid, wall_cells::WallCell};
 use crate::{Result, scene::Field};
 use glam::DVec3;
 
@@ -27,11 +27,11 @@ pub struct FirstCell {
     pub friction_velocity: f64,
     /// Centre of the cell, m.
     pub position: [f64; 3],
-    /// The block beside it; none: a wall, or a solid.
+    /// The block next to it; none: a wall, or a solid.
     pub block: Option<usize>,
 }
 
-/// The cells with the largest y⁺ beside walls and solids, and beside blocks.
+/// The cells with the largest y⁺ next to walls and solids, and next to blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WallUnits {
     /// Beside walls and solids; none where there are none.
@@ -49,18 +49,18 @@ impl Simulation {
     /// If the scene has no fluid on a lattice, or the device is lost.
     pub async fn wall_units(&mut self) -> Result<WallUnits> {
         let fluid = self.lattice_fluid()?;
-        let beside = fluid.cells_beside(self.coupled());
-        let cells: Vec<u32> = beside.iter().map(|beside| beside.cell).collect();
+        let wall_cells = fluid.wall_cells(self.coupled());
+        let cells: Vec<u32> = wall_cells.iter().map(|wall_cell| wall_cell.cell).collect();
         if cells.is_empty() {
             return Ok(WallUnits::default());
         }
         let arrays = self.read(&[Field::Velocity], &cells).await?;
         let values = arrays.iter().flat_map(|array| array.values.chunks_exact(3));
         let mut found = WallUnits::default();
-        for (beside, velocity) in beside.iter().zip(values) {
+        for (wall_cell, velocity) in wall_cells.iter().zip(values) {
             let velocity = DVec3::from_array([0, 1, 2].map(|a| f64::from(velocity[a])));
-            let cell = self.lattice_fluid()?.first_cell(beside, velocity);
-            let place = match beside.block {
+            let cell = self.lattice_fluid()?.first_cell(wall_cell, velocity);
+            let place = match wall_cell.block {
                 None => &mut found.walls,
                 Some(_) => &mut found.blocks,
             };
@@ -73,17 +73,17 @@ impl Simulation {
 }
 
 impl LatticeFluid {
-    fn first_cell(&self, beside: &BesideWall, velocity: DVec3) -> FirstCell {
+    fn first_cell(&self, wall_cell: &WallCell, velocity: DVec3) -> FirstCell {
         let cell = self.units.cell;
         let nu = self.scene.fluid.viscosity;
-        let slip = velocity - beside.wall_velocity;
-        let along = slip.reject_from_normalized(beside.normal).length();
-        let friction_velocity = (nu * along / (beside.distance * cell)).sqrt();
+        let slip = velocity - wall_cell.wall_velocity;
+        let along = slip.reject_from_normalized(wall_cell.normal).length();
+        let friction_velocity = (nu * along / (wall_cell.distance * cell)).sqrt();
         FirstCell {
             y_plus: friction_velocity * 0.5 * cell / nu,
             friction_velocity,
-            position: self.centre_of(beside.cell).to_array(),
-            block: beside.block,
+            position: self.centre_of(wall_cell.cell).to_array(),
+            block: wall_cell.block,
         }
     }
 }

@@ -83,18 +83,18 @@ fn a_pebble_of_many_faces_displaces_its_volume() {
 #[test]
 fn buoyancy_is_the_weight_of_the_water_at_any_viscosity() {
     let exact = DVec3::Z * DENSITY * 0.01 * 8.0 * 6.0 * 7.0;
-    // τ = 0.53, 0.8 and 2; the water heavy, or only its buoyancy felt.
+    // τ = 0.53, 0.8 and 2; the water heavy, or only its buoyancy acting.
     for (nu, water) in [(0.01, true), (0.1, true), (0.5, true), (0.1, false)] {
         let mut world = closed(nu, water);
         world.advance(60);
-        let felt = world.cell_load(0);
+        let load = world.cell_load(0);
         let (force, torque) = (
-            felt.flow.force + felt.buoyancy.force,
-            felt.flow.torque() + felt.buoyancy.torque(),
+            load.flow.force + load.buoyancy.force,
+            load.flow.torque() + load.buoyancy.torque(),
         );
         println!(
             "ν {nu}, heavy water {water}: {force}, {torque}, flow {}",
-            felt.flow.force
+            load.flow.force
         );
         assert!(
             (force - exact).length() < 0.01 * exact.z,

@@ -116,8 +116,8 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     for step in 1..=40 {
         world.advance(1);
         let after = world.fluid().0;
-        let felt = [world.cell_load(0).flow, world.cell_load(1).flow];
-        let off = after - fluid + STEP * (felt[0].force + felt[1].force);
+        let load = [world.cell_load(0).flow, world.cell_load(1).flow];
+        let off = after - fluid + STEP * (load[0].force + load[1].force);
         assert!(
             off.length() < rounding(after),
             "step {step}: {off} of {after}"
@@ -127,13 +127,13 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
         let mut pending = DVec3::ZERO;
         for n in 0..2 {
             let mass = world.sim.coupled().unwrap().blocks().mass(n);
-            let whole = DENSITY * (felt[n].entrained + felt[n].missing);
+            let whole = DENSITY * (load[n].entrained + load[n].missing);
             // Σε is the volume, to the error of cells that several faces cut.
             let off = whole / (DENSITY * volume(n, &world)) - 1.0;
             assert!(off.abs() < 1e-3, "{whole}");
-            let inner = whole.min(DENSITY * felt[n].entrained + 0.5 * mass);
+            let inner = whole.min(DENSITY * load[n].entrained + 0.5 * mass);
             let more = virtual_mass(BOXES[n], whole, mass);
-            let force = felt[n].force + inner * rates[n] + more * given[n];
+            let force = load[n].force + inner * rates[n] + more * given[n];
             inside += STEP * inner * rates[n];
             given[n] = force / (mass + more);
             pending += STEP * more * given[n];

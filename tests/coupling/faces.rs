@@ -75,8 +75,8 @@ fn still_water_presses_by_its_depth() {
             force += load.force;
             moment += load.moment;
         }
-        let felt = world.cell_load(0);
-        let whole = felt.flow.force + felt.buoyancy.force;
+        let load = world.cell_load(0);
+        let whole = load.flow.force + load.buoyancy.force;
         let exact = DENSITY * GRAVITY * 240.0;
         let error = (force - whole) / exact;
         println!("sum {error}; moment {}", moment / (exact * 8.0));
@@ -125,8 +125,8 @@ fn compounds_in_still_water_feel_archimedes_push_on_their_faces() {
                 }
             }
             assert_eq!(covered, 2, "both sides of the seam");
-            let felt = world.cell_load(0);
-            let whole = felt.flow.force + felt.buoyancy.force;
+            let load = world.cell_load(0);
+            let whole = load.flow.force + load.buoyancy.force;
             let [off, apart] = [force - DVec3::Z * push, force - whole].map(|f| f.length() / push);
             let turn = moment.length() / (push * 6.5);
             println!("{name} {angle:.0}: {off:.1e} {apart:.1e}, moment {turn:.1e}, {wet} m²");
@@ -246,11 +246,11 @@ fn a_moving_lid_shears_the_face_below() {
     let exact = DENSITY * nu * speed / 4.0;
     let top = faces(&world).iter().find(|load| load.face.normal.z > 0.5);
     let top = top.unwrap();
-    let felt = world.cell_load(0).flow.force;
-    println!("{} of {exact}, {felt}", top.shear());
+    let load = world.cell_load(0).flow.force;
+    println!("{} of {exact}, {load}", top.shear());
     assert!((top.shear() - DVec3::X * exact).length() < 1e-2 * exact);
     // What the cells of the slab lose is the same force.
-    assert!((top.force.x / felt.x - 1.0).abs() < 1e-2, "{felt}");
+    assert!((top.force.x / load.x - 1.0).abs() < 1e-2, "{load}");
 }
 
 #[test]
@@ -330,10 +330,10 @@ fn turned_bar(length: f64, z: f64, angle: f64) -> World {
 fn faces_longer_than_a_period_feel_one_period() {
     for (length, z) in [(4.0, 2.0), (14.0, 1.3), (22.0, 2.0)] {
         let world = bar(length, z);
-        let felt = world.cell_load(0).flow.force.x;
+        let load = world.cell_load(0).flow.force.x;
         let sum: f64 = faces(&world).iter().map(|load| load.force.x).sum();
-        println!("{length}: {sum} {felt}");
-        assert!((sum / felt - 1.0).abs() < 0.1, "{length}: {sum}, {felt} N");
+        println!("{length}: {sum} {load}");
+        assert!((sum / load - 1.0).abs() < 0.1, "{length}: {sum}, {load} N");
         for load in faces(&world) {
             let normal = load.face.normal;
             let one = if normal.z.abs() > 0.5 { 0.0 } else { 20.0 };

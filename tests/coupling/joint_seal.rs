@@ -75,8 +75,8 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
             let coupled = world.sim.coupled().unwrap();
             let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
             let exact = -DENSITY * volume * DVec3::from(gravity);
-            let felt = world.cell_load(0);
-            let whole = felt.flow.force + felt.buoyancy.force;
+            let load = world.cell_load(0);
+            let whole = load.flow.force + load.buoyancy.force;
             println!("{acceleration:?}, {stale}: {force}, {torque}; {exact}; {whole}");
             assert!((force - exact).length() < 1e-4 * exact.length());
             // A sum over cells misses h²/12 of each face's ∫ r².
@@ -173,8 +173,8 @@ fn a_block_that_lands_has_the_push_of_archimedes() {
         );
         let mut world = tank(heavy, heavy, 0.0, &blocks);
         world.advance(400);
-        let felt = world.cell_load(0);
-        let force = felt.flow.force + felt.buoyancy.force;
+        let load = world.cell_load(0);
+        let force = load.flow.force + load.buoyancy.force;
         let exact = DENSITY * 0.01 * size.element_product();
         println!("{bed}: {force}, {exact}");
         assert!(

@@ -106,9 +106,9 @@ fn blocks_anywhere_leave_the_flow_whole() {
     for _ in 0..12 {
         world.advance(10);
         for block in 0..5 {
-            let felt = world.cell_load(block);
+            let load = world.cell_load(block);
             assert!(
-                felt.flow.force.is_finite() && felt.flow.moment.is_finite(),
+                load.flow.force.is_finite() && load.flow.moment.is_finite(),
                 "{block}"
             );
         }

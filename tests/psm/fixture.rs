@@ -215,9 +215,9 @@ impl Subject {
             let force = self.twin.force_on(cell, part, velocity, tau);
             worst = worst.max((part * at(4) - weight * part / solid.fraction).abs());
             for a in 0..3 {
-                let felt = -part * (at(5) * velocity[a] + at(6 + a));
-                assert!(felt.is_finite(), "cell {cell}");
-                worst = worst.max((felt - force[a]).abs());
+                let load = -part * (at(5) * velocity[a] + at(6 + a));
+                assert!(load.is_finite(), "cell {cell}");
+                worst = worst.max((load - force[a]).abs());
             }
         }
         worst

@@ -95,7 +95,7 @@ fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
     let mut refused = blocks(long.clone());
     let before = postcard::to_allocvec(&refused.snapshot()).unwrap().len();
     let Err(Error::TimeStep {
-        asked,
+        requested,
         bound,
         usual,
         block,
@@ -105,7 +105,7 @@ fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
     };
     // Σ(k_n+k_s)A (|r|² + w²/4)/I_min governs: r = ½ m, w = √2 m, I = m/6 of 2500 kg.
     let omega = (2.0f64 * 2e8 * 0.75 / (2500.0 / 6.0)).sqrt();
-    assert_eq!(asked, 0.01);
+    assert_eq!(requested, 0.01);
     assert!((bound / (0.2 * 2.0 / omega) - 1.0).abs() < 0.01, "{bound}");
     assert!((usual / bound - 0.5).abs() < 1e-12);
     assert_eq!(block, "blocks[1] (cube)");

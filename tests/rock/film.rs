@@ -66,8 +66,8 @@ fn blocks_sink_onto_a_floor_as_lubrication_says() {
         run(&mut blocks, time);
         let gap = blocks.poses()[0].centre.z - half;
         assert!((gap / end - 1.0).abs() < 5e-3, "{name}: {gap} of {end}");
-        let felt = blocks.film_forces()[0].z;
-        let share = felt / (blocks.mass(0) * 9.81);
+        let load = blocks.film_forces()[0].z;
+        let share = load / (blocks.mass(0) * 9.81);
         assert!((share - 1.0).abs() < 1e-3, "{name}: carries {share} of it");
     }
 }

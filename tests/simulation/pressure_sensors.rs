@@ -120,8 +120,8 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
             cut = Some((pool.step(), rig.wait(pool.checkpoint()).unwrap()));
         }
     }
-    let felt = pool.sensor("patch").unwrap();
-    let patch = felt.impulse * 0.8 * 0.1;
+    let load = pool.sensor("patch").unwrap();
+    let patch = load.impulse * 0.8 * 0.1;
     assert!(pushed > 1.0, "nothing has struck: {pushed}");
     assert!((patch / pushed - 1.0).abs() < 0.1, "{patch} {pushed}");
     // From the state on the way to the same bits.
@@ -130,7 +130,7 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let mut again = self::pool(&rig, DAM);
     again.restore(&state).unwrap();
     rig.wait(again.advance(last - step)).unwrap();
-    assert_eq!(again.sensor("patch"), Some(felt));
+    assert_eq!(again.sensor("patch"), Some(load));
     // A scene without it is another one.
     let (without, _) = DAM.split_once("[[probes]]\n    name = \"patch\"").unwrap();
     let mut without = self::pool(&rig, without);

@@ -188,7 +188,7 @@ impl SceneRun {
             time: simulation.time(),
             setup: &rock.setup().setup,
             blocks: rock.blocks(),
-            felt: &rock.external_load()[..loaded],
+            loads: &rock.external_load()[..loaded],
             coupled: simulation.coupled(),
             shown,
             start: &self.start,

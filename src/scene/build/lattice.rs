@@ -41,7 +41,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         scene::Equilibrium::Product => Equilibrium::Product,
         scene::Equilibrium::SecondOrder => Equilibrium::SecondOrder,
     };
-    // The published operator keeps its published rates beside walls too.
+    // The published operator keeps its published rates next to walls too.
     setup.wall_lambda = (setup.collision == Collision::Hermite).then_some(numerics.wall_lambda);
     setup.lambda = numerics.lambda;
     setup.odd_rate_floor = numerics.odd_rate_floor;
@@ -51,7 +51,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             scene::SolidOperator::Noble => SolidOperator::Noble,
             scene::SolidOperator::Superposition => SolidOperator::Superposition,
         });
-        // The published operator keeps its rates beside blocks too.
+        // The published operator keeps its rates next to blocks too.
         setup.solid_lambda =
             (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
     }

@@ -110,9 +110,9 @@ impl Scene {
             );
         }
         if !self.has_fluid() && view.shows_fluid() {
-            let asked = if view.traces > 0 { "traces" } else { "slices" };
+            let requested = if view.traces > 0 { "traces" } else { "slices" };
             return refuse(
-                format!("{key}.{asked}"),
+                format!("{key}.{requested}"),
                 "show the fluid, and there is none; remove them or add [fluid]",
             );
         }

@@ -67,7 +67,7 @@ impl Mask {
         self.solid.iter().filter(|s| **s != 0).count()
     }
 
-    /// The cells beside `face` of the domain, the lower of the two in-plane axes fastest.
+    /// The cells next to `face` of the domain, the lower of the two in-plane axes fastest.
     pub fn face_cells(&self, face: Face) -> impl Iterator<Item = [u32; 3]> + use<> {
         let axis = face.axis().index();
         let [fast, slow] = face.axis().others().map(Axis::index);

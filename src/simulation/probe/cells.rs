@@ -87,8 +87,8 @@ impl<'a> Cells<'a> {
         cells.filter(|cell| !self.is_solid(*cell)).collect()
     }
 
-    /// The cell beside `cell` along `axis`; `None` beyond the domain.
-    pub(super) fn beside(&self, mut cell: [u32; 3], axis: usize, step: i32) -> Option<u32> {
+    /// The cell next to `cell` along `axis`; `None` beyond the domain.
+    pub(super) fn neighbour(&self, mut cell: [u32; 3], axis: usize, step: i32) -> Option<u32> {
         let count = i64::from(self.counts[axis]);
         let mut place = i64::from(cell[axis]) + i64::from(step);
         if self.periodic[axis] {

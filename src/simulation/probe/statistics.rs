@@ -88,7 +88,7 @@ impl Face {
         let mut centres = Vec::new();
         for ijk in cells.within(min, max) {
             let cell = cells.index(ijk);
-            let behind = cells.beside(ijk, axis, -sign);
+            let behind = cells.neighbour(ijk, axis, -sign);
             if !cells.is_solid(cell) && behind.is_some_and(|behind| cells.is_solid(behind)) {
                 chosen.push(cell);
                 let mut centre = cells.domain.centre(ijk);

@@ -60,7 +60,7 @@ impl Recorder for BlockFiles {
         let (step, time) = (rock.step, rock.time);
         let path = self.folder.join(format!("blocks_{step:06}.vtu"));
         let shown = &rock.setup.blocks[..rock.shown];
-        write_vtu(&path, &block_polyhedra(shown, rock.blocks, rock.felt))?;
+        write_vtu(&path, &block_polyhedra(shown, rock.blocks, rock.loads))?;
         self.blocks.add(time, &path)?;
         log.file(self.folder.join("blocks.pvd"));
         log.file(path);

@@ -64,7 +64,7 @@ impl BlockProbe {
     ) -> Result<Self> {
         let (rock, block) = find(run, probe, name)?;
         let mut measured = MEASURED.to_vec();
-        if block < rock.felt.len() {
+        if block < rock.loads.len() {
             measured.extend(IN_FLUID);
         }
         if rock.setup.film.is_some() {
@@ -122,8 +122,8 @@ fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
     all.extend(blocks.spins().nth(block));
     all.extend(blocks.contact_forces().nth(block));
     all.extend(blocks.contact_torques().nth(block));
-    if let Some(felt) = rock.felt.get(block) {
-        all.extend([felt.flow.force, felt.flow.torque(), felt.buoyancy.force]);
+    if let Some(load) = rock.loads.get(block) {
+        all.extend([load.flow.force, load.flow.torque(), load.buoyancy.force]);
     }
     if rock.setup.film.is_some() {
         all.extend(blocks.film_forces().get(block));
@@ -165,14 +165,14 @@ fn measure_faces(coupled: Coupled<'_>, block: usize, gravity: DVec3) -> [f64; 2]
 
 /// How a block stands: in its closed joints is the water that is at their rim.
 fn standing(rock: &Rock<'_>, block: usize) -> Standing {
-    let felt = rock.felt.get(block).copied().unwrap_or_default();
+    let load = rock.loads.get(block).copied().unwrap_or_default();
     let fluid = rock
         .coupled
         .and_then(|coupled| coupled.wrench_with_uplift(block));
     let whole = || {
         [
-            felt.flow.force + felt.buoyancy.force,
-            felt.flow.torque() + felt.buoyancy.torque(),
+            load.flow.force + load.buoyancy.force,
+            load.flow.torque() + load.buoyancy.torque(),
         ]
     };
     Standing::of(rock.setup, rock.blocks, block, fluid.unwrap_or_else(whole))
@@ -208,7 +208,7 @@ impl Recorder for BlockProbe {
             return Ok(());
         };
         let mut tracks = forces::FORCES.to_vec();
-        if self.block < rock.felt.len() {
+        if self.block < rock.loads.len() {
             tracks.splice(..0, forces::IN_FLUID);
         }
         let scene = run.scene();

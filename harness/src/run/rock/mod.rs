@@ -36,7 +36,7 @@ pub struct Rock<'a> {
     /// The blocks as they are.
     pub blocks: &'a Blocks,
     /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
-    pub felt: &'a [FluidLoad],
+    pub loads: &'a [FluidLoad],
     /// They and the fluid together, where there is one.
     pub coupled: Option<Coupled<'a>>,
     /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.

@@ -106,7 +106,7 @@ impl Array {
                 tank.simulation.step()
             );
         }
-        let force = tank.felt(0).flow.force.x;
+        let force = tank.external_load(0).flow.force.x;
         Ok(Drag {
             ratio: force / (stokes * flux) / self.published(),
             balance: force / (push * volume) - 1.0,

@@ -46,9 +46,9 @@ pub fn archimedes(stand: &Stand) -> Outcome {
         scene.coupling.interval = (STEPS / 8) as u32;
         let mut tank = Tank::fill(stand, &scene)?;
         tank.advance(STEPS)?;
-        let felt = tank.felt(0);
-        let force = felt.flow.force + felt.buoyancy.force;
-        let torque = felt.flow.torque() + felt.buoyancy.torque();
+        let load = tank.external_load(0);
+        let force = load.flow.force + load.buoyancy.force;
+        let torque = load.flow.torque() + load.buoyancy.torque();
         let how = match (turned, heavy) {
             (true, true) => "turned",
             (false, _) => "along the grid",

@@ -32,7 +32,7 @@ fn forces(tank: &mut Tank<'_>, steps: u64) -> anyhow::Result<Vec<DVec3>> {
     let mut all = Vec::new();
     for _ in 0..steps {
         tank.advance(1)?;
-        all.push(tank.felt(0).flow.force);
+        all.push(tank.external_load(0).flow.force);
     }
     Ok(all)
 }

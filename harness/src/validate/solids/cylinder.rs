@@ -61,7 +61,7 @@ pub fn run(stand: &Stand) -> Outcome {
         scene.coupling.interval = (steps / 8) as u32;
         let mut tank = Tank::fill(stand, &scene)?;
         tank.advance(steps / 8 * 8)?;
-        let force = tank.felt(0).flow.force.x / extent[2];
+        let force = tank.external_load(0).flow.force.x / extent[2];
         let drag = force / (0.5 * mean * mean * cells);
         let trial = tank.trial("cylinder in a channel, Re 20");
         records.push(trial.relative(format!("C_d, D = {size}"), drag, DRAG, limit));

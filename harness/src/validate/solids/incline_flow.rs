@@ -147,8 +147,8 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
     while tank.simulation.time() < scene.coupling.hold - 0.5 * units.time_step {
         tank.advance(1)?;
         let [force, along] = [0, 1].map(|block| {
-            let felt = tank.felt(block);
-            felt.flow.force.x + felt.buoyancy.force.x
+            let load = tank.external_load(block);
+            load.flow.force.x + load.buoyancy.force.x
         });
         impulse += force * units.time_step;
         friction += along * units.time_step;

@@ -159,7 +159,7 @@ pub fn run(stand: &Stand) -> Outcome {
             let mut force = 0.0;
             for _ in 0..WINDOW {
                 tank.advance(1)?;
-                force += tank.felt(0).flow.force.z / WINDOW as f64;
+                force += tank.external_load(0).flow.force.z / WINDOW as f64;
             }
             let (grid, theory) = (force / SPEED, body.theory(gap));
             let whole = grid + body.film(gap)?;

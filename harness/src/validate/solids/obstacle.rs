@@ -155,7 +155,7 @@ impl Stream {
         let mut sum = 0.0;
         for _ in 0..READINGS {
             tank.advance(every)?;
-            sum += tank.felt(0).flow.force.x;
+            sum += tank.external_load(0).flow.force.x;
         }
         // Four quarters, and ρ = 1.
         let force = 4.0 * sum / READINGS as f64;

@@ -33,7 +33,7 @@ pub fn run(stand: &Stand) -> Outcome {
         tank.advance(8 * u64::from(scene.coupling.interval))?;
         let concentration = 4.0 / 3.0 * PI * (radius / length).powi(3);
         let exact = -8.0 * PI * nu * radius.powi(3) * omega / (1.0 - concentration);
-        let torque = tank.felt(0).flow.torque();
+        let torque = tank.external_load(0).flow.torque();
         let trial = tank.trial("turning sphere");
         let quantity = format!("T / (8πμr³ω/(1−c)), r = {radius}, τ = {tau}");
         records.push(trial.relative(quantity, torque.z / exact, 1.0, limit));

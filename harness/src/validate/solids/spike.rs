@@ -49,14 +49,14 @@ pub fn run(stand: &Stand) -> Outcome {
             let mut drag = Vec::new();
             for _ in 0..COUNTED * CROSSING + 1 {
                 tank.advance(1)?;
-                drag.push(-tank.felt(0).flow.force.x);
+                drag.push(-tank.external_load(0).flow.force.x);
             }
-            let felt: Vec<f64> = drag.windows(2).map(|two| 0.5 * (two[0] + two[1])).collect();
-            let mean = felt.iter().sum::<f64>() / felt.len() as f64;
+            let load: Vec<f64> = drag.windows(2).map(|two| 0.5 * (two[0] + two[1])).collect();
+            let mean = load.iter().sum::<f64>() / load.len() as f64;
             let jump = drag.windows(2).map(|two| (two[1] - two[0]).abs());
             let jump = jump.fold(0.0, f64::max) / mean;
             // Of each crossing, so that a drag that changes slowly does not count.
-            let swing = felt.chunks_exact(CROSSING).map(|one| {
+            let swing = load.chunks_exact(CROSSING).map(|one| {
                 let low = one.iter().copied().fold(f64::INFINITY, f64::min);
                 let high = one.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 (high - low) / mean

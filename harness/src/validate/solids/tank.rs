@@ -151,8 +151,8 @@ impl<'a> Tank<'a> {
         Ok(())
     }
 
-    /// What a block felt in the last step in which fluid and blocks met.
-    pub fn felt(&self, block: usize) -> FluidLoad {
+    /// Load on a block at the last exchange.
+    pub fn external_load(&self, block: usize) -> FluidLoad {
         let coupled = self.simulation.coupled();
         coupled.map_or_else(FluidLoad::default, |coupled| coupled.cell_load()[block])
     }

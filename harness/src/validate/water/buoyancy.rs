@@ -45,7 +45,7 @@ pub fn held(
     let mut force = glam::DVec3::ZERO;
     for look in 1..=LOOKS {
         pool.advance(3.0 + 0.05 * f64::from(look))?;
-        force += pool.felt(0).flow.force / f64::from(LOOKS);
+        force += pool.external_load(0).flow.force / f64::from(LOOKS);
     }
     let weight = 1000.0 * GRAVITY * EDGE * EDGE;
     Ok((
@@ -104,7 +104,7 @@ pub fn stacked(stand: &Stand) -> Outcome {
         let mut up = 0.0;
         for look in 1..=LOOKS {
             pool.advance(2.0 + 0.05 * f64::from(look))?;
-            up += pool.felt(1).flow.force.z / f64::from(LOOKS);
+            up += pool.external_load(1).flow.force.z / f64::from(LOOKS);
         }
         let push = 1000.0 * GRAVITY * EDGE;
         let trial = pool.trial("stacked boxes");

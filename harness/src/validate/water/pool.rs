@@ -125,8 +125,8 @@ impl<'a> Pool<'a> {
         self.simulation.rock().expect("free water has a rock")
     }
 
-    /// What a block felt in the last exchange.
-    pub fn felt(&self, block: usize) -> FluidLoad {
+    /// Load on a block at the last exchange.
+    pub fn external_load(&self, block: usize) -> FluidLoad {
         self.rock().external_load()[block]
     }
 

@@ -1,11 +1,11 @@
-//! The first cells beside walls, solids and blocks.
+//! The first cells next to walls, solids and blocks.
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{coupling::Coupled, lattice::Face};
 use glam::DVec3;
 
-/// A fluid cell beside a wall, a solid or a block.
-pub(super) struct BesideWall {
+/// A fluid cell next to a wall, a solid or a block.
+pub(super) struct WallCell {
     /// Its place in an array over the domain, x fastest.
     pub cell: u32,
     /// Unit normal of the wall.
@@ -19,14 +19,14 @@ pub(super) struct BesideWall {
 }
 
 impl LatticeFluid {
-    /// All of them; a cell beside two walls is there for each, but only once for all blocks.
-    pub(super) fn cells_beside(&self, coupled: Option<Coupled<'_>>) -> Vec<BesideWall> {
+    /// All of them; a cell next to two walls is there for each, but only once for all blocks.
+    pub(super) fn wall_cells(&self, coupled: Option<Coupled<'_>>) -> Vec<WallCell> {
         let near = coupled.map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
         // Where a block is close, its cells are those of the block.
         let taken: Vec<u32> = near.iter().map(|found| found.cell.index).collect();
-        let mut all = self.beside_walls();
-        all.retain(|beside| taken.binary_search(&beside.cell).is_err());
+        let mut all = self.cells_at_walls();
+        all.retain(|wall_cell| taken.binary_search(&wall_cell.cell).is_err());
         let solid = self.solid();
         for found in &near {
             let (at, distance) = (found.cell.index, found.cell.distance);
@@ -35,7 +35,7 @@ impl LatticeFluid {
             }
             let centre = self.centre_of(at);
             let velocity = coupled.map(|coupled| coupled.solid_velocity(found.block, centre));
-            all.push(BesideWall {
+            all.push(WallCell {
                 cell: at,
                 normal: found.cell.normal,
                 distance,
@@ -46,8 +46,8 @@ impl LatticeFluid {
         all
     }
 
-    /// Those beside faces of the domain that are walls, and beside solids.
-    fn beside_walls(&self) -> Vec<BesideWall> {
+    /// Those next to faces of the domain that are walls, and next to solids.
+    fn cells_at_walls(&self) -> Vec<WallCell> {
         let setup = self.lattice.setup();
         let counts = setup.cells.map(|n| n as usize);
         let solid = |at: usize| setup.solid.get(at).is_some_and(|solid| *solid);
@@ -78,7 +78,7 @@ impl LatticeFluid {
                         _ if at_end && *face != Face::Periodic => None,
                         _ => solid(next).then_some([0.0; 3]),
                     };
-                    all.extend(wall.map(|velocity| BesideWall {
+                    all.extend(wall.map(|velocity| WallCell {
                         cell: at as u32,
                         normal,
                         distance: 0.5,

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 pub enum Method {
     /// `copy_buffer_to_buffer`.
     Buffer,
-    /// A kernel of [`KERNELS`].
+    /// A kernel of `KERNELS`.
     Kernel(usize),
 }
 

@@ -40,7 +40,8 @@ fn solid_cell(tile: Tile, motion: Motion, fraction: f32, local: u32) -> SolidCel
         psm_planes[first + (PLANE_VELOCITY + 2u) * stride],
     );
     let own = velocity_at(motion, r);
-    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
-    let u = select(own, mix(own, mean, joint_closure(sum.fraction)), sum.joint);
+    // decode_sum would give the same number, but drivers round `mix` otherwise behind it.
+    let joint = psm_planes[first + PLANE_SUM * stride] - JOINT_SUM;
+    let u = select(own, mix(own, mean, joint_closure(joint)), joint >= 0.0);
     return SolidCell(r, e, -e * (a * u + g), psm_planes[first + PLANE_BETA * stride]);
 }

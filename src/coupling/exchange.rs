@@ -17,8 +17,13 @@ pub enum ExchangeInterval {
     Static,
     /// All blocks that can move are asleep: an exchange after so many steps of the fluid.
     Asleep(u64),
-    /// An exchange after so many steps of the fluid.
-    Awake(u64),
+    /// An exchange after `steps` steps of the fluid, and the one after that at most `next` steps later.
+    Awake {
+        /// Until the exchange.
+        steps: u64,
+        /// From there to the next one: more than `steps` where all blocks may fall asleep.
+        next: u64,
+    },
 }
 
 /// A fluid with blocks in it: poses in, loads out.

@@ -115,8 +115,8 @@ impl LatticeCoupling {
         match interval {
             // The loads move nothing; output reads them after the last step.
             ExchangeInterval::Static => step == last && self.cells.wrench_count() > 0,
-            ExchangeInterval::Asleep(interval) | ExchangeInterval::Awake(interval) => {
-                step.is_multiple_of(interval)
+            ExchangeInterval::Asleep(steps) | ExchangeInterval::Awake { steps, .. } => {
+                step.is_multiple_of(steps)
             }
         }
     }
@@ -124,9 +124,20 @@ impl LatticeCoupling {
     /// Whether the loads of the step `step` (counted from 1) are needed: every step while a block moves; otherwise the
     /// step of an exchange and, for the average, the step before it.
     pub fn needs_loads(&self, interval: ExchangeInterval, step: u64, last: u64) -> bool {
-        matches!(interval, ExchangeInterval::Awake(_))
+        matches!(interval, ExchangeInterval::Awake { .. })
             || self.exchanges_at(interval, step, last)
             || self.average && self.exchanges_at(interval, step + 1, last)
+    }
+
+    /// Whether an advance that ends with the step `last` may have no exchange after that of the step `step`. The loads on
+    /// faces move nothing and are needed only then: output reads those of the last exchange.
+    pub fn may_be_last(interval: ExchangeInterval, step: u64, last: u64) -> bool {
+        match interval {
+            ExchangeInterval::Static => true,
+            ExchangeInterval::Asleep(steps) | ExchangeInterval::Awake { next: steps, .. } => {
+                step + steps > last
+            }
+        }
     }
 
     /// Records the sums of the loads on the blocks in the step `step`, and their copy to the host.

@@ -48,6 +48,8 @@ pub struct Rock {
     pub(super) blocks: Blocks,
     pub(super) broadphase: AutoBroadphase,
     interval: u64,
+    /// Time between two exchanges while a block is awake, s.
+    exchange_time: f64,
     hold: f64,
     inside: Option<InteriorFluid>,
     /// Upper bounds of the added mass of each block.
@@ -91,6 +93,9 @@ impl Rock {
         let coupled = if params.is_some() { blocks.len() } else { 0 };
         Ok(Self {
             interval: scene.coupling.interval.into(),
+            exchange_time: params.map_or(0.0, |params| {
+                f64::from(scene.coupling.interval) * params.time_step
+            }),
             hold: params.map_or(0.0, |params| params.hold),
             inside,
             added_mass: inside.map_or_else(Vec::new, |inside| {
@@ -142,7 +147,14 @@ impl Rock {
         if all.all(|(block, asleep)| asleep || !self.blocks.moves(block)) {
             ExchangeInterval::Asleep(self.interval * ASLEEP_INTERVALS)
         } else {
-            ExchangeInterval::Awake(self.interval)
+            let longer = match self.blocks.may_all_sleep_within(2.0 * self.exchange_time) {
+                true => ASLEEP_INTERVALS,
+                false => 1,
+            };
+            ExchangeInterval::Awake {
+                steps: self.interval,
+                next: longer * self.interval,
+            }
         }
     }
 

@@ -262,6 +262,18 @@ impl Blocks {
         self.bodies.get(block).is_some_and(|body| !body.is_fixed())
     }
 
+    /// Whether each block that moves sleeps or may have fallen asleep after the next `time` (s).
+    pub fn may_all_sleep_within(&self, time: f64) -> bool {
+        let Some(sleep) = &self.sleep else {
+            return false;
+        };
+        let mut all = self.bodies.iter().zip(&self.states);
+        all.all(|(body, state)| {
+            let soon = body.may_sleep() && state.slow + time >= sleep.after;
+            body.is_fixed() || state.asleep || soon
+        })
+    }
+
     /// Speed of the fastest point of a free block, m/s.
     pub fn largest_speed(&self) -> f64 {
         let free = self.bodies.iter().zip(&self.states);

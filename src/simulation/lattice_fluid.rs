@@ -201,7 +201,8 @@ impl Fluid for LatticeFluid {
                 .as_ref()
                 .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
             {
-                return self.exchange(encoder).await;
+                let faces = LatticeCoupling::may_be_last(interval, next, last);
+                return self.exchange(encoder, faces).await;
             }
             self.record_psm(&mut encoder);
             if let Some(coupling) = self
@@ -256,16 +257,19 @@ impl LatticeFluid {
     }
 
     /// The last step of a stretch, at whose end blocks and fluid meet: the fluid around them runs first, and the rest
-    /// of it while their loads are read.
+    /// of it while their loads are read, those on their `faces` too.
     async fn exchange(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
+        faces: bool,
     ) -> Result<Option<Vec<FluidLoad>>> {
         let step = self.lattice.step() + 1;
         self.record_psm(&mut encoder);
         if let Some(coupling) = &mut self.coupling {
             coupling.record_loads(&self.device, (&mut encoder, &mut self.phases), step);
-            coupling.record_faces(&self.device, (&mut encoder, &mut self.phases), step);
+            if faces {
+                coupling.record_faces(&self.device, (&mut encoder, &mut self.phases), step);
+            }
         }
         self.queue.submit([encoder.finish()]);
         let mut encoder = self.device.create_command_encoder(&Default::default());

@@ -175,7 +175,7 @@ impl SphFluid {
         let interval = match interval {
             ExchangeInterval::Static => return end,
             ExchangeInterval::Asleep(steps) => steps as f64 * self.particles.step_limit(),
-            ExchangeInterval::Awake(steps) => {
+            ExchangeInterval::Awake { steps, .. } => {
                 (steps as f64 * self.particles.step_limit()).min(self.longest)
             }
         };

@@ -384,3 +384,49 @@ fn faces_end_at_the_walls() {
         assert!((load.wetted - exact).abs() < 1e-9, "{load:?}");
     }
 }
+
+/// The loads on faces are those of the last exchange, however long the advance that contains it: while a block is awake,
+/// where it falls asleep, and between two exchanges of a sleeping one.
+#[test]
+fn long_advances_end_with_the_face_loads_of_single_steps() {
+    let text = format!(
+        r#"{}{}damping = 0.7
+        [boundaries]
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "wall" }}
+        [rock]
+        sleep = {{ speed = 2e-3, time = 1.5 }}
+        gravity = [0, 0, -0.01]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[probes]]
+        name = "load"
+        kind = "block"
+        block = "stone"
+        faces = true
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [2, 2, 1]
+        position = [2, 3, 0.5]"#,
+        fluid([12, 12, 8], 0.1),
+        material("rock", 10_000.0)
+    );
+    let mut single = World::new(&text);
+    let mut slept = None;
+    for step in 1..=60 {
+        single.advance(1);
+        let mut asleep = single.sim.coupled().unwrap().blocks().asleep();
+        if asleep.any(|asleep| asleep) {
+            slept.get_or_insert(step);
+        }
+        let compared = slept.map_or(step == 3, |first| step - first < 3 || step % 16 < 2);
+        if compared {
+            let mut long = World::new(&text);
+            long.advance(step);
+            assert!(faces(&long) == faces(&single), "after {step} steps");
+        }
+    }
+    assert!(slept.is_some_and(|first| first > 3), "{slept:?}");
+}

@@ -1,7 +1,8 @@
 //! A bitmap with text, drawn three times as large as it is saved: strokes and fills have no soft
-//! edges of their own, the averaging on saving gives them theirs.
+//! edges of their own, the averaging on saving gives them theirs. Or the same strokes and texts as SVG.
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail};
+use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, register_font};
@@ -11,8 +12,9 @@ use std::sync::LazyLock;
 /// Drawn pixels per saved pixel, along each axis.
 const OVERSAMPLING: u32 = 3;
 
-/// The only font; it travels with the program, so that pictures are the same on every machine.
-const FONT: &str = "DejaVu Sans";
+/// The only font, DejaVu Sans; it travels with the program, so that pictures are the same on every machine. A page
+/// shows the texts of an SVG in its own font of this name.
+const FONT: &str = "sans-serif";
 
 /// How far digits would stand too high, in parts of the font's size: plotters centres a box that is
 /// lower than the letters it draws. Measured on this font.
@@ -22,10 +24,18 @@ static FONT_REGISTERED: LazyLock<bool> =
     LazyLock::new(|| register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).is_ok());
 
 /// A picture in the making; lengths and places are pixels of the saved picture, y downwards.
-pub struct Canvas {
+pub struct Canvas<'a> {
     width: u32,
     height: u32,
-    pixels: Vec<u8>,
+    target: Target<'a>,
+}
+
+/// What a canvas is drawn on.
+enum Target<'a> {
+    /// Red, green and blue of the drawn pixels.
+    Bitmap(Vec<u8>),
+    /// An SVG with a unit for each drawn pixel.
+    Svg(DrawingArea<SVGBackend<'a>, Shift>),
 }
 
 /// How a text stands to the point it is drawn at.
@@ -41,14 +51,25 @@ pub enum Anchor {
     Upwards,
 }
 
-impl Canvas {
+impl<'a> Canvas<'a> {
     /// A white picture of `width` × `height` pixels.
     pub fn new(width: u32, height: u32) -> Self {
         let bytes = 3 * (width * OVERSAMPLING) as usize * (height * OVERSAMPLING) as usize;
         Self {
             width,
             height,
-            pixels: vec![u8::MAX; bytes],
+            target: Target::Bitmap(vec![u8::MAX; bytes]),
+        }
+    }
+
+    /// A picture that is written into `text` as SVG, complete once the canvas is dropped.
+    pub fn svg(text: &'a mut String, width: u32, height: u32) -> Self {
+        let size = (width * OVERSAMPLING, height * OVERSAMPLING);
+        let area = SVGBackend::with_string(text, size).into_drawing_area();
+        Self {
+            width,
+            height,
+            target: Target::Svg(area),
         }
     }
 
@@ -65,13 +86,16 @@ impl Canvas {
         self.draw(&Rectangle::new([from, to], colour.filled()))
     }
 
-    /// Colours every drawn pixel between two corners after its place, given at its centre.
+    /// Colours every drawn pixel of a bitmap between two corners after its place, given at its centre.
     pub fn shade(
         &mut self,
         from: [f64; 2],
         to: [f64; 2],
         mut colour: impl FnMut([f64; 2]) -> RGBColor,
     ) {
+        let Target::Bitmap(pixels) = &mut self.target else {
+            return;
+        };
         let [from, to] = [pixel(from), pixel(to)];
         let row_bytes = 3 * (self.width * OVERSAMPLING) as usize;
         let clip = |value: i32, size: u32| value.clamp(0, (size * OVERSAMPLING) as i32) as usize;
@@ -80,7 +104,7 @@ impl Canvas {
                 let centre = [x, y].map(|place| (place as f64 + 0.5) / f64::from(OVERSAMPLING));
                 let RGBColor(r, g, b) = colour(centre);
                 let start = y * row_bytes + 3 * x;
-                self.pixels[start..start + 3].copy_from_slice(&[r, g, b]);
+                pixels[start..start + 3].copy_from_slice(&[r, g, b]);
             }
         }
     }
@@ -153,15 +177,18 @@ impl Canvas {
 
     /// Writes the picture as PNG, replacing an older file only when done.
     pub fn save(&self, path: &Path) -> Result<()> {
-        super::png_file::write(path, [self.width, self.height], &self.rgb())
+        write_png(path, [self.width, self.height], &self.rgb())
     }
 
-    /// Red, green and blue of the saved pixels.
+    /// Red, green and blue of the saved pixels of a bitmap.
     pub fn rgb(&self) -> Vec<u8> {
+        let Target::Bitmap(pixels) = &self.target else {
+            return Vec::new();
+        };
         let factor = OVERSAMPLING as usize;
         let row_bytes = 3 * self.width as usize * factor;
-        let mut saved = Vec::with_capacity(self.pixels.len() / (factor * factor));
-        for rows in self.pixels.chunks(row_bytes * factor) {
+        let mut saved = Vec::with_capacity(pixels.len() / (factor * factor));
+        for rows in pixels.chunks(row_bytes * factor) {
             for x in 0..self.width as usize {
                 for channel in 0..3 {
                     let mut sum = 0;
@@ -179,16 +206,21 @@ impl Canvas {
         saved
     }
 
-    fn draw<'a, E>(&mut self, element: &'a E) -> Result<()>
+    fn draw<'e, E>(&mut self, element: &'e E) -> Result<()>
     where
-        &'a E: plotters::element::PointCollection<'a, (i32, i32)>,
-        for<'b> E: plotters::element::Drawable<BitMapBackend<'b>>,
+        &'e E: plotters::element::PointCollection<'e, (i32, i32)>,
+        for<'b> E: plotters::element::Drawable<BitMapBackend<'b>>
+            + plotters::element::Drawable<SVGBackend<'b>>,
     {
-        let size = (self.width * OVERSAMPLING, self.height * OVERSAMPLING);
-        BitMapBackend::with_buffer(&mut self.pixels, size)
-            .into_drawing_area()
-            .draw(element)
-            .map_err(|error| anyhow!("cannot draw: {error}"))
+        let failed = |error: &dyn std::fmt::Display| anyhow!("cannot draw: {error}");
+        match &mut self.target {
+            Target::Bitmap(pixels) => {
+                let size = (self.width * OVERSAMPLING, self.height * OVERSAMPLING);
+                let area = BitMapBackend::with_buffer(pixels, size).into_drawing_area();
+                area.draw(element).map_err(|error| failed(&error))
+            }
+            Target::Svg(area) => area.draw(element).map_err(|error| failed(&error)),
+        }
     }
 }
 
@@ -208,4 +240,21 @@ fn font(size: f64) -> Result<FontDesc<'static>> {
 fn pixel([x, y]: [f64; 2]) -> (i32, i32) {
     let scale = |value: f64| (value * f64::from(OVERSAMPLING)).round() as i32;
     (scale(x), scale(y))
+}
+
+/// Writes red, green and blue of `size` pixels, row by row, replacing an older file only when done.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_png(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<()> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(rgb))
+        .with_context(|| format!("{}: cannot encode the picture", path.display()))?;
+    Ok(riprap::output::replace(path, |writer| {
+        writer.write_all(&bytes)
+    })?)
 }

@@ -2,9 +2,10 @@
 
 use super::axis::{Axis, Scale, extremes};
 use super::canvas::{Anchor, Canvas};
-use super::curve::{self, Curve};
+use super::curve::{self, Curve, Mark};
 use super::frame::{self, FOOT, Frame, INK, TITLE};
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
+use riprap::output::Table;
 use std::path::Path;
 
 /// Space around everything and between panels, pixels.
@@ -14,17 +15,17 @@ const MARGIN: f64 = 18.0;
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// Title above all.
-    pub title: String,
+    title: String,
     /// The shared horizontal axis.
-    pub x: Measure,
+    x: Measure,
     /// The frames, from top to bottom.
-    pub panels: Vec<Panel>,
+    panels: Vec<Panel>,
     /// Width of the picture, pixels.
-    pub width: u32,
+    width: u32,
     /// Height of each frame, pixels.
-    pub panel_height: u32,
+    panel_height: u32,
     /// Whether the horizontal axis ends with the data, without room beside them.
-    pub tight: bool,
+    tight: bool,
 }
 
 /// What an axis measures.
@@ -40,11 +41,30 @@ pub struct Measure {
 
 /// A frame with its own vertical axis.
 #[derive(Clone, Debug)]
-pub struct Panel {
+struct Panel {
     /// The vertical axis.
-    pub y: Measure,
+    y: Measure,
     /// Curves, named in a legend if more than one.
-    pub curves: Vec<Curve>,
+    curves: Vec<Curve>,
+}
+
+/// Columns of a table in one frame of a history.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// The quantity that the columns have in common.
+    y: Measure,
+    /// Names of the columns, each a curve.
+    pub columns: Vec<String>,
+}
+
+impl Track {
+    /// `columns` with a `quantity` in `unit`.
+    pub fn new(quantity: &str, unit: &str, columns: &[&str]) -> Self {
+        Self {
+            y: Measure::linear(quantity, unit),
+            columns: columns.iter().map(|column| (*column).into()).collect(),
+        }
+    }
 }
 
 impl Measure {
@@ -87,8 +107,62 @@ impl Chart {
         }
     }
 
+    /// `tracks` of `table` over its column `time` (s), on top of each other, 1400 pixels wide.
+    ///
+    /// # Errors
+    /// If the table lacks a column.
+    pub fn history(title: &str, table: &Table, tracks: &[Track]) -> Result<Self> {
+        let column = |name: &str| {
+            table.column(name).with_context(|| {
+                let names = table.columns.iter().map(|(name, _)| name.as_str());
+                let names = names.collect::<Vec<_>>().join(", ");
+                format!("the table has no column `{name}`; it has {names}")
+            })
+        };
+        let time = column("time")?;
+        let curve = |name: &String| {
+            let values = time.iter().zip(column(name)?);
+            Ok(Curve {
+                name: name.replace('_', " "),
+                points: values.map(|(&time, &value)| [time, value]).collect(),
+                mark: Mark::Line,
+            })
+        };
+        let panels = tracks.iter().map(|track| {
+            Ok(Panel {
+                y: track.y.clone(),
+                curves: track.columns.iter().map(curve).collect::<Result<_>>()?,
+            })
+        });
+        Ok(Self {
+            title: title.to_owned(),
+            x: Measure::linear("time", "s"),
+            panels: panels.collect::<Result<_>>()?,
+            width: 1400,
+            panel_height: 230,
+            tight: true,
+        })
+    }
+
     /// Draws the chart into a PNG file.
+    ///
+    /// # Errors
+    /// If it has no panels, or the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<()> {
+        self.paint(Canvas::new)?.save(path)
+    }
+
+    /// The chart as SVG.
+    ///
+    /// # Errors
+    /// If it has no panels.
+    pub fn svg(&self) -> Result<String> {
+        let mut text = String::new();
+        drop(self.paint(|width, height| Canvas::svg(&mut text, width, height))?);
+        Ok(text)
+    }
+
+    fn paint<'a>(&self, canvas: impl FnOnce(u32, u32) -> Canvas<'a>) -> Result<Canvas<'a>> {
         if self.panels.is_empty() {
             bail!("{}: a chart without panels; give one at least", self.title);
         }
@@ -127,7 +201,7 @@ impl Chart {
             .map(|legend| legend + height + MARGIN)
             .sum::<f64>();
         let whole = MARGIN + TITLE + MARGIN + panels + FOOT;
-        let mut canvas = Canvas::new(self.width, whole as u32);
+        let mut canvas = canvas(self.width, whole as u32);
         let size = frame::fitting(&self.title, TITLE, canvas.width() - 2.0 * MARGIN)?;
         let at = [0.5 * canvas.width(), MARGIN + 0.5 * TITLE];
         canvas.text(&self.title, at, size, Anchor::Centre, INK)?;
@@ -148,6 +222,6 @@ impl Chart {
             frame.draw(&mut canvas, number + 1 == self.panels.len())?;
             top += legends[number] + height + MARGIN;
         }
-        canvas.save(path)
+        Ok(canvas)
     }
 }

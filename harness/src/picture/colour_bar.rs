@@ -1,18 +1,16 @@
 //! The scale that tells which colour means which value.
 
 use super::axis::{Axis, Scale, extremes};
-use super::canvas::{Anchor, Canvas};
+use super::canvas::Canvas;
 use super::colour::Palette;
-use super::frame::{self, FOOT, Frame, INK, TEXT};
+use super::frame::{self, FOOT, Frame};
 use anyhow::{Result, bail};
 use plotters::style::RGBColor;
 
 /// Thickness of the bar, pixels.
 const THICK: f64 = 26.0;
-/// Gap between map and bar, and bar, numbers and title, pixels.
+/// Gap between map and bar, pixels.
 const GAP: f64 = 26.0;
-/// Length of a tick, pixels.
-const TICK: f64 = 6.0;
 
 /// A palette over the range of an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,49 +64,25 @@ impl ColourBar {
     }
 
     /// An upright bar to the right of `map`.
-    pub fn draw_beside(&self, canvas: &mut Canvas, map: &Frame) -> Result<()> {
-        let [right, bottom] = map.opposite();
-        let top = map.corner[1];
+    pub fn draw_beside(&self, canvas: &mut Canvas<'_>, map: &Frame) -> Result<()> {
+        let ([right, bottom], top) = (map.opposite(), map.corner[1]);
         let (near, far) = (right + GAP, right + GAP + THICK);
         canvas.shade([near, top], [far, bottom], |[_, y]| {
             self.palette.colour((bottom - y) / (bottom - top))
         });
         frame::border(canvas, [near, top], [far, bottom])?;
-        let mut widest = 0.0_f64;
-        for (value, label) in frame::y_ticks(&self.axis, map.size[1]) {
-            let y = bottom - self.axis.fraction(value) * (bottom - top);
-            canvas.line(&[[far, y], [far + TICK, y]], 1.0, INK)?;
-            canvas.text(&label, [far + 2.0 * TICK, y], TEXT, Anchor::Left, INK)?;
-            widest = widest.max(Canvas::text_width(&label, TEXT)?);
-        }
-        let title = self.axis.title();
-        let size = frame::fitting(&title, TEXT, map.size[1])?;
-        let x = far + 3.0 * TICK + widest + 0.5 * TEXT;
-        canvas.text(
-            &title,
-            [x, 0.5 * (top + bottom)],
-            size,
-            Anchor::Upwards,
-            INK,
-        )
+        let side = frame::side(&self.axis, bottom - top)?;
+        frame::draw_vertical(canvas, &self.axis, [top, bottom], far, [1.0, side])
     }
 
     /// A lying bar under the x axis of `map`.
-    pub fn draw_below(&self, canvas: &mut Canvas, map: &Frame) -> Result<()> {
-        let [right, bottom] = map.opposite();
-        let left = map.corner[0];
+    pub fn draw_below(&self, canvas: &mut Canvas<'_>, map: &Frame) -> Result<()> {
+        let ([right, bottom], left) = (map.opposite(), map.corner[0]);
         let (near, far) = (bottom + FOOT + 0.5 * GAP, bottom + FOOT + 0.5 * GAP + THICK);
         canvas.shade([left, near], [right, far], |[x, _]| {
             self.palette.colour((x - left) / (right - left))
         });
         frame::border(canvas, [left, near], [right, far])?;
-        for (value, label) in frame::x_ticks(&self.axis, map.size[0])? {
-            let x = left + self.axis.fraction(value) * (right - left);
-            canvas.line(&[[x, far], [x, far + TICK]], 1.0, INK)?;
-            let at = [x, far + 2.0 * TICK + 0.5 * TEXT];
-            canvas.text(&label, at, TEXT, Anchor::Centre, INK)?;
-        }
-        let at = [0.5 * (left + right), far + FOOT - TICK - 0.5 * TEXT];
-        canvas.text(&self.axis.title(), at, TEXT, Anchor::Centre, INK)
+        frame::draw_horizontal(canvas, &self.axis, [left, right], far, true)
     }
 }

@@ -4,7 +4,6 @@ use super::canvas::{Anchor, Canvas};
 use super::colour::CURVES;
 use super::frame::{Frame, INK, TEXT};
 use anyhow::Result;
-use plotters::style::RGBColor;
 
 /// Height of a row of a legend, pixels.
 const ROW: f64 = 1.5 * TEXT;
@@ -16,6 +15,9 @@ const GAP: f64 = 10.0;
 const STROKE: f64 = 2.2;
 /// Radius of a point, pixels.
 const RADIUS: f64 = 5.0;
+/// Corners of other shapes of points, in radii.
+const SQUARE: [[f64; 2]; 4] = [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]];
+const TRIANGLE: [[f64; 2]; 3] = [[0.0, -1.2], [1.2, 1.0], [-1.2, 1.0]];
 /// Lengths of dash and gap, pixels.
 const DASH: [f64; 2] = [12.0, 8.0];
 
@@ -46,18 +48,20 @@ pub enum Mark {
 
 impl Curve {
     /// Draws the curve, the `number`th of its frame, counted from 0.
-    pub fn draw(&self, canvas: &mut Canvas, frame: &Frame, number: usize) -> Result<()> {
+    pub fn draw(&self, canvas: &mut Canvas<'_>, frame: &Frame, number: usize) -> Result<()> {
         let holds = |[x, y]: &[f64; 2]| frame.x.holds(*x) && frame.y.holds(*y);
         for piece in self.points.split(|point| !holds(point)) {
             let places: Vec<[f64; 2]> = piece.iter().map(|&point| frame.place(point)).collect();
-            self.mark.draw(canvas, &places, colour(number))?;
+            self.mark.draw(canvas, &places, number)?;
         }
         Ok(())
     }
 }
 
 impl Mark {
-    fn draw(self, canvas: &mut Canvas, places: &[[f64; 2]], colour: RGBColor) -> Result<()> {
+    /// Draws points of the `number`th curve: the colours repeat, then with another shape of points.
+    fn draw(self, canvas: &mut Canvas<'_>, places: &[[f64; 2]], number: usize) -> Result<()> {
+        let colour = CURVES[number % CURVES.len()];
         match self {
             Self::Line | Self::LinePoints => canvas.line(places, STROKE, colour)?,
             Self::Dashed => {
@@ -68,8 +72,16 @@ impl Mark {
             Self::Points => {}
         }
         if matches!(self, Self::Points | Self::LinePoints) {
-            for &place in places {
-                canvas.disc(place, RADIUS, colour)?;
+            for &[x, y] in places {
+                let around = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> {
+                    let corner = |[u, v]: &[f64; 2]| [x + RADIUS * u, y + RADIUS * v];
+                    corners.iter().map(corner).collect()
+                };
+                match number / CURVES.len() % 3 {
+                    0 => canvas.disc([x, y], RADIUS, colour)?,
+                    1 => canvas.polygon(&around(&SQUARE), colour)?,
+                    _ => canvas.polygon(&around(&TRIANGLE), colour)?,
+                }
             }
         }
         Ok(())
@@ -84,7 +96,7 @@ pub fn legend_height(curves: &[Curve], width: f64) -> Result<f64> {
 
 /// Draws the legend of `curves` from `corner` on, in rows as wide as `width`.
 pub fn draw_legend(
-    canvas: &mut Canvas,
+    canvas: &mut Canvas<'_>,
     curves: &[Curve],
     corner: [f64; 2],
     width: f64,
@@ -100,7 +112,7 @@ pub fn draw_legend(
                 }
                 Mark::Line | Mark::Dashed => vec![[x, y], [x + SAMPLE, y]],
             };
-            curves[number].mark.draw(canvas, &places, colour(number))?;
+            curves[number].mark.draw(canvas, &places, number)?;
             let at = [x + SAMPLE + GAP, y];
             canvas.text(&curves[number].name, at, TEXT, Anchor::Left, INK)?;
         }
@@ -127,10 +139,6 @@ fn legend_rows(curves: &[Curve], width: f64) -> Result<Vec<Vec<(usize, f64)>>> {
         used += wants + 3.0 * GAP;
     }
     Ok(rows)
-}
-
-fn colour(number: usize) -> RGBColor {
-    CURVES[number % CURVES.len()]
 }
 
 /// The drawn parts of a dashed line along `places`.

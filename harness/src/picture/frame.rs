@@ -58,7 +58,7 @@ impl Frame {
     }
 
     /// Lines across the frame at every tick, to be drawn before the content.
-    pub fn draw_grid(&self, canvas: &mut Canvas) -> Result<()> {
+    pub fn draw_grid(&self, canvas: &mut Canvas<'_>) -> Result<()> {
         let [right, bottom] = self.opposite();
         for (value, _) in x_ticks(&self.x, self.size[0])? {
             let x = self.corner[0] + self.x.fraction(value) * self.size[0];
@@ -72,38 +72,63 @@ impl Frame {
     }
 
     /// The border, ticks and y labels, and x labels if `labelled`, to be drawn after the content.
-    pub fn draw(&self, canvas: &mut Canvas, labelled: bool) -> Result<()> {
-        let [left, top] = self.corner;
-        let [right, bottom] = self.opposite();
+    pub fn draw(&self, canvas: &mut Canvas<'_>, labelled: bool) -> Result<()> {
+        let ([left, top], [right, bottom]) = (self.corner, self.opposite());
         border(canvas, self.corner, self.opposite())?;
-        for (value, label) in x_ticks(&self.x, self.size[0])? {
-            let x = left + self.x.fraction(value) * self.size[0];
-            canvas.line(&[[x, bottom], [x, bottom + TICK]], 1.0, INK)?;
-            if labelled {
-                let at = [x, bottom + TICK + GAP + 0.5 * TEXT];
-                canvas.text(&label, at, TEXT, Anchor::Centre, INK)?;
-            }
-        }
-        if labelled {
-            let at = [0.5 * (left + right), bottom + FOOT - GAP - 0.5 * TEXT];
-            canvas.text(&self.x.title(), at, TEXT, Anchor::Centre, INK)?;
-        }
-        for (value, label) in y_ticks(&self.y, self.size[1]) {
-            let y = top + (1.0 - self.y.fraction(value)) * self.size[1];
-            canvas.line(&[[left - TICK, y], [left, y]], 1.0, INK)?;
-            canvas.text(&label, [left - TICK - GAP, y], TEXT, Anchor::Right, INK)?;
-        }
-        let title = self.y.title();
-        let x = left - self.side + 0.5 * TEXT + GAP;
-        let size = fitting(&title, TEXT, self.size[1])?;
-        canvas.text(
-            &title,
-            [x, 0.5 * (top + bottom)],
-            size,
-            Anchor::Upwards,
-            INK,
-        )
+        draw_horizontal(canvas, &self.x, [left, right], bottom, labelled)?;
+        draw_vertical(canvas, &self.y, [top, bottom], left, [-1.0, self.side])
     }
+}
+
+/// Ticks of a horizontal axis between `left` and `right`, under the edge at `y`; numbers and title if `labelled`.
+pub fn draw_horizontal(
+    canvas: &mut Canvas<'_>,
+    axis: &Axis,
+    [left, right]: [f64; 2],
+    y: f64,
+    labelled: bool,
+) -> Result<()> {
+    for (value, label) in x_ticks(axis, right - left)? {
+        let x = left + axis.fraction(value) * (right - left);
+        canvas.line(&[[x, y], [x, y + TICK]], 1.0, INK)?;
+        if labelled {
+            let at = [x, y + TICK + GAP + 0.5 * TEXT];
+            canvas.text(&label, at, TEXT, Anchor::Centre, INK)?;
+        }
+    }
+    if labelled {
+        let at = [0.5 * (left + right), y + FOOT - GAP - 0.5 * TEXT];
+        canvas.text(&axis.title(), at, TEXT, Anchor::Centre, INK)?;
+    }
+    Ok(())
+}
+
+/// Ticks, numbers and title of a vertical axis between `top` and `bottom`, beside the edge at `x`: left of it if `outwards`
+/// is −1, right of it if 1, on the width `side`.
+pub fn draw_vertical(
+    canvas: &mut Canvas<'_>,
+    axis: &Axis,
+    [top, bottom]: [f64; 2],
+    x: f64,
+    [outwards, side]: [f64; 2],
+) -> Result<()> {
+    let anchor = match outwards > 0.0 {
+        true => Anchor::Left,
+        false => Anchor::Right,
+    };
+    for (value, label) in y_ticks(axis, bottom - top) {
+        let y = bottom - axis.fraction(value) * (bottom - top);
+        canvas.line(&[[x, y], [x + outwards * TICK, y]], 1.0, INK)?;
+        let at = [x + outwards * (TICK + GAP), y];
+        canvas.text(&label, at, TEXT, anchor, INK)?;
+    }
+    let title = axis.title();
+    let size = fitting(&title, TEXT, bottom - top)?;
+    let at = [
+        x + outwards * (side - 0.5 * TEXT - GAP),
+        0.5 * (top + bottom),
+    ];
+    canvas.text(&title, at, size, Anchor::Upwards, INK)
 }
 
 /// Width that ticks, numbers and title of a vertical axis of `height` take beside it, pixels.
@@ -117,7 +142,7 @@ pub fn side(axis: &Axis, height: f64) -> Result<f64> {
 }
 
 /// As many ticks as have room for their numbers along `width` pixels.
-pub fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
+fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
     // More than ten numbers say nothing more.
     for most in (3..=10).rev() {
         let ticks = axis.ticks(most);
@@ -134,12 +159,12 @@ pub fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
 }
 
 /// As many ticks as have room for their numbers along `height` pixels.
-pub fn y_ticks(axis: &Axis, height: f64) -> Vec<Tick> {
+fn y_ticks(axis: &Axis, height: f64) -> Vec<Tick> {
     axis.ticks(((height / (1.8 * TEXT)) as usize).clamp(2, 10))
 }
 
 /// A thin line around a rectangle.
-pub fn border(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2]) -> Result<()> {
+pub fn border(canvas: &mut Canvas<'_>, from: [f64; 2], to: [f64; 2]) -> Result<()> {
     let corners = [from, [to[0], from[1]], to, [from[0], to[1]], from];
     canvas.line(&corners, 1.0, INK)
 }

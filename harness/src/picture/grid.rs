@@ -102,7 +102,7 @@ impl ColourGrid {
     }
 
     /// A panel whose upper left square begins at `corner`.
-    fn panel(&self, canvas: &mut Canvas, panel: &GridPanel, corner: [f64; 2]) -> Result<()> {
+    fn panel(&self, canvas: &mut Canvas<'_>, panel: &GridPanel, corner: [f64; 2]) -> Result<()> {
         let count = [self.columns.len(), self.rows.len()];
         let place = |column: usize, row: usize| {
             [
@@ -153,7 +153,7 @@ impl ColourGrid {
 
     fn square(
         &self,
-        canvas: &mut Canvas,
+        canvas: &mut Canvas<'_>,
         square: &Square,
         from: [f64; 2],
         to: [f64; 2],
@@ -176,7 +176,7 @@ impl ColourGrid {
         canvas.text(&square.label, at, size, Anchor::Centre, INK)
     }
 
-    fn legend(&self, canvas: &mut Canvas, top: f64) -> Result<()> {
+    fn legend(&self, canvas: &mut Canvas<'_>, top: f64) -> Result<()> {
         let mut x = MARGIN;
         for (text, colour) in &self.key {
             let from = [x, top];

@@ -1,10 +1,10 @@
 //! A quantity on a plane through the flow, as a map of colours.
 
-use super::arrows::arrows;
 use super::axis::{Axis, Scale};
 use super::canvas::{Anchor, Canvas};
 use super::colour::{Palette, SOLID};
 use super::colour_bar::ColourBar;
+use super::field_lines::arrows;
 use super::frame::{self, FOOT, Frame, INK, TEXT, TITLE};
 use super::placed::Placed;
 use super::section::{Plane, Quantity, Section};
@@ -83,7 +83,7 @@ impl Slice<'_> {
     }
 
     /// A canvas with title and colour bar, and the frame of the map on it.
-    fn layout(&self, section: &Section, bar: &ColourBar) -> Result<(Canvas, Frame)> {
+    fn layout(&self, section: &Section, bar: &ColourBar) -> Result<(Canvas<'static>, Frame)> {
         let [x, y] = [0, 1].map(|axis| {
             let range = [section.origin[axis], section.opposite()[axis]];
             Axis::new(section.axes[axis], "m", range, Scale::Linear)
@@ -137,7 +137,7 @@ impl Slice<'_> {
 
 /// The cut through a block, as far as it lies in the map.
 fn draw_block(
-    canvas: &mut Canvas,
+    canvas: &mut Canvas<'_>,
     map: &Frame,
     section: &Section,
     outline: &[[f64; 2]],
@@ -179,7 +179,7 @@ fn clipped(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]>
 }
 
 fn draw_streamlines(
-    canvas: &mut Canvas,
+    canvas: &mut Canvas<'_>,
     map: &Frame,
     section: &Section,
     palette: Palette,

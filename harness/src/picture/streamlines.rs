@@ -2,9 +2,8 @@
 //! arbitrary density"): each new line begins at a set distance from one already there, and ends
 //! where it would come nearer than half of that to another.
 
-use super::follow::Field;
+use super::field_lines::{Field, Taken};
 use super::section::Section;
-use super::taken::Taken;
 use std::collections::VecDeque;
 
 /// How near a line may come to others, in parts of the distance at which lines begin; the paper's

@@ -1,8 +1,7 @@
 //! Lines along a flow in space.
 
-use super::follow::Field;
+use super::field_lines::{Field, Taken};
 use super::placed::{Placed, centres};
-use super::taken::Taken;
 use glam::DVec3;
 use riprap::output::Image;
 

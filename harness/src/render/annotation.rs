@@ -84,7 +84,7 @@ impl Layout {
     }
 
     /// Title on the left, time on the right.
-    fn title(&self, canvas: &mut Canvas, drawing: &Drawing<'_>) -> Result<()> {
+    fn title(&self, canvas: &mut Canvas<'_>, drawing: &Drawing<'_>) -> Result<()> {
         let width = f64::from(self.size[0]);
         let middle = MARGIN + 0.5 * TITLE;
         let mut room = width - 2.0 * MARGIN;
@@ -110,7 +110,7 @@ pub fn bars_width(bars: &[ColourBar], height: f64) -> Result<f64> {
 
 /// Draws colour bars to the right of a view of this corner and size, from left to right.
 pub fn draw_bars(
-    canvas: &mut Canvas,
+    canvas: &mut Canvas<'_>,
     bars: &[ColourBar],
     corner: [f64; 2],
     size: [u32; 2],
@@ -133,7 +133,7 @@ pub fn draw_bars(
 }
 
 /// Copies a picture onto the canvas.
-pub fn paste(canvas: &mut Canvas, picture: &Picture, [left, top]: [f64; 2]) {
+pub fn paste(canvas: &mut Canvas<'_>, picture: &Picture, [left, top]: [f64; 2]) {
     let [width, height] = [picture.width, picture.height].map(f64::from);
     canvas.shade([left, top], [left + width, top + height], |[x, y]| {
         let [r, g, b] = picture.pixel((x - left) as u32, (y - top) as u32);
@@ -142,7 +142,7 @@ pub fn paste(canvas: &mut Canvas, picture: &Picture, [left, top]: [f64; 2]) {
 }
 
 /// What was drawn on the canvas.
-pub fn picture(canvas: &Canvas, [width, height]: [u32; 2]) -> Picture {
+pub fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
     let pixels = canvas.rgb();
     let pixels = pixels.chunks_exact(3);
     Picture {
@@ -154,7 +154,7 @@ pub fn picture(canvas: &Canvas, [width, height]: [u32; 2]) -> Picture {
 
 /// A bar in the lower left corner of a view, with its length in metres at the camera's target.
 pub fn scale_bar(
-    canvas: &mut Canvas,
+    canvas: &mut Canvas<'_>,
     camera: &Camera,
     [left, top]: [f64; 2],
     [width, height]: [u32; 2],

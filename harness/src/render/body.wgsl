@@ -1,9 +1,9 @@
-// Surfaces of bodies and others: shaded triangles.
+// Surfaces of bodies: shaded triangles.
 
 struct Corner {
     @location(0) position: vec3f,
     @location(1) normal: vec4f,
-    // sRGB; a: 1 if lit, 0 if its colour is shown as it is.
+    // sRGB.
     @location(2) colour: vec4f,
     // Rows of the 3 × 4 matrix that places the mesh, and its colour.
     @location(3) x: vec4f,
@@ -41,9 +41,6 @@ fn depth_fragment(in: Shaded) -> @location(0) vec4f {
 @fragment
 fn body_fragment(in: Shaded, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let colour = linear_of_srgb(in.colour.rgb);
-    if (in.colour.a < 0.5) {
-        return vec4f(colour, 1.0);
-    }
     let normal = normalize(select(-in.normal, in.normal, front));
     return vec4f(colour * exposed(illuminance(in.p, normal)), 1.0);
 }

@@ -23,8 +23,6 @@ pub struct Drawing<'a> {
     pub traces: Option<Traces>,
     /// Balls that are many and small.
     pub drops: Option<Drops>,
-    /// Other surfaces.
-    pub surfaces: Vec<Surface>,
     /// Other lines.
     pub lines: Vec<Line>,
     /// Where it is seen from.
@@ -85,19 +83,6 @@ impl Traces {
         }
         Ok(())
     }
-}
-
-/// Triangles with colours.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
-    /// Corners, m.
-    pub vertices: Vec<Vertex>,
-    /// A colour for each corner, sRGB.
-    pub colours: Vec<[u8; 3]>,
-    /// Indices of corners; both sides are drawn.
-    pub triangles: Vec<[u32; 3]>,
-    /// Whether light and shadow fall on it and it throws one; without, its colours are exactly those given.
-    pub lit: bool,
 }
 
 /// A straight line in space.
@@ -207,29 +192,12 @@ impl Drawing<'_> {
                 .and_then(|()| check_finite(ends))
                 .map_err(|message| Error::argument(format!("meshes[{index}]"), message))?;
         }
-        for (index, surface) in self.surfaces.iter().enumerate() {
-            check_surface(&surface.vertices, &surface.triangles)
-                .and_then(|()| match surface.colours.len() == surface.vertices.len() {
-                    true => Ok(()),
-                    false => Err("give each vertex one colour".into()),
-                })
-                .map_err(|message| Error::argument(format!("surfaces[{index}]"), message))?;
-        }
-        for (index, plane) in self.planes.iter().enumerate() {
-            let place = || format!("planes[{index}]");
-            plane
-                .check()
-                .map_err(|message| Error::argument(place(), message))?;
-        }
-        if let Some(traces) = &self.traces {
-            traces
-                .check()
-                .map_err(|message| Error::argument("traces", message))?;
-        }
-        if let Some(drops) = &self.drops {
-            drops
-                .check()
-                .map_err(|message| Error::argument("drops", message))?;
+        let planes = self.planes.iter().enumerate();
+        let planes = planes.map(|(index, plane)| (format!("planes[{index}]"), plane.check()));
+        let traces = self.traces.iter().map(|t| ("traces".into(), t.check()));
+        let drops = self.drops.iter().map(|d| ("drops".into(), d.check()));
+        for (place, checked) in planes.chain(traces).chain(drops) {
+            checked.map_err(|message| Error::argument(place, message))?;
         }
         for (index, line) in self.lines.iter().enumerate() {
             let place = || format!("lines[{index}]");

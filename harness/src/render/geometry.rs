@@ -67,10 +67,8 @@ pub struct List<V> {
 /// Everything to be drawn, relative to the camera's target.
 #[derive(Debug)]
 pub struct Geometry {
-    /// Surfaces that throw shadows.
+    /// Surfaces of bodies.
     pub solid: List<Corner>,
-    /// Surfaces that throw none.
-    pub plain: List<Corner>,
     /// Edges and lines.
     pub strokes: List<End>,
     /// Small balls.
@@ -96,7 +94,6 @@ impl Geometry {
         };
         let mut geometry = Self {
             solid: List::default(),
-            plain: List::default(),
             strokes: List::default(),
             dots: drawing
                 .drops
@@ -156,19 +153,6 @@ impl Geometry {
             }
             geometry.strokes.close_with(placements);
         }
-        for surface in &drawing.surfaces {
-            let vertices = surface.vertices.iter().zip(&surface.colours);
-            let corners = vertices.map(|(vertex, &[r, g, b])| {
-                let lit = if surface.lit { u8::MAX } else { 0 };
-                Corner::new(vertex.position - target, vertex.normal, [r, g, b, lit])
-            });
-            if surface.lit {
-                geometry.widen(-target, DMat3::IDENTITY, &surface.vertices);
-                geometry.solid.push(corners, &surface.triangles);
-            } else {
-                geometry.plain.push(corners, &surface.triangles);
-            }
-        }
         for line in &drawing.lines {
             let [r, g, b] = line.colour;
             let half_width = [0.5 * line.width as f32, f32::MAX];
@@ -186,7 +170,6 @@ impl Geometry {
                 .trace(trace, target, scales, &pixels_per_metre);
         }
         geometry.solid.close();
-        geometry.plain.close();
         geometry.strokes.close();
         geometry
     }

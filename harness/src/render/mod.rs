@@ -23,7 +23,6 @@
 //! }
 //! ```
 
-mod animation;
 mod annotation;
 mod camera;
 mod drawing;
@@ -40,15 +39,13 @@ mod scales;
 mod strip;
 mod strokes;
 mod submission;
-mod texels;
 mod uniforms;
 
-pub use animation::animate;
 pub use camera::{Camera, Look};
-pub use drawing::{Background, Colours, Drawing, Ground, Instance, Line, Surface, Traces, View};
+pub use drawing::{Background, Colours, Drawing, Ground, Instance, Line, Traces, View};
 pub use drops::{Drop, Drops};
 pub use fluid_plane::FluidPlane;
 pub use mesh::{Mesh, Vertex};
-pub use picture::Picture;
+pub use picture::{Picture, animate};
 pub use pipelines::SHADERS;
 pub use renderer::Renderer;

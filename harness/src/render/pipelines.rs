@@ -60,12 +60,24 @@ const DOT: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x4,
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device) -> Self {
-        let view_layout = view_layout(device);
-        let light_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("light"),
-            entries: &[uniform(0, wgpu::ShaderStages::VERTEX, true)],
-        });
-        let plane_layout = plane_layout(device);
+        let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
+        let compare = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+        let filter = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let colours = texture(wgpu::TextureSampleType::Float { filterable: true });
+        let view = [
+            (vertex | fragment, uniform(false)),
+            (fragment, uniform(false)),
+            (fragment, texture(wgpu::TextureSampleType::Depth)),
+            (fragment, compare),
+        ];
+        let plane = [
+            (vertex | fragment, uniform(false)),
+            (fragment, colours),
+            (fragment, filter),
+        ];
+        let view_layout = bindings(device, "view", &view);
+        let light_layout = bindings(device, "light", &[(vertex, uniform(true))]);
+        let plane_layout = bindings(device, "plane", &plane);
         let corners = [
             layout::<Corner>(wgpu::VertexStepMode::Vertex, &CORNER),
             layout::<Placement>(wgpu::VertexStepMode::Instance, &CORNER_PLACEMENT),
@@ -195,73 +207,38 @@ fn pipeline(
     })
 }
 
-fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
-    let fragment = wgpu::ShaderStages::FRAGMENT;
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+/// Layout of the bindings 0, 1, …, each with the stages that see it.
+fn bindings(
+    device: &wgpu::Device,
+    label: &str,
+    types: &[(wgpu::ShaderStages, wgpu::BindingType)],
+) -> wgpu::BindGroupLayout {
+    let entries = (0..).zip(types);
+    let entries = entries.map(|(binding, (visibility, ty))| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: fragment,
-        ty,
+        visibility: *visibility,
+        ty: *ty,
         count: None,
-    };
+    });
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("view"),
-        entries: &[
-            uniform(0, both, false),
-            uniform(1, fragment, false),
-            entry(
-                2,
-                wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Depth,
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-            ),
-            entry(
-                3,
-                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
-            ),
-        ],
+        label: Some(label),
+        entries: &entries.collect::<Vec<_>>(),
     })
 }
 
-fn plane_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+fn uniform(has_dynamic_offset: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset,
+        min_binding_size: None,
+    }
+}
+
+fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
-    };
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("plane"),
-        entries: &[
-            uniform(0, wgpu::ShaderStages::VERTEX_FRAGMENT, false),
-            entry(1, texture),
-            entry(2, sampler),
-        ],
-    })
-}
-
-fn uniform(
-    binding: u32,
-    visibility: wgpu::ShaderStages,
-    has_dynamic_offset: bool,
-) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset,
-            min_binding_size: None,
-        },
-        count: None,
     }
 }
 

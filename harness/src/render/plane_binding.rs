@@ -1,11 +1,12 @@
-//! A plane through a fluid on the device.
+//! A plane through a fluid on the device: its cells as the texels of a texture, and ever coarser copies of them for planes
+//! that are seen from far.
 
 use super::drawing::Drawing;
 use super::fluid_plane::FluidPlane;
 use super::pipelines::COLOUR;
 use super::renderer::Renderer;
 use super::scales::Scales;
-use super::texels::{Level, levels};
+use crate::picture::colour::{linear_of_srgb, srgb_of_linear};
 use crate::picture::colour_bar::ColourBar;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -74,16 +75,12 @@ impl Renderer {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("plane"),
-            layout: &self.pipelines.plane_layout,
-            entries: &[
-                entry(0, rectangle.as_entire_binding()),
-                entry(1, wgpu::BindingResource::TextureView(&cells)),
-                entry(2, wgpu::BindingResource::Sampler(&sampler)),
-            ],
-        }))
+        let resources = [
+            rectangle.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&cells),
+            wgpu::BindingResource::Sampler(&sampler),
+        ];
+        Ok(self.bind_group("plane", &self.pipelines.plane_layout, &resources))
     }
 
     /// The texture of a plane's cells.
@@ -124,4 +121,65 @@ fn extent([width, height]: [u32; 2]) -> wgpu::Extent3d {
         height,
         depth_or_array_layers: 1,
     }
+}
+
+/// One of the copies.
+struct Level {
+    /// Texels along both axes.
+    size: [u32; 2],
+    /// Red, green and blue (sRGB), which are 0 where there is no fluid, and the part that is fluid.
+    rgba: Vec<u8>,
+}
+
+/// All copies, the cells themselves first and one texel last.
+fn levels(plane: &FluidPlane, bar: &ColourBar) -> Vec<Level> {
+    let texel = |value: &f32| match value.is_nan() {
+        true => [0; 4],
+        false => {
+            let colour = bar.colour(f64::from(*value));
+            [colour.0, colour.1, colour.2, u8::MAX]
+        }
+    };
+    let rgba: Vec<u8> = plane.values.iter().flat_map(texel).collect();
+    let size = plane.cells.map(|count| count as u32);
+    let mut made = vec![Level { size, rgba }];
+    while let Some(coarser) = made.last().and_then(coarser) {
+        made.push(coarser);
+    }
+    made
+}
+
+/// Half as many texels along both axes, each the mean of the light of those that it covers.
+fn coarser(fine: &Level) -> Option<Level> {
+    let size = fine.size.map(|count| (count / 2).max(1));
+    if size == fine.size {
+        return None;
+    }
+    let linear: [f64; 256] = std::array::from_fn(|channel| linear_of_srgb(channel as u8));
+    // Where a count is odd, one of the texels covers three.
+    let covered = |along: usize, at: u32| {
+        let place = |edge: u32| u64::from(edge) * u64::from(fine.size[along]);
+        let whole = u64::from(size[along]);
+        (place(at) / whole) as usize..place(at + 1).div_ceil(whole) as usize
+    };
+    let mut rgba = Vec::with_capacity(4 * (size[0] * size[1]) as usize);
+    for v in 0..size[1] {
+        for u in 0..size[0] {
+            let mut sum = [0.0; 4];
+            let mut count = 0.0;
+            for row in covered(1, v) {
+                for column in covered(0, u) {
+                    let at = 4 * (row * fine.size[0] as usize + column);
+                    for channel in 0..3 {
+                        sum[channel] += linear[usize::from(fine.rgba[at + channel])];
+                    }
+                    sum[3] += f64::from(fine.rgba[at + 3]);
+                    count += 1.0;
+                }
+            }
+            rgba.extend([0, 1, 2].map(|channel| srgb_of_linear(sum[channel] / count)));
+            rgba.push((sum[3] / count).round() as u8);
+        }
+    }
+    Some(Level { size, rgba })
 }

@@ -4,7 +4,7 @@ use super::fluid_plane::FluidPlane;
 use super::geometry::List;
 use super::scales::Scales;
 use crate::picture::Trace;
-use crate::picture::arrows::arrows;
+use crate::picture::field_lines::arrows;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 

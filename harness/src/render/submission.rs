@@ -23,7 +23,6 @@ impl Renderer {
         let device = &self.device;
         let placements = self.buffer(&geometry.placements, wgpu::BufferUsages::VERTEX)?;
         let solid = self.upload(&geometry.solid)?;
-        let plain = self.upload(&geometry.plain)?;
         let strokes = self.upload(&geometry.strokes)?;
         let dots = match geometry.dots.is_empty() {
             true => None,
@@ -63,8 +62,8 @@ impl Renderer {
         // Depth first, so that light is computed once a pixel.
         for pipeline in [&self.pipelines.depth, &self.pipelines.body] {
             pass.set_pipeline(pipeline);
-            for list in solid.iter().chain(&plain) {
-                list.draw(&mut pass);
+            if let Some(solid) = &solid {
+                solid.draw(&mut pass);
             }
         }
         if let Some(dots) = &dots {
@@ -123,18 +122,12 @@ impl Renderer {
             slot[..size_of::<Light>()].copy_from_slice(bytemuck::bytes_of(light));
         }
         let table = self.buffer(&bytes, wgpu::BufferUsages::UNIFORM)?;
-        let bound = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("light"),
-            layout: &self.pipelines.light_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &table,
-                    offset: 0,
-                    size: wgpu::BufferSize::new(size_of::<Light>() as u64),
-                }),
-            }],
+        let one = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &table,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<Light>() as u64),
         });
+        let bound = self.bind_group("light", &self.pipelines.light_layout, &[one]);
         let atlas = self.atlas.create_view(&Default::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadows"),
@@ -158,17 +151,29 @@ impl Renderer {
         table.resize(MOST, bytemuck::Zeroable::zeroed());
         let table = self.buffer(&table, wgpu::BufferUsages::UNIFORM)?;
         let atlas = self.atlas.create_view(&Default::default());
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("view"),
-            layout: &self.pipelines.view_layout,
-            entries: &[
-                entry(0, view.as_entire_binding()),
-                entry(1, table.as_entire_binding()),
-                entry(2, wgpu::BindingResource::TextureView(&atlas)),
-                entry(3, wgpu::BindingResource::Sampler(&self.sampler)),
-            ],
-        }))
+        let resources = [
+            view.as_entire_binding(),
+            table.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&atlas),
+            wgpu::BindingResource::Sampler(&self.sampler),
+        ];
+        Ok(self.bind_group("view", &self.pipelines.view_layout, &resources))
+    }
+
+    /// What is bound to the bindings 0, 1, … of a layout.
+    pub(super) fn bind_group(
+        &self,
+        label: &str,
+        layout: &wgpu::BindGroupLayout,
+        resources: &[wgpu::BindingResource<'_>],
+    ) -> wgpu::BindGroup {
+        let entries = (0..).zip(resources.iter().cloned());
+        let entries = entries.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(label),
+            layout,
+            entries: &entries.collect::<Vec<_>>(),
+        })
     }
 
     fn upload<'a, V: Pod>(&self, list: &'a List<V>) -> Result<Option<Uploaded<'a, V>>> {

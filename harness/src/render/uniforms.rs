@@ -57,17 +57,18 @@ impl Uniforms {
             camera.distance() * tangent
         };
         let ground_middle = middle + (ground - middle.dot(zenith)) * zenith;
-        let grid = Grid::new(zenith, grid_spacing(radius));
+        let [x, y] = grid_axes(zenith);
+        // 1, 2 or 5 times a power of ten.
+        let spacing = round_down(2.0 * radius / CELLS);
         let faded = 2.4 * radius;
         let near = NEAR * camera.distance();
         let (above, below) = match drawing.background {
             Background::White => ([1.0; 3], [1.0; 3]),
             Background::Sky => ([0.36, 0.55, 0.82], [0.93, 0.95, 0.98]),
         };
-        let [x, y] = grid.axes;
-        let places = grid.axes.map(|axis| {
+        let places = [x, y].map(|axis| {
             let place = axis.dot(camera.to) + axis.dot(ground_middle);
-            place.rem_euclid(grid.spacing)
+            place.rem_euclid(spacing)
         });
         let sky = lights.sky_weight();
         let open = SUN * sun.dot(zenith).max(0.0) + SKY;
@@ -83,7 +84,7 @@ impl Uniforms {
                 if sky > 0.0 { 0.0 } else { SKY },
             ),
             ground: four(ground_middle, radius),
-            ground_x: four(x, grid.spacing),
+            ground_x: four(x, spacing),
             ground_y: four(y, faded),
             grid: four(DVec3::new(places[0], places[1], 0.0), 0.0),
             above: four(above.into(), 1.0),
@@ -101,33 +102,18 @@ impl Uniforms {
     }
 }
 
-/// Lines on the ground.
-struct Grid {
-    axes: [DVec3; 2],
-    spacing: f64,
-}
-
-impl Grid {
-    fn new(zenith: DVec3, spacing: f64) -> Self {
-        // The axis of the world that is nearest to level, the first of equals: x, y for z up.
-        let level = |axis: &DVec3| axis.dot(zenith).abs();
-        let mut x = DVec3::X;
-        for axis in [DVec3::Y, DVec3::Z] {
-            if level(&axis) < level(&x) - 1e-9 {
-                x = axis;
-            }
-        }
-        let x = (x - x.dot(zenith) * zenith).normalize();
-        Self {
-            axes: [x, zenith.cross(x)],
-            spacing,
+/// Axes of the grid on the ground.
+fn grid_axes(zenith: DVec3) -> [DVec3; 2] {
+    // The axis of the world that is nearest to level, the first of equals: x, y for z up.
+    let level = |axis: &DVec3| axis.dot(zenith).abs();
+    let mut x = DVec3::X;
+    for axis in [DVec3::Y, DVec3::Z] {
+        if level(&axis) < level(&x) - 1e-9 {
+            x = axis;
         }
     }
-}
-
-/// Spacing of the ground's grid under bodies within `radius`, m: 1, 2 or 5 times a power of ten.
-pub fn grid_spacing(radius: f64) -> f64 {
-    round_down(2.0 * radius / CELLS)
+    let x = (x - x.dot(zenith) * zenith).normalize();
+    [x, zenith.cross(x)]
 }
 
 /// The largest of 1, 2 or 5 times a power of ten that is not above `length`.

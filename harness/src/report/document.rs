@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     bench::Machine,
-    picture::{Chart, Curve, Mark, Measure},
+    picture::{Chart, Curve, Mark, Measure, extremes},
     print::percent,
     validate::Stand,
 };
@@ -32,13 +32,6 @@ impl Time {
         match self {
             Self::Cpu => |row| row.cpu_seconds,
             Self::Wall => |row| row.wall_seconds,
-        }
-    }
-
-    pub(super) fn axis(self) -> &'static str {
-        match self {
-            Self::Cpu => "CPU time, all threads, s",
-            Self::Wall => "run time, s",
         }
     }
 
@@ -192,16 +185,11 @@ impl Report {
         text + "."
     }
 
-    /// The diagram of a class over run time, as a picture.
-    pub(super) fn chart(&self, class: &Class) -> Chart {
-        let time = self.time.of();
+    /// Error of a class against a cost: a curve for each setting, and the errors that are asked for.
+    pub(super) fn chart(&self, class: &Class, x: Measure, cost: Cost) -> Chart {
+        let rows = self.of(class.name);
         let mut curves: Vec<Curve> = Vec::new();
-        // A picture has eight colours: settings at other relaxation times are on the page.
-        let usual = |row: &&Row| !row.setting.contains(" at ");
-        for row in self.of(class.name).into_iter().filter(usual) {
-            let Some(error) = row.certain_error().filter(|error| *error > 0.0) else {
-                continue;
-            };
+        for row in &rows {
             let at = curves.iter().position(|curve| curve.name == row.setting);
             let at = at.unwrap_or_else(|| {
                 curves.push(Curve {
@@ -211,21 +199,36 @@ impl Report {
                 });
                 curves.len() - 1
             });
-            curves[at].points.push([time(row), 100.0 * error]);
+            // Far beyond the method's range nothing is to be read off.
+            if let Some(error) = row.certain_error().filter(|error| *error < 10.0) {
+                curves[at].points.push([cost(row), 100.0 * error]);
+            }
         }
         for curve in &mut curves {
             curve.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            if curve.points.is_empty() {
+                curve.name += " (no result)";
+            }
         }
-        let (name, unit) = match self.time {
-            Time::Cpu => ("CPU time of all threads", "s"),
-            Time::Wall => ("run time", "s"),
+        let known = rows.iter().filter(|row| row.error.is_some());
+        let costs = known.map(|row| cost(row)).filter(|cost| *cost > 0.0);
+        let ends = extremes(costs);
+        curves.extend(TARGETS.map(|target| Curve {
+            name: percent(target),
+            points: ends.map(|cost| [cost, 100.0 * target]).into(),
+            mark: Mark::Dashed,
+        }));
+        let y = Measure::logarithmic("error", "%");
+        Chart::profile(class.title, x, y, curves)
+    }
+
+    /// The chart of a class over run time.
+    pub(super) fn chart_of_time(&self, class: &Class) -> Chart {
+        let x = match self.time {
+            Time::Cpu => Measure::logarithmic("CPU time of all threads", "s"),
+            Time::Wall => Measure::logarithmic("run time", "s"),
         };
-        Chart::profile(
-            class.title,
-            Measure::logarithmic(name, unit),
-            Measure::logarithmic("error", "%"),
-            curves,
-        )
+        self.chart(class, x, self.time.of())
     }
 
     /// Writes the page and the JSON.

@@ -12,7 +12,6 @@ mod finding;
 mod flows;
 mod limit;
 mod page;
-mod plot;
 mod row;
 mod water;
 
@@ -91,7 +90,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         report.repeats.extend(report.repeat(&stand, class));
         report.conclude(&classes);
         report.write(folder, &classes)?;
-        let chart = report.chart(class);
+        let chart = report.chart_of_time(class);
         chart.draw(&folder.join(format!("{}.png", class.name.replace('-', "_"))))?;
         if let Some(left) = estimate.after(class, begin.elapsed().as_secs_f64()) {
             println!("     {left}");

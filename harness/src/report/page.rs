@@ -4,10 +4,9 @@ use super::{
     Report,
     class::{Class, Reference},
     finding::{Choice, Finding},
-    plot,
     row::Row,
 };
-use crate::print::percent;
+use crate::{picture::Measure, print::percent};
 use anyhow::Result;
 use std::fmt::Write;
 
@@ -15,7 +14,7 @@ const STYLE: &str = "body{font:16px/1.45 sans-serif;color:#222;max-width:1240px;
     table{border-collapse:collapse;font-size:14px;margin:.6em 0}\
     td,th{padding:.15em .7em;border-bottom:1px solid #ddd;text-align:right}\
     td.l,th.l{text-align:left}tr.d td{font-weight:600}\
-    h2{margin-top:2em}summary{cursor:pointer;color:#06c}svg{width:100%;height:auto}\
+    h2{margin-top:2em}summary{cursor:pointer;color:#06c}figure{display:flex;margin:0}svg{width:50%;height:auto}\
     td.yes{color:#070}td.no{color:#b00}";
 
 /// What the names of settings mean.
@@ -78,7 +77,16 @@ fn section(report: &Report, class: &Class, rows: &[&Row]) -> Result<String> {
         class.resolution,
         reference(class, rows)
     );
-    html += &plot::diagram(class, rows, (report.time.axis(), report.time.of()))?;
+    let updates = Measure::logarithmic(&format!("{} updates", class.update), "");
+    let charts = [
+        report.chart_of_time(class),
+        report.chart(class, updates, |row| row.updates as f64),
+    ];
+    html += "<figure>\n";
+    for chart in charts {
+        html += &chart.svg()?;
+    }
+    html += "</figure>\n";
     html += "<details><summary>table</summary><table><tr><th class=\"l\">setting</th>";
     for name in [
         "resolution",

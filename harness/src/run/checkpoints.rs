@@ -2,9 +2,8 @@
 
 use super::{
     origin,
-    recorder::{Recorder, RunLog},
+    recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
-    schedule::Schedule,
 };
 use anyhow::Result;
 use std::path::{Path, PathBuf};

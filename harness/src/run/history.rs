@@ -1,46 +1,54 @@
 //! Sums over the fluid and the blocks in time: `history.csv` and `history.png`.
 
 use super::{
-    curves,
     recorder::{Recorder, RunLog},
+    rock::Rocks,
     scene_run::SceneRun,
-    schedule::Schedule,
+    table::TimeTable,
 };
 use crate::picture::Track;
 use anyhow::Result;
 use riprap::{
-    output::Csv,
     scene::{self, Quantity},
+    simulation::{Kind, Totals, WaterLedger},
 };
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Points of a curve where the scene does not say how many: enough for a picture.
 const POINTS: f64 = 200.0;
 
-pub struct History {
-    schedule: Schedule,
-    quantities: Vec<Quantity>,
-    path: PathBuf,
-    table: Csv,
-}
-
-impl History {
-    /// Begins the table of the history of this number, or goes on with it after a restart.
-    pub fn new(run: &SceneRun, folder: &Path, last: u64, number: usize) -> Result<Self> {
-        let scene = run.scene();
-        let history = &scene.output.histories[number];
-        let path = folder.join(format!("{}.csv", name(number)));
-        let columns: Vec<&str> = history.quantities.iter().map(|q| q.name()).collect();
-        // Of the scene's run, not of `--steps`: a run in parts has one table.
-        let usual = scene.run.length(run.time_step()) / POINTS;
-        let every = history.every.or(Some(usual));
-        Ok(Self {
-            schedule: Schedule::new(every, run.time_step(), last),
-            quantities: history.quantities.clone(),
-            table: table(run, &path, &columns)?,
-            path,
-        })
-    }
+/// What writes the history of this number.
+///
+/// # Errors
+/// If its table cannot be written.
+pub fn recorder(
+    run: &SceneRun,
+    folder: &Path,
+    last: u64,
+    number: usize,
+) -> riprap::Result<Box<dyn Recorder>> {
+    let scene = run.scene();
+    let history = &scene.output.histories[number];
+    // Of the scene's run, not of `--steps`: a run in parts has one table.
+    let usual = scene.run.length(run.time_step()) / POINTS;
+    let quantities = history.quantities.clone();
+    let track = |quantity: &Quantity| {
+        let (label, unit, _) = about(*quantity, &Present::default());
+        Track::new(label, unit, &[quantity.name()])
+    };
+    let table = TimeTable {
+        name: name(number),
+        every: history.every.or(Some(usual)),
+        columns: quantities.iter().map(|q| q.name().into()).collect(),
+        tracks: quantities.iter().map(track).collect(),
+        title: scene.title.clone(),
+    };
+    table.recorder(run, folder, last, move |run, log| {
+        let of_fluid = quantities.iter().any(|quantity| !quantity.is_of_blocks());
+        let present = Present::of(run, of_fluid, log)?;
+        let values = quantities.iter().map(|q| about(*q, &present).2);
+        Ok(vec![values.collect()])
+    })
 }
 
 /// Name of the files of a history: `history`, `history_2`, ….
@@ -51,83 +59,91 @@ pub fn name(number: usize) -> String {
     }
 }
 
-/// The table at `path`: a new one at the start of a run, else the one that a restart continues.
-pub fn table<S: AsRef<str>>(run: &SceneRun, path: &Path, columns: &[S]) -> riprap::Result<Csv> {
-    match run.step() {
-        0 => Csv::create(path, columns),
-        step => Csv::resume(path, columns, step),
-    }
-}
-
 /// Whether a probe of this name would overwrite a history.
 pub fn claims(histories: &[scene::History], probe: &str) -> bool {
     (0..histories.len()).any(|number| name(number) == probe)
 }
 
-/// Name and unit of a quantity.
-pub fn about(quantity: Quantity) -> (&'static str, &'static str) {
-    match quantity {
-        Quantity::KineticEnergy => ("kinetic energy", "J"),
-        Quantity::Enstrophy => ("enstrophy", "m³/s²"),
-        Quantity::Mass => ("mass", "kg"),
-        Quantity::MomentumX => ("momentum along x", "kg m/s"),
-        Quantity::MomentumY => ("momentum along y", "kg m/s"),
-        Quantity::MomentumZ => ("momentum along z", "kg m/s"),
-        Quantity::MaxSpeed => ("largest speed", "m/s"),
-        Quantity::PotentialEnergy => ("potential energy", "J"),
-        Quantity::CompressionEnergy => ("energy of compression", "J"),
-        Quantity::EscapedEnergy => ("energy of what has left", "J"),
-        Quantity::BodyWork => ("work of blocks on water", "J"),
-        Quantity::PushWork => ("work of walls that push", "J"),
-        Quantity::DummyWork => ("work of dummy particles", "J"),
-        Quantity::DissipatedEnergy => ("energy that water dissipated", "J"),
-        Quantity::JointWork => ("work of blocks in joints", "J"),
-        Quantity::LostToWater => ("energy of blocks lost to water", "J"),
-        Quantity::BlockKineticEnergy => ("kinetic energy of blocks", "J"),
-        Quantity::BlockPotentialEnergy => ("potential energy of blocks", "J"),
-        Quantity::StrainEnergy => ("strain energy of blocks", "J"),
-        Quantity::ContactEnergy => ("elastic energy of contacts", "J"),
-        Quantity::FrictionWork => ("work of friction", "J"),
-        Quantity::DampingWork => ("work of damping", "J"),
-        Quantity::ContactLoss => ("loss in contacts that ended", "J"),
-        Quantity::OutsideWork => ("work of drives and loads", "J"),
-        Quantity::EnergyError => ("error of the energy", ""),
-        Quantity::Contacts => ("contacts", ""),
-        Quantity::AwakeBlocks => ("awake blocks", ""),
-        Quantity::BlockMaxSpeed => ("largest speed of a block", "m/s"),
-        Quantity::MaxVonMises => ("largest von Mises stress", "Pa"),
+/// Sums over what there is; zero without it, which the checks of scenes leave to nobody.
+#[derive(Debug, Default)]
+struct Present {
+    fluid: Totals,
+    water: WaterLedger,
+    rocks: Rocks,
+}
+
+impl Present {
+    fn of(run: &mut SceneRun, of_fluid: bool, log: &mut RunLog) -> Result<Self> {
+        let mut present = Self {
+            rocks: Rocks::of(run).unwrap_or_default(),
+            ..Self::default()
+        };
+        log.block_speed = log.block_speed.max(present.rocks.max_speed);
+        match run.simulation.kind() {
+            Kind::Lattice if of_fluid => {
+                present.fluid = run.totals()?;
+                log.max_speed = log.max_speed.max(present.fluid.max_speed);
+            }
+            Kind::Particles if of_fluid => {
+                let totals = run.water_totals()?;
+                present.fluid = Totals {
+                    mass: totals.mass,
+                    momentum: totals.momentum,
+                    kinetic_energy: totals.kinetic_energy,
+                    enstrophy: f64::NAN,
+                    max_speed: totals.max_speed,
+                };
+                present.water = run.water_ledger()?;
+            }
+            _ => {}
+        }
+        Ok(present)
     }
 }
 
-impl Recorder for History {
-    fn schedule(&self) -> &Schedule {
-        &self.schedule
+/// Name and unit of a quantity, and its present value.
+fn about(quantity: Quantity, now: &Present) -> (&'static str, &'static str, f64) {
+    let (fluid, water, rocks, ledger) = (&now.fluid, &now.water, &now.rocks, &now.rocks.ledger);
+    let damping = ledger.dashpot + ledger.mass_damping + ledger.film;
+    let potential = ledger.potential - rocks.start_potential;
+    match quantity {
+        Quantity::KineticEnergy => ("kinetic energy", "J", fluid.kinetic_energy),
+        Quantity::Enstrophy => ("enstrophy", "m³/s²", fluid.enstrophy),
+        Quantity::Mass => ("mass", "kg", fluid.mass),
+        Quantity::MomentumX => ("momentum along x", "kg m/s", fluid.momentum[0]),
+        Quantity::MomentumY => ("momentum along y", "kg m/s", fluid.momentum[1]),
+        Quantity::MomentumZ => ("momentum along z", "kg m/s", fluid.momentum[2]),
+        Quantity::MaxSpeed => ("largest speed", "m/s", fluid.max_speed),
+        Quantity::PotentialEnergy => ("potential energy", "J", water.potential),
+        Quantity::CompressionEnergy => ("energy of compression", "J", water.compression),
+        Quantity::EscapedEnergy => ("energy of what has left", "J", water.escaped),
+        Quantity::BodyWork => ("work of blocks on water", "J", water.bodies),
+        Quantity::PushWork => ("work of walls that push", "J", water.penalty),
+        Quantity::DummyWork => ("work of dummy particles", "J", water.boundary),
+        Quantity::DissipatedEnergy => ("energy that water dissipated", "J", water.dissipated()),
+        Quantity::JointWork => ("work of blocks in joints", "J", water.joints),
+        Quantity::LostToWater => ("energy of blocks lost to water", "J", water.blocks),
+        Quantity::BlockKineticEnergy => ("kinetic energy of blocks", "J", ledger.kinetic),
+        Quantity::BlockPotentialEnergy => ("potential energy of blocks", "J", potential),
+        Quantity::StrainEnergy => ("strain energy of blocks", "J", ledger.strain),
+        Quantity::ContactEnergy => ("elastic energy of contacts", "J", ledger.elastic),
+        Quantity::FrictionWork => ("work of friction", "J", ledger.friction),
+        Quantity::DampingWork => ("work of damping", "J", damping),
+        Quantity::ContactLoss => ("loss in contacts that ended", "J", ledger.lost),
+        Quantity::OutsideWork => (
+            "work of drives and loads",
+            "J",
+            ledger.driven + ledger.loads,
+        ),
+        Quantity::EnergyError => ("error of the energy", "", rocks.energy_error),
+        Quantity::Contacts => ("contacts", "", rocks.contacts as f64),
+        Quantity::AwakeBlocks => ("awake blocks", "", rocks.awake as f64),
+        Quantity::BlockMaxSpeed => ("largest speed of a block", "m/s", rocks.max_speed),
+        Quantity::MaxVonMises => ("largest von Mises stress", "Pa", rocks.max_von_mises),
     }
+}
 
-    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
-        let values = run.values(&self.quantities, log)?;
-        let (step, time) = (run.step(), run.time());
-        self.table.append(step, time, &values)?;
-        log.file(self.path.clone());
-        Ok(())
-    }
-
-    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
-        let names: Vec<[&str; 1]> = self.quantities.iter().map(|q| [q.name()]).collect();
-        let tracks: Vec<Track<'_>> = self
-            .quantities
-            .iter()
-            .zip(&names)
-            .map(|(quantity, columns)| {
-                let (quantity, unit) = about(*quantity);
-                Track {
-                    quantity,
-                    unit,
-                    columns,
-                }
-            })
-            .collect();
-        let scene = run.scene();
-        curves::draw(scene, &self.path, &scene.title, &tracks, log)
-    }
+/// Unit of a quantity.
+pub fn unit(quantity: Quantity) -> &'static str {
+    about(quantity, &Present::default()).1
 }

@@ -4,13 +4,13 @@
 //! a schedule. The scene advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
 //! the flow diverges, what is on disk is complete and can be continued.
 
-mod batch;
 mod checkpoints;
-mod curves;
+mod collection;
+mod coupling;
 mod estimate;
+mod gauges;
 mod header;
 mod history;
-mod lattice;
 mod left_out;
 mod origin;
 mod progress;
@@ -18,23 +18,22 @@ mod recorder;
 mod rock;
 mod runner;
 mod scene_run;
-mod schedule;
-mod slice_field;
 mod slices;
 mod summary;
+mod table;
 mod throughput;
-mod timings;
 mod views;
+mod wall_units;
 mod water;
 
-pub(crate) use batch::Batch;
 pub(crate) use scene_run::SceneRun;
+pub(crate) use throughput::Batch;
 
+pub use coupling::Coupling;
 pub use estimate::{Estimate, Headline};
-pub use lattice::Coupling;
 pub use left_out::LeftOut;
+pub use recorder::Schedule;
 pub use rock::{Factors, Rocks, Safety};
-pub use schedule::Schedule;
 pub use summary::{Summary, Unfinished};
 pub use water::WaterSummary;
 
@@ -134,7 +133,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     }
     let summary = runner.run_to_end(&mut run, stop)?;
     if args.timings {
-        eprint!("{}", timings::table(&run.simulation.phases()));
+        eprint!("{}", throughput::phase_table(&run.simulation.phases()));
     }
     Ok(summary)
 }

@@ -1,15 +1,14 @@
 //! From the first step to the last, writing what is due on the way.
 
 use super::{
-    batch::Batch,
     checkpoints::Checkpoints,
     header::print_header,
-    history::{self, History},
+    history,
     progress::Progress,
     recorder::{Recorders, RunLog},
     scene_run::SceneRun,
     summary::{Summary, Unfinished},
-    throughput::{Throughput, Timed},
+    throughput::{Batch, Throughput, Timed},
 };
 use anyhow::{Context, Result};
 use riprap::Error;
@@ -51,7 +50,7 @@ impl Runner {
             }
         }
         for number in 0..scene.output.histories.len() {
-            recorders.push(Box::new(History::new(run, folder, last, number)?));
+            recorders.push(history::recorder(run, folder, last, number)?);
         }
         recorders.extend(run.recorders(folder, last)?);
         // Last, so that what it continues from has been written.

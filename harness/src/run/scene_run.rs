@@ -1,15 +1,18 @@
 //! A scene on a device of its own, or on the host where blocks without a fluid need none.
 
 use super::{
-    lattice::{Coupling, Fields, MaxSpeed, ProbeTable},
+    collection,
+    coupling::Coupling,
+    gauges,
     left_out::LeftOut,
-    recorder::{Recorders, RunLog},
-    rock::{self, BlockFiles, Rock, Rocks},
-    slices::Pictures,
+    recorder::{Recorders, RunLog, Schedule},
+    rock::{Rock, Rocks, block_probe},
+    slices,
     summary::Summary,
+    table::TimeTable,
     throughput::Throughput,
     views::{Views, solid_blocks},
-    water::{Clouds, Energies, GaugeTable, WaterSummary},
+    water::{Energies, WaterSummary},
 };
 use crate::{bench::copy_bandwidth, gpu, search};
 use riprap::{
@@ -17,8 +20,11 @@ use riprap::{
     lattice::{Lattice, Memory, bytes_a_cell, bytes_a_step},
     output::{Array, Image},
     rock::{Block, EnergyLedger},
-    scene::{Field, ProbePlace, Quantity, Scene, build::block_setup},
-    simulation::{Kind, Needs, Simulation, Totals, WallUnits, WaterLedger, checkpoint::Checkpoint},
+    scene::{Field, Probe, ProbePlace, Scene, build::block_setup},
+    simulation::{
+        Kind, Needs, Simulation, Totals, WallUnits, WaterLedger, checkpoint::Checkpoint,
+        probe::Gauge,
+    },
     sph::{self, Water},
     units::Units,
     wgpu,
@@ -27,6 +33,9 @@ use std::{path::Path, rc::Rc, time::Duration};
 
 /// Bytes whose copying shows what memory allows: more than caches hold.
 const BYTES: u64 = 128 << 20;
+
+/// Looks at the largest speed in a run, beside those of the histories: seldom enough to cost nothing.
+const LOOKS: f64 = 20.0;
 
 /// Timeout of a wait. A step of 10⁸ cells or 10⁷ particles takes a CPU adapter minutes, and one of as many sub-steps of
 /// contacts as a run may have a quarter of an hour.
@@ -290,97 +299,92 @@ impl SceneRun {
         }
         let water = self.simulation.water();
         let water = Rc::new(drive(self.device.as_ref(), "reading the water", water)?);
-        if let Some(particles) = self.simulation.particles() {
-            let totals = sph::Totals::of(particles.setup(), &water);
-            self.max_water_speed = self.max_water_speed.max(totals.max_speed);
-        }
         self.last_water = Some((step, water.clone()));
+        let totals = self.water_totals()?;
+        self.max_water_speed = self.max_water_speed.max(totals.max_speed);
         Ok(water)
     }
 
-    /// Energies of free water since the start of the scene.
-    fn water_ledger(&mut self) -> Result<WaterLedger> {
+    /// Sums over the particles of free water.
+    pub(super) fn water_totals(&mut self) -> Result<sph::Totals> {
         let water = self.water()?;
-        Ok(self.simulation.ledger(&water)?.since(&self.water_start))
+        let setup = self.simulation.particles().map(sph::SphSolver::setup);
+        let totals = setup.map(|setup| sph::Totals::of(setup, &water));
+        Ok(totals.unwrap_or_default())
     }
 
-    /// The present values of `quantities`.
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub fn values(&mut self, quantities: &[Quantity], log: &mut RunLog) -> Result<Vec<f64>> {
-        let fluid = match self.simulation.kind() {
-            _ if quantities.iter().all(|quantity| quantity.is_of_blocks()) => FluidValues::None,
-            Kind::Rock => FluidValues::None,
-            Kind::Lattice => {
-                let totals = self.totals()?;
-                log.max_speed = log.max_speed.max(totals.max_speed);
-                FluidValues::Lattice(totals)
-            }
-            Kind::Particles => {
-                let water = self.water()?;
-                let setup = self.simulation.particles().map(sph::SphSolver::setup);
-                let totals = setup.map(|setup| sph::Totals::of(setup, &water));
-                FluidValues::Water(totals.unwrap_or_default(), self.water_ledger()?)
-            }
-        };
-        let of_fluid = |quantity| fluid.value(quantity);
-        Ok(rock::values(self.rock(), quantities, log, of_fluid))
+    /// Energies of free water since the start of the scene.
+    pub(super) fn water_ledger(&mut self) -> Result<WaterLedger> {
+        let water = self.water()?;
+        Ok(self.simulation.ledger(&water)?.since(&self.water_start))
     }
 
     /// What writes the files of the scene until the step `last`, besides histories and checkpoints.
     ///
     /// # Errors
     /// If a probe has no place in the scene, or a table cannot be written.
-    pub fn recorders(&mut self, folder: &Path, last: u64) -> anyhow::Result<Recorders> {
-        let scene = self.scene().clone();
+    pub fn recorders(&self, folder: &Path, last: u64) -> Result<Recorders> {
+        let scene = self.scene();
         let kind = self.simulation.kind();
         let mut recorders = Recorders::new();
-        match kind {
-            Kind::Rock => {}
-            Kind::Lattice => recorders.push(Box::new(MaxSpeed::new(self, last))),
-            Kind::Particles => recorders.push(Box::new(Clouds::new(self, folder, last)?)),
-        }
         for probe in &scene.probes {
-            match (&probe.place, kind) {
-                (
-                    ProbePlace::Block {
-                        block,
-                        faces,
-                        safety,
-                    },
-                    _,
-                ) => {
-                    let faces = *faces && kind == Kind::Lattice;
-                    let named = (probe, block.as_str());
-                    recorders.extend(rock::probes(self, folder, last, named, [faces, *safety])?);
-                }
-                (_, Kind::Rock) => {
-                    let message = "measures a fluid, and there is none";
-                    return Err(Error::scene(format!("probes.{}", probe.name), message).into());
-                }
-                (_, Kind::Lattice) => {
-                    recorders.push(Box::new(ProbeTable::new(self, folder, last, probe)?));
-                }
-                (_, Kind::Particles) => {
-                    recorders.push(Box::new(GaugeTable::new(self, folder, last, probe)?));
-                }
-            }
+            recorders.extend(self.probe(folder, last, probe)?);
         }
+        recorders.extend(collection::recorders(self, folder, last)?);
         if kind == Kind::Lattice {
-            recorders.push(Box::new(Fields::new(self, folder, last)?));
-            for slice in &scene.output.slices {
-                recorders.push(Box::new(Pictures::new(self, folder, last, slice)));
-            }
-        }
-        if self.rock().is_some() {
-            recorders.push(Box::new(BlockFiles::new(self, folder, last)?));
+            let every = self.time_step() * last as f64 / LOOKS;
+            let schedule = Schedule::new(Some(every), self.time_step(), last);
+            let look = |run: &mut Self, log: &mut RunLog| {
+                log.max_speed = log.max_speed.max(run.totals()?.max_speed);
+                Ok(())
+            };
+            recorders.push(Box::new((schedule, look)));
+            let slices = scene.output.slices.iter();
+            recorders.extend(slices.map(|slice| slices::recorder(self, folder, last, slice)));
         }
         for view in &scene.views {
             let adapter = self.drawing_adapter.clone();
             recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
         }
         Ok(recorders)
+    }
+
+    /// What writes the tables of a probe.
+    fn probe(&self, folder: &Path, last: u64, probe: &Probe) -> Result<Recorders> {
+        let simulation = &self.simulation;
+        match (&probe.place, simulation.kind()) {
+            (
+                ProbePlace::Block {
+                    block,
+                    faces,
+                    safety,
+                },
+                kind,
+            ) => {
+                let asked = [*faces && kind == Kind::Lattice, *safety];
+                block_probe::recorders(self, folder, last, (probe, block), asked)
+            }
+            (_, Kind::Rock) => {
+                let message = "measures a fluid, and there is none";
+                Err(Error::scene(format!("probes.{}", probe.name), message))
+            }
+            (_, Kind::Lattice) => {
+                let gauge = Gauge::new(self.scene(), simulation.solid(), probe)?;
+                let table = TimeTable {
+                    name: probe.name.clone(),
+                    every: probe.every,
+                    columns: gauge.columns().to_vec(),
+                    tracks: Vec::new(),
+                    title: String::new(),
+                };
+                let recorder = table.recorder(self, folder, last, move |run, _| {
+                    let arrays = run.read(gauge.fields(), gauge.cells())?;
+                    Ok(gauge.rows(&arrays)?)
+                });
+                Ok(vec![recorder?])
+            }
+            (_, Kind::Particles) => Ok(vec![gauges::recorder(self, folder, last, probe)?]),
+        }
     }
 
     /// Where it runs, in a line.
@@ -513,49 +517,4 @@ fn speed(summary: &Summary, throughput: &Throughput) -> (f64, f64) {
         rate * summary.fluid_cells as f64 / 1e6,
         rate * summary.bytes_a_step as f64 / summary.bandwidth,
     )
-}
-
-/// Sums over a fluid.
-enum FluidValues {
-    /// No fluid, or none of its quantities.
-    None,
-    Lattice(Totals),
-    Water(sph::Totals, WaterLedger),
-}
-
-impl FluidValues {
-    /// A quantity of the fluid; NaN for one that it does not have.
-    fn value(&self, quantity: Quantity) -> f64 {
-        match self {
-            Self::None => f64::NAN,
-            Self::Lattice(totals) => match quantity {
-                Quantity::KineticEnergy => totals.kinetic_energy,
-                Quantity::Enstrophy => totals.enstrophy,
-                Quantity::Mass => totals.mass,
-                Quantity::MomentumX => totals.momentum[0],
-                Quantity::MomentumY => totals.momentum[1],
-                Quantity::MomentumZ => totals.momentum[2],
-                Quantity::MaxSpeed => totals.max_speed,
-                _ => f64::NAN,
-            },
-            Self::Water(totals, ledger) => match quantity {
-                Quantity::Mass => totals.mass,
-                Quantity::MomentumX => totals.momentum[0],
-                Quantity::MomentumY => totals.momentum[1],
-                Quantity::MomentumZ => totals.momentum[2],
-                Quantity::KineticEnergy => totals.kinetic_energy,
-                Quantity::PotentialEnergy => ledger.potential,
-                Quantity::CompressionEnergy => ledger.compression,
-                Quantity::EscapedEnergy => ledger.escaped,
-                Quantity::BodyWork => ledger.bodies,
-                Quantity::PushWork => ledger.penalty,
-                Quantity::DummyWork => ledger.boundary,
-                Quantity::DissipatedEnergy => ledger.dissipated(),
-                Quantity::JointWork => ledger.joints,
-                Quantity::LostToWater => ledger.blocks,
-                Quantity::MaxSpeed => totals.max_speed,
-                _ => f64::NAN,
-            },
-        }
-    }
 }

@@ -1,78 +1,56 @@
 //! Pictures of planes: `NAME_000123.png`.
 
 use super::{
-    recorder::{Recorder, RunLog},
+    recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
-    schedule::Schedule,
-    slice_field::SliceQuantity,
     views::immersed,
 };
-use crate::picture::{Plane, Slice};
-use anyhow::Result;
+use crate::{
+    picture::{Plane, Quantity, Slice},
+    render::Colours,
+};
 use riprap::{
     output::Image,
     scene::{self, Field, SliceField},
     simulation::probe::Layer,
 };
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// The pictures of a slice.
-pub struct Pictures {
-    schedule: Schedule,
-    slice: scene::Slice,
-    layer: Layer,
-    /// Added to the title: where the plane is, if the flow has three dimensions.
-    place: String,
-    fields: Vec<Field>,
-    folder: PathBuf,
-}
-
-impl Pictures {
-    /// The pictures of `slice` until the step `last`.
-    pub fn new(run: &SceneRun, folder: &Path, last: u64, slice: &scene::Slice) -> Self {
-        let scene = run.scene();
-        let axis = slice.axis.index();
-        let position = slice.position.unwrap_or(scene.domain.middle()[axis]);
-        let mut fields = vec![SliceQuantity::of(slice.field).field];
-        if slice.streamlines && slice.field != SliceField::Speed {
-            fields.push(Field::Velocity);
-        }
-        if !scene.solids.is_empty() && slice.field != SliceField::Solid {
-            fields.push(Field::Solid);
-        }
-        let place = match scene.cells()[axis] {
-            1 => String::new(),
-            _ => format!(", {} = {position} m", slice.axis.name()),
-        };
-        Self {
-            schedule: Schedule::new(slice.every.or(scene.output.every), run.time_step(), last),
-            slice: slice.clone(),
-            layer: Layer::new(scene, slice.axis, position),
-            place,
-            fields,
-            folder: folder.to_owned(),
-        }
+/// What draws the pictures of `slice` until the step `last`.
+pub fn recorder(
+    run: &SceneRun,
+    folder: &Path,
+    last: u64,
+    slice: &scene::Slice,
+) -> Box<dyn Recorder> {
+    let scene = run.scene();
+    let axis = slice.axis.index();
+    let position = slice.position.unwrap_or(scene.domain.middle()[axis]);
+    let shown = SliceQuantity::of(slice.field);
+    let mut fields = vec![shown.field];
+    if slice.streamlines && slice.field != SliceField::Speed {
+        fields.push(Field::Velocity);
     }
-}
-
-impl Recorder for Pictures {
-    fn schedule(&self) -> &Schedule {
-        &self.schedule
+    if !scene.solids.is_empty() && slice.field != SliceField::Solid {
+        fields.push(Field::Solid);
     }
-
-    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
-        let (step, time) = (run.step(), run.time());
+    let place = match scene.cells()[axis] {
+        1 => String::new(),
+        _ => format!(", {} = {position} m", slice.axis.name()),
+    };
+    let title = format!("{}{place}", scene.title);
+    let layer = Layer::new(scene, slice.axis, position);
+    let schedule = Schedule::new(slice.every.or(scene.output.every), run.time_step(), last);
+    let (folder, slice) = (folder.to_owned(), slice.clone());
+    let record = move |run: &mut SceneRun, log: &mut RunLog| {
         let image = Image {
-            arrays: run.read(&self.fields, self.layer.cells())?,
-            ..self.layer.frame()
+            arrays: run.read(&fields, layer.cells())?,
+            ..layer.frame()
         };
-        let shown = SliceQuantity::of(self.slice.field);
         let poses = run.poses();
-        let title = format!("{}{}", run.scene().title, self.place);
-        let axis = self.slice.axis.index();
-        let slice = Slice {
+        let drawn = Slice {
             title: &title,
-            time,
+            time: run.time(),
             plane: Plane {
                 normal: axis,
                 position: image.origin[axis] + 0.5 * image.spacing,
@@ -80,15 +58,56 @@ impl Recorder for Pictures {
             quantity: shown.quantity(),
             label: shown.label,
             unit: shown.unit,
-            range: self.slice.range,
-            streamlines: self.slice.streamlines,
+            range: slice.range,
+            streamlines: slice.streamlines,
             blocks: &immersed(run, &poses),
         };
-        let path = self
-            .folder
-            .join(format!("{}_{step:06}.png", self.slice.name));
-        let drawn = slice.draw(&image, &path);
+        let path = folder.join(format!("{}_{:06}.png", slice.name, run.step()));
+        let drawn = drawn.draw(&image, &path);
         log.picture(path, drawn);
         Ok(())
+    };
+    Box::new((schedule, record))
+}
+
+/// How a field of a slice is shown.
+pub struct SliceQuantity {
+    /// The field that it is taken from.
+    pub field: Field,
+    /// Its name.
+    pub label: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+impl SliceQuantity {
+    /// How `field` is shown.
+    pub fn of(field: SliceField) -> Self {
+        let (field, label, unit) = match field {
+            SliceField::Speed => (Field::Velocity, "speed", "m/s"),
+            SliceField::Pressure => (Field::Pressure, "pressure", "Pa"),
+            SliceField::Density => (Field::Density, "density", "kg/m³"),
+            SliceField::EddyViscosity => (Field::EddyViscosity, "eddy viscosity", "m²/s"),
+            SliceField::QCriterion => (Field::QCriterion, "Q", "s⁻²"),
+            SliceField::Solid => (Field::Solid, "solid", ""),
+        };
+        Self { field, label, unit }
+    }
+
+    /// What is shown of the array of its field.
+    pub fn quantity(&self) -> Quantity<'static> {
+        match self.field {
+            Field::Velocity => Quantity::Magnitude(self.field.name()),
+            _ => Quantity::Scalar(self.field.name()),
+        }
+    }
+
+    /// Its colours in space.
+    pub fn colours(&self, range: Option<[f64; 2]>) -> Colours {
+        Colours {
+            label: self.label.into(),
+            unit: self.unit.into(),
+            range,
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! What a run was, for people and for programs: `summary.json`.
 
 use super::{
+    coupling::Coupling,
     estimate::Estimate,
-    lattice::Coupling,
     left_out::LeftOut,
     progress::clock,
     recorder::RunLog,

@@ -1,6 +1,8 @@
-//! How fast a run goes: its first steps, in which drivers compile the kernels, are timed apart.
+//! How fast a run goes, how many steps it submits at a time, and the times of their phases. Its first steps, in which
+//! drivers compile the kernels, are timed apart.
 
-use std::time::Duration;
+use riprap::simulation::Phase;
+use std::{fmt::Write, time::Duration};
 
 /// Steps that are timed apart: an in-place lattice has kernels for even and for odd steps, and drivers compile each at its
 /// first dispatch.
@@ -62,6 +64,54 @@ impl Throughput {
     }
 }
 
+/// Long enough to hide what a submission costs, short enough for Ctrl-C and for drivers that end
+/// long work.
+const BATCH_TIME: f64 = 0.25;
+/// Growth from one batch to the next: a first measurement on a cold device may be far off.
+const GROWTH: u64 = 4;
+
+/// Steps a submission, learnt from those before.
+#[derive(Clone, Copy, Debug)]
+pub struct Batch(u64);
+
+impl Batch {
+    pub fn new() -> Self {
+        Self(1)
+    }
+
+    /// Steps to submit.
+    pub fn steps(&self) -> u64 {
+        self.0
+    }
+
+    /// `steps` took `time`.
+    pub fn learn(&mut self, steps: u64, time: Duration) {
+        let fit = BATCH_TIME * steps as f64 / time.as_secs_f64().max(1e-9);
+        // A batch that an output cut short says nothing against longer ones.
+        let most = GROWTH * self.0.max(steps);
+        self.0 = (fit as u64).clamp(1, most);
+    }
+}
+
+/// A line for each phase: its name, how often it ran, and its times.
+pub fn phase_table(phases: &[Phase]) -> String {
+    let mut text = format!(
+        "{:20} {:>10} {:>12} {:>12}\n",
+        "phase", "times", "mean, ms", "total, s"
+    );
+    for Phase {
+        name,
+        count,
+        seconds,
+    } in phases
+    {
+        let mean = 1e3 * seconds / (*count).max(1) as f64;
+        // A String takes all that is written to it.
+        let _ = writeln!(text, "{name:20} {count:>10} {mean:>12.4} {seconds:>12.4}");
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,5 +140,17 @@ mod tests {
         let warm = throughput.warm();
         assert!((warm.rate(warm.steps) - 100.0).abs() < 1e-9);
         assert!((warm.rate(warm.fluid_steps) - 300.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_phase_has_its_mean_and_its_total() {
+        let phase = Phase {
+            name: "bulk".into(),
+            count: 4,
+            seconds: 0.01,
+        };
+        let text = phase_table(&[phase]);
+        let line: Vec<_> = text.lines().nth(1).unwrap().split_whitespace().collect();
+        assert_eq!(line, ["bulk", "4", "2.5000", "0.0100"]);
     }
 }

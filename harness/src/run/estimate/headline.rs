@@ -81,7 +81,7 @@ pub fn of(
     let mut found: Vec<Found> = Vec::new();
     for (column, values) in &read[0].columns {
         let asked = quantities.iter().find(|known| known.name() == column);
-        let known = asked.map(|asked| (column.clone(), history::about(*asked).1));
+        let known = asked.map(|asked| (column.clone(), history::unit(*asked)));
         let Some(quantity) = known.or_else(|| headline(column)) else {
             continue;
         };

@@ -1,150 +1,196 @@
-//! A table for each block that a probe follows, `NAME.csv`, and its forces and torques over time, `NAME.png`.
+//! Tables of a block that a probe follows: `NAME.csv`, its forces and torques over time, `NAME.png`, and the loads on its
+//! faces, `NAME_faces.csv`.
 
 use super::super::{
-    curves,
-    history::table,
-    recorder::{Recorder, RunLog},
+    recorder::{Recorder, Recorders},
     scene_run::SceneRun,
-    schedule::Schedule,
+    table::TimeTable,
 };
-use super::{Rock, Safety, forces};
-use anyhow::Result;
+use super::{Rock, Safety};
+use crate::picture::Track;
 use glam::DVec3;
 use riprap::{
-    Error, coupling::Coupled, output::Csv, safety::Standing, scene::Probe, simulation::voigt,
+    Error,
+    coupling::{Coupled, JointLoad},
+    psm::FaceLoad,
+    safety::Standing,
+    scene::Probe,
+    simulation::voigt,
 };
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// What is measured of every block, each along x, y and z.
-const MEASURED: [&str; 6] = [
-    "position", "velocity", "rotation", "spin", "force", "torque",
-];
-/// What is measured of a block in a fluid as well.
-const IN_FLUID: [&str; 3] = ["fluid_force", "fluid_torque", "buoyancy"];
-/// What is measured where films of fluid push blocks that nearly touch.
-const FILM: &str = "film_force";
-/// What is measured of a block with fixed points as well: the force with which they hold it.
-const SUPPORT: &str = "support";
-/// What is measured of a deformable block as well: Cauchy stress along the axes of the world, Pa, the von
-/// Mises stress, Pa, and the strain energy, J.
-const STRESSED: [&str; 8] = [
+/// Names of the Cauchy stresses of a deformable block along the axes of the world, Pa.
+const STRESSES: [&str; 6] = [
     "stress_xx",
     "stress_yy",
     "stress_zz",
     "stress_xy",
     "stress_yz",
     "stress_xz",
-    "von_mises",
-    "strain_energy",
 ];
 
-/// What its faces show: the force of the fluid on those that look down, against gravity, and the mean pressure on those
-/// in joints, closed ones too.
-const OF_FACES: [&str; 2] = ["uplift_of_faces", "joint_pressure"];
-/// How safely it stands.
-const SAFETY: [&str; 3] = ["safety_sliding", "safety_uplift", "safety_toppling"];
+/// Columns, and their values in a row.
+#[derive(Default)]
+struct Row(Vec<(String, f64)>);
 
-pub struct BlockProbe {
-    schedule: Schedule,
-    block: usize,
-    faces: bool,
-    safety: bool,
-    path: PathBuf,
-    table: Csv,
-}
+impl Row {
+    fn number(&mut self, name: &str, value: f64) {
+        self.0.push((name.into(), value));
+    }
 
-impl BlockProbe {
-    /// Begins the table of the block called `name`, or goes on with it after a restart.
-    pub fn new(
-        run: &SceneRun,
-        folder: &Path,
-        last: u64,
-        (probe, name): (&Probe, &str),
-        [faces, safety]: [bool; 2],
-    ) -> Result<Self> {
-        let (rock, block) = find(run, probe, name)?;
-        let mut measured = MEASURED.to_vec();
-        if block < rock.loads.len() {
-            measured.extend(IN_FLUID);
+    fn vector(&mut self, name: &str, value: DVec3) {
+        for (axis, value) in ["x", "y", "z"].into_iter().zip(value.to_array()) {
+            self.number(&format!("{name}_{axis}"), value);
         }
-        if rock.setup.film.is_some() {
-            measured.push(FILM);
-        }
-        if rock.blocks.support(block).is_some() {
-            measured.push(SUPPORT);
-        }
-        let stressed = rock.blocks.stress(block).is_some();
-        let along = |what: &&str| ["x", "y", "z"].map(|axis| format!("{what}_{axis}"));
-        let mut columns: Vec<String> = measured.iter().flat_map(along).collect();
-        if stressed {
-            columns.extend(STRESSED.map(Into::into));
-        }
-        if faces {
-            columns.extend(OF_FACES.map(String::from));
-        }
-        if safety {
-            columns.extend(SAFETY.map(String::from));
-        }
-        let path = folder.join(format!("{}.csv", probe.name));
-        Ok(Self {
-            schedule: Schedule::new(probe.every, run.time_step(), last),
-            table: table(run, &path, &columns)?,
-            block,
-            faces,
-            safety,
-            path,
-        })
+    }
+
+    fn columns(self) -> Vec<String> {
+        self.0.into_iter().map(|(name, _)| name).collect()
+    }
+
+    fn values(self) -> Vec<f64> {
+        self.0.into_iter().map(|(_, value)| value).collect()
     }
 }
 
-/// The blocks of a run, and the number of that which a probe follows.
-pub fn find<'a>(run: &'a SceneRun, probe: &Probe, name: &str) -> riprap::Result<(Rock<'a>, usize)> {
+/// What writes the tables of a probe of the block called `name`.
+///
+/// # Errors
+/// If there is no such block, or a table cannot be written.
+pub fn recorders(
+    run: &SceneRun,
+    folder: &Path,
+    last: u64,
+    (probe, name): (&Probe, &str),
+    [faces, safety]: [bool; 2],
+) -> riprap::Result<Recorders> {
     let found = run.rock().and_then(|rock| {
         let mut blocks = rock.setup.blocks.iter();
         Some((rock, blocks.position(|block| block.name == name)?))
     });
-    found.ok_or_else(|| {
+    let (rock, block) = found.ok_or_else(|| {
         Error::scene(
             format!("probes.{}", probe.name),
             format!("there is no block `{name}`"),
         )
+    })?;
+    let row = move |rock: &Rock<'_>, standing: Option<&Standing>| {
+        let mut row = measure(rock, block);
+        if let (true, Some(coupled)) = (faces, rock.coupled) {
+            measure_faces(&mut row, coupled, block, rock.blocks.gravity());
+        }
+        if let Some(standing) = standing {
+            row.number("safety_sliding", standing.sliding.factor);
+            row.number("safety_uplift", standing.uplift);
+            row.number("safety_toppling", standing.toppling);
+        }
+        row
+    };
+    let mut tracks = Vec::new();
+    let mut vectors = vec![("contacts", "")];
+    if block < rock.loads.len() {
+        vectors.insert(0, ("fluid", "fluid_"));
+    }
+    for (of, prefix) in vectors {
+        for (what, unit) in [("force", "N"), ("torque", "N m")] {
+            let columns = ["x", "y", "z"].map(|axis| format!("{prefix}{what}_{axis}"));
+            let columns = columns.each_ref().map(String::as_str);
+            tracks.push(Track::new(&format!("{what} of {of}"), unit, &columns));
+        }
+    }
+    let now = safety.then(|| standing(&rock, block));
+    let table = TimeTable {
+        name: probe.name.clone(),
+        every: probe.every,
+        columns: row(&rock, now.as_ref()).columns(),
+        tracks,
+        title: format!("{}: {name}", run.scene().title),
+    };
+    let mut recorders = vec![table.recorder(run, folder, last, move |run, log| {
+        let Some(rock) = run.rock() else {
+            return Ok(Vec::new());
+        };
+        let now = safety.then(|| standing(&rock, block));
+        if let Some(now) = &now {
+            Safety::note(&mut log.safety, rock.blocks.name(block), rock.time, now);
+        }
+        Ok(vec![row(&rock, now.as_ref()).values()])
+    })?];
+    if faces {
+        recorders.push(face_table(run, folder, last, probe, block)?);
+    }
+    Ok(recorders)
+}
+
+/// What writes the loads on the faces of a block.
+fn face_table(
+    run: &SceneRun,
+    folder: &Path,
+    last: u64,
+    probe: &Probe,
+    block: usize,
+) -> riprap::Result<Box<dyn Recorder>> {
+    let table = TimeTable {
+        name: format!("{}_faces", probe.name),
+        every: probe.every,
+        columns: face_row(&FaceLoad::default(), false, None).columns(),
+        tracks: Vec::new(),
+        title: String::new(),
+    };
+    table.recorder(run, folder, last, move |run, _| {
+        let Some(coupled) = run.rock().and_then(|rock| rock.coupled) else {
+            return Ok(Vec::new());
+        };
+        let loads = coupled.face_loads(block).iter();
+        let closed = coupled.joint_loads(block);
+        let joints = loads.zip(coupled.faces_in_joints(block)).enumerate();
+        let row = |(number, (load, joint))| face_row(load, joint, closed.get(number)).values();
+        Ok(joints.map(row).collect())
     })
 }
 
-/// The vectors of `MEASURED`, of `IN_FLUID` where there is one, of `FILM` where there may be any, and of `SUPPORT` where
-/// something holds it.
-fn measure(rock: &Rock<'_>, block: usize) -> Vec<DVec3> {
+/// Motion and forces; what only a block in a fluid, with films, with fixed points or a deformable one has, where it does.
+fn measure(rock: &Rock<'_>, block: usize) -> Row {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
     let at_start = rock.setup.blocks[block].rotation;
     let turned = (blocks.rotation(block) * at_start.conjugate()).to_scaled_axis();
-    let mut all = vec![pose.centre, pose.velocity, turned.map(f64::to_degrees)];
-    all.extend(blocks.spins().nth(block));
-    all.extend(blocks.contact_forces().nth(block));
-    all.extend(blocks.contact_torques().nth(block));
+    let mut row = Row::default();
+    row.vector("position", pose.centre);
+    row.vector("velocity", pose.velocity);
+    row.vector("rotation", turned.map(f64::to_degrees));
+    row.vector("spin", blocks.spins().nth(block).unwrap_or_default());
+    let mut forces = blocks.contact_forces().zip(blocks.contact_torques());
+    let (force, torque) = forces.nth(block).unwrap_or_default();
+    row.vector("force", force);
+    row.vector("torque", torque);
     if let Some(load) = rock.loads.get(block) {
-        all.extend([load.flow.force, load.flow.torque(), load.buoyancy.force]);
+        row.vector("fluid_force", load.flow.force);
+        row.vector("fluid_torque", load.flow.torque());
+        row.vector("buoyancy", load.buoyancy.force);
     }
     if rock.setup.film.is_some() {
-        all.extend(blocks.film_forces().get(block));
+        let forces = blocks.film_forces();
+        row.vector("film_force", forces.get(block).copied().unwrap_or_default());
     }
-    all.extend(blocks.support(block));
-    all
+    // The force with which fixed points hold it.
+    if let Some(support) = blocks.support(block) {
+        row.vector("support", support);
+    }
+    if let Some(stress) = blocks.stress(block) {
+        for (name, value) in STRESSES.into_iter().zip(voigt(stress)) {
+            row.number(name, value);
+        }
+        row.number("von_mises", blocks.von_mises(block).unwrap_or_default());
+        let energy = blocks.strain_energy(block);
+        row.number("strain_energy", energy.unwrap_or_default());
+    }
+    row
 }
 
-/// The numbers of `STRESSED`; none of a rigid block.
-fn stressed(rock: &Rock<'_>, block: usize) -> Vec<f64> {
-    let Some(stress) = rock.blocks.stress(block) else {
-        return Vec::new();
-    };
-    let mut all = voigt(stress).to_vec();
-    all.extend(rock.blocks.von_mises(block));
-    all.extend(rock.blocks.strain_energy(block));
-    all
-}
-
-/// Those of `OF_FACES`.
-fn measure_faces(coupled: Coupled<'_>, block: usize, gravity: DVec3) -> [f64; 2] {
+/// The force of the fluid on faces that look down, against gravity, and the mean pressure on those in joints, closed ones
+/// too.
+fn measure_faces(row: &mut Row, coupled: Coupled<'_>, block: usize, gravity: DVec3) {
     let up = -gravity.normalize_or_zero();
     let loads = coupled.face_loads(block);
     let closed = coupled.joint_loads(block);
@@ -160,7 +206,31 @@ fn measure_faces(coupled: Coupled<'_>, block: usize, gravity: DVec3) -> [f64; 2]
             area += load.wetted + closed.area;
         }
     }
-    [uplift, force / area]
+    row.number("uplift_of_faces", uplift);
+    row.number("joint_pressure", force / area);
+}
+
+/// A face, which has a closed joint or not.
+fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
+    let face = &load.face;
+    let shear = load.shear();
+    let mut row = Row::default();
+    row.number("part", face.part as f64);
+    row.number("face", face.face as f64);
+    row.number("area", face.area);
+    row.number("wetted_area", load.wetted);
+    row.number("pressure", load.pressure());
+    row.number("shear", shear.length());
+    row.number("joint", f64::from(u8::from(joint)));
+    row.number("joint_area", closed.map_or(0.0, |closed| closed.area));
+    let pressure = |closed: &JointLoad| -closed.force.dot(face.normal) / closed.area;
+    row.number("joint_pressure", closed.map_or(f64::NAN, pressure));
+    row.vector("position", face.centre);
+    row.vector("normal", face.normal);
+    row.vector("force", load.force);
+    row.vector("moment", load.moment);
+    row.vector("shear", shear);
+    row
 }
 
 /// How a block stands: in its closed joints is the water that is at their rim.
@@ -176,43 +246,4 @@ fn standing(rock: &Rock<'_>, block: usize) -> Standing {
         ]
     };
     Standing::of(rock.setup, rock.blocks, block, fluid.unwrap_or_else(whole))
-}
-
-impl Recorder for BlockProbe {
-    fn schedule(&self) -> &Schedule {
-        &self.schedule
-    }
-
-    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
-        if let Some(rock) = run.rock() {
-            let vectors = measure(&rock, self.block).into_iter();
-            let mut values: Vec<f64> = vectors.flat_map(|vector| vector.to_array()).collect();
-            values.extend(stressed(&rock, self.block));
-            if let (true, Some(coupled)) = (self.faces, rock.coupled) {
-                values.extend(measure_faces(coupled, self.block, rock.blocks.gravity()));
-            }
-            if self.safety {
-                let now = standing(&rock, self.block);
-                values.extend([now.sliding.factor, now.uplift, now.toppling]);
-                let name = rock.blocks.name(self.block);
-                Safety::note(&mut log.safety, name, rock.time, &now);
-            }
-            self.table.append(rock.step, rock.time, &values)?;
-            log.file(self.path.clone());
-        }
-        Ok(())
-    }
-
-    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
-        let Some(rock) = run.rock() else {
-            return Ok(());
-        };
-        let mut tracks = forces::FORCES.to_vec();
-        if self.block < rock.loads.len() {
-            tracks.splice(..0, forces::IN_FLUID);
-        }
-        let scene = run.scene();
-        let title = format!("{}: {}", scene.title, rock.blocks.name(self.block));
-        curves::draw(scene, &self.path, &title, &tracks, log)
-    }
 }

@@ -1,28 +1,16 @@
 //! The blocks of a run, with or without a fluid around them.
 
-mod block_files;
-mod block_probe;
-mod face_table;
-mod forces;
+pub mod block_probe;
 mod rocks;
 mod safety;
-mod values;
 
-pub use block_files::BlockFiles;
-use block_probe::BlockProbe;
-use face_table::FaceTable;
 pub use rocks::Rocks;
 pub use safety::{Factors, Safety};
-pub use values::values;
 
-use super::{recorder::Recorders, scene_run::SceneRun};
-use anyhow::Result;
 use riprap::{
     coupling::{Coupled, FluidLoad},
     rock::{Blocks, EnergyLedger, Motion, Setup},
-    scene::Probe,
 };
-use std::path::Path;
 
 /// The blocks of a run as they are now.
 #[derive(Clone, Copy)]
@@ -43,24 +31,6 @@ pub struct Rock<'a> {
     pub shown: usize,
     /// Energies at the start, those that a restart has not seen included.
     pub start: &'a EnergyLedger,
-}
-
-/// What writes the tables of a probe of the block called `name`.
-pub fn probes(
-    run: &SceneRun,
-    folder: &Path,
-    last: u64,
-    (probe, name): (&Probe, &str),
-    [faces, safety]: [bool; 2],
-) -> Result<Recorders> {
-    let named = (probe, name);
-    let block = BlockProbe::new(run, folder, last, named, [faces, safety])?;
-    let mut recorders: Recorders = vec![Box::new(block)];
-    if faces {
-        let (_, block) = block_probe::find(run, probe, name)?;
-        recorders.push(Box::new(FaceTable::new(run, folder, last, (probe, block))?));
-    }
-    Ok(recorders)
 }
 
 impl Rock<'_> {

@@ -1,7 +1,9 @@
 //! A run of blocks in numbers.
 
 use super::super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
-use serde::Serialize;
+use super::Rock;
+use riprap::rock::EnergyLedger;
+use serde::{Serialize, Serializer};
 use std::fmt;
 
 /// What blocks did.
@@ -28,40 +30,22 @@ pub struct Rocks {
     /// Largest speed of a centroid that was seen, m/s.
     pub max_speed_seen: f64,
     /// Energies, J.
-    pub ledger: Energies,
-    /// What the balance of energies has gained since the start, as a part of what was turned over.
+    #[serde(serialize_with = "energies")]
+    pub ledger: EnergyLedger,
+    /// Potential energy at the start of the scene, J.
+    #[serde(skip)]
+    pub start_potential: f64,
+    /// Largest von Mises stress of deformable blocks, Pa.
+    #[serde(skip)]
+    pub max_von_mises: f64,
+    /// What the balance of energies has gained since the start, as a part of what was turned over. The balance counts
+    /// what ended contacts held, [`EnergyLedger::lost`].
     pub energy_error: f64,
-    /// What contacts held when they ended, as a part of what was turned over.
+    /// What contacts held when they ended, as a part of what was turned over: the error of the contact law, positive
+    /// where it takes energy out.
     pub contact_loss: f64,
     /// Steps a second, without what was written and without the first ones, in which kernels are compiled.
     pub steps_a_second: f64,
-}
-
-/// Energies of blocks, J.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Energies {
-    /// Kinetic.
-    pub kinetic: f64,
-    /// Potential in gravity, from the origin of the coordinates.
-    pub potential: f64,
-    /// Of strain, in the deformable blocks.
-    pub strain: f64,
-    /// In the springs of the present contacts; may be negative, see [`riprap::rock::EnergyLedger`].
-    pub elastic: f64,
-    /// Taken by friction.
-    pub friction: f64,
-    /// Taken by the dashpots of contacts.
-    pub dashpot: f64,
-    /// Taken by mass damping.
-    pub mass_damping: f64,
-    /// Taken by films of fluid between blocks that nearly touch.
-    pub film: f64,
-    /// Held by the springs of contacts when these ended: taken out, or put in where it is negative.
-    pub lost: f64,
-    /// Done by driven blocks.
-    pub driven: f64,
-    /// Done by loads.
-    pub loads: f64,
 }
 
 impl Rocks {
@@ -81,21 +65,13 @@ impl Rocks {
             sub_step: blocks.time_step().min(run.time_step()),
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
-            energy_error: rock.energy_error(&ledger),
-            contact_loss: rock.contact_loss(&ledger),
-            ledger: Energies {
-                kinetic: ledger.kinetic,
-                potential: ledger.potential,
-                strain: ledger.strain,
-                elastic: ledger.elastic,
-                friction: ledger.friction,
-                dashpot: ledger.dashpot,
-                mass_damping: ledger.mass_damping,
-                film: ledger.film,
-                lost: ledger.lost,
-                driven: ledger.driven,
-                loads: ledger.loads,
-            },
+            energy_error: rock.of_turnover(&ledger, ledger.balance() - rock.start.balance()),
+            contact_loss: rock.of_turnover(&ledger, ledger.lost - rock.start.lost),
+            ledger,
+            start_potential: rock.start.potential,
+            max_von_mises: (0..rock.shown)
+                .filter_map(|block| blocks.von_mises(block))
+                .fold(0.0, f64::max),
             steps_a_second: 0.0,
         })
     }
@@ -111,6 +87,42 @@ impl Rocks {
             ..now
         })
     }
+}
+
+impl Rock<'_> {
+    /// `energy` as a part of what has been turned over: the kinetic energy now and at the start, the change of the
+    /// potential one, the strain, all that was taken, and what was put in.
+    fn of_turnover(&self, now: &EnergyLedger, energy: f64) -> f64 {
+        let turned = now.kinetic
+            + self.start.kinetic
+            + (now.potential - self.start.potential).abs()
+            + (now.strain - self.start.strain).abs()
+            + now.elastic.abs()
+            + now.friction
+            + now.dashpot
+            + now.mass_damping
+            + now.film
+            + now.lost.abs()
+            + now.driven.abs()
+            + now.loads.abs();
+        if turned > 0.0 { energy / turned } else { 0.0 }
+    }
+}
+
+fn energies<S: Serializer>(ledger: &EnergyLedger, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map([
+        ("kinetic", ledger.kinetic),
+        ("potential", ledger.potential),
+        ("strain", ledger.strain),
+        ("elastic", ledger.elastic),
+        ("friction", ledger.friction),
+        ("dashpot", ledger.dashpot),
+        ("mass_damping", ledger.mass_damping),
+        ("film", ledger.film),
+        ("lost", ledger.lost),
+        ("driven", ledger.driven),
+        ("loads", ledger.loads),
+    ])
 }
 
 impl fmt::Display for Rocks {

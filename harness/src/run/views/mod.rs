@@ -1,13 +1,10 @@
 //! Pictures in space.
 
-mod coarse;
 mod fluid;
 mod frame;
 mod recorder;
 mod shown;
-mod solids;
 mod stage;
 
 pub use recorder::Views;
-pub use shown::immersed;
-pub use solids::solid_blocks;
+pub use shown::{immersed, solid_blocks};

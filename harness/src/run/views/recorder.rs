@@ -2,9 +2,8 @@
 //! of them in turn as `NAME.png`.
 
 use super::super::{
-    recorder::{Recorder, RunLog},
+    recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
-    schedule::Schedule,
 };
 use super::{fluid::Fluid, frame::Frame, stage::Stage};
 use crate::render::{Picture, animate};

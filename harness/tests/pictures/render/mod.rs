@@ -6,7 +6,6 @@ mod drops;
 mod fixture;
 mod fluid;
 mod frame;
-mod lines;
 mod refusals;
 mod sequences;
 mod shading;

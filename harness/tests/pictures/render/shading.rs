@@ -7,9 +7,7 @@ use glam::DVec3;
 use riprap::geometry::Polyhedron;
 use riprap::wgpu::naga;
 use riprap_harness::picture::Palette;
-use riprap_harness::render::{
-    Camera, Drawing, Ground, Instance, Mesh, SHADERS, Surface, Vertex, View,
-};
+use riprap_harness::render::{Camera, Drawing, Ground, Instance, Mesh, SHADERS, View};
 
 #[test]
 fn shaders_are_valid() {
@@ -63,10 +61,9 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
 }
 
 #[test]
-fn fixed_blocks_are_grey_and_surfaces_without_light_have_their_own_colour() {
-    let size = [120, 90];
+fn fixed_blocks_are_grey() {
     let meshes = [plain_cube()];
-    let mut drawing = Drawing {
+    let drawing = Drawing {
         meshes: &meshes,
         instances: vec![Instance {
             value: Some(1.0),
@@ -76,23 +73,8 @@ fn fixed_blocks_are_grey_and_surfaces_without_light_have_their_own_colour() {
         view: View::From(level()),
         ..Drawing::default()
     };
-    let [r, g, b] = render(&drawing, size).pixel(60, 45);
+    let [r, g, b] = render(&drawing, [120, 90]).pixel(60, 45);
     assert!(r == g && g == b && r < 255, "{r} {g} {b}");
-    // A triangle before it.
-    let colour = [17, 130, 201];
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.5]];
-    drawing.surfaces = vec![Surface {
-        vertices: corners
-            .map(|[x, z]| Vertex {
-                position: DVec3::new(x, -1.0, z),
-                normal: -DVec3::Y,
-            })
-            .to_vec(),
-        colours: vec![colour; 3],
-        triangles: vec![[0, 1, 2]],
-        lit: false,
-    }];
-    assert_eq!(render(&drawing, size).pixel(60, 45), colour);
 }
 
 #[test]

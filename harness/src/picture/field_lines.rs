@@ -1,6 +1,6 @@
-//! Lines along a field of directions.
+//! Lines along a field of directions, their distances from each other, and the arrow heads on them.
 
-use super::taken::Taken;
+use std::collections::HashMap;
 
 /// A field of unit vectors in `D` dimensions, and how lines through it are followed.
 pub struct Field<const D: usize, F> {
@@ -72,4 +72,83 @@ impl<const D: usize, F: Fn([f64; D]) -> Option<[f64; D]>> Field<D, F> {
         let after = ahead(mean, 1.0);
         (self.direction)(after).map(|_| after)
     }
+}
+
+/// Points of `D` coordinates, sorted into bins to find those near a place.
+pub struct Taken<const D: usize> {
+    bin: f64,
+    points: HashMap<[i64; D], Vec<[f64; D]>>,
+}
+
+impl<const D: usize> Taken<D> {
+    /// For distances up to `bin` (m).
+    pub fn new(bin: f64) -> Self {
+        Self {
+            bin,
+            points: HashMap::new(),
+        }
+    }
+
+    fn place(&self, point: [f64; D]) -> [i64; D] {
+        point.map(|coordinate| (coordinate / self.bin).floor() as i64)
+    }
+
+    pub fn add(&mut self, point: [f64; D]) {
+        self.points
+            .entry(self.place(point))
+            .or_default()
+            .push(point);
+    }
+
+    /// Whether a point is nearer than `distance` to `point`.
+    pub fn near(&self, point: [f64; D], distance: f64) -> bool {
+        let place = self.place(point);
+        // The bin and its 3^D − 1 neighbours, counted in base 3.
+        (0..3_i64.pow(D as u32)).any(|number| {
+            let mut digits = number;
+            let neighbour = place.map(|along| {
+                let step = digits % 3 - 1;
+                digits /= 3;
+                along + step
+            });
+            let points = self.points.get(&neighbour).into_iter().flatten();
+            points
+                .into_iter()
+                .any(|other| square(*other, point) < distance * distance)
+        })
+    }
+}
+
+fn square<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+}
+
+/// An arrow head.
+pub struct Arrow<const D: usize> {
+    /// Number of the point that it stands at.
+    pub point: usize,
+    /// Direction, a unit vector.
+    pub towards: [f64; D],
+}
+
+/// Arrow heads on a line in `D` dimensions, about `apart` from each other, one at least.
+pub fn arrows<const D: usize>(points: &[[f64; D]], apart: f64) -> Vec<Arrow<D>> {
+    let length = |pair: &[[f64; D]]| {
+        let square = (0..D).map(|axis| (pair[1][axis] - pair[0][axis]).powi(2));
+        square.sum::<f64>().sqrt()
+    };
+    let whole: f64 = points.windows(2).map(length).sum();
+    let count = (whole / apart).round().max(1.0);
+    let mut arrows = Vec::new();
+    let mut passed = 0.0;
+    for (point, pair) in points.windows(2).enumerate() {
+        let step = length(pair);
+        let next = (arrows.len() as f64 + 0.5) * whole / count;
+        if step > 0.0 && passed + step >= next && (arrows.len() as f64) < count {
+            let towards = std::array::from_fn(|axis| (pair[1][axis] - pair[0][axis]) / step);
+            arrows.push(Arrow { point, towards });
+        }
+        passed += step;
+    }
+    arrows
 }

@@ -1,12 +1,12 @@
 //! Whether the shear at walls and blocks was resolved.
 
-use super::super::{scene_run::SceneRun, summary::Summary};
+use super::{scene_run::SceneRun, summary::Summary};
 use riprap::simulation::{FirstCell, SUBLAYER};
 
 impl SceneRun {
     /// Adds the largest y⁺ to the summary, and a warning if it is beyond the viscous sublayer; not of a flow that has
     /// diverged.
-    pub(in super::super) fn report_wall_units(&mut self, summary: &mut Summary) {
+    pub(super) fn report_wall_units(&mut self, summary: &mut Summary) {
         if summary.diverged {
             return;
         }

@@ -1,0 +1,107 @@
+//! Tables of what is measured over time, `NAME.csv`, and their curves, `NAME.png`.
+
+use super::{
+    recorder::{Recorder, RunLog, Schedule},
+    scene_run::SceneRun,
+};
+use crate::picture::{Chart, Track};
+use anyhow::{Result, anyhow};
+use riprap::output::{Csv, Table};
+use std::path::{Path, PathBuf};
+
+/// A table and what is drawn of it.
+pub struct TimeTable {
+    /// Name of its files.
+    pub name: String,
+    /// s between rows.
+    pub every: Option<f64>,
+    /// Columns beside step and time.
+    pub columns: Vec<String>,
+    /// Curves that are drawn at the end, if there are any.
+    pub tracks: Vec<Track>,
+    /// Title above them.
+    pub title: String,
+}
+
+/// Rows for the present state of a run.
+type Rows = Box<dyn FnMut(&mut SceneRun, &mut RunLog) -> Result<Vec<Vec<f64>>>>;
+
+impl TimeTable {
+    /// Begins the table in `folder`, or goes on with it after a restart; `rows` are due until the step `last`.
+    ///
+    /// # Errors
+    /// If the table cannot be written or is another one.
+    pub fn recorder(
+        self,
+        run: &SceneRun,
+        folder: &Path,
+        last: u64,
+        rows: impl FnMut(&mut SceneRun, &mut RunLog) -> Result<Vec<Vec<f64>>> + 'static,
+    ) -> riprap::Result<Box<dyn Recorder>> {
+        let path = folder.join(format!("{}.csv", self.name));
+        Ok(Box::new(TableRecorder {
+            schedule: Schedule::new(self.every, run.time_step(), last),
+            table: match run.step() {
+                0 => Csv::create(&path, &self.columns)?,
+                step => Csv::resume(&path, &self.columns, step)?,
+            },
+            about: self,
+            path,
+            rows: Box::new(rows),
+        }))
+    }
+}
+
+struct TableRecorder {
+    about: TimeTable,
+    schedule: Schedule,
+    path: PathBuf,
+    table: Csv,
+    rows: Rows,
+}
+
+impl Recorder for TableRecorder {
+    fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
+        for row in (self.rows)(run, log)? {
+            self.table.append(run.step(), run.time(), &row)?;
+        }
+        log.file(self.path.clone());
+        Ok(())
+    }
+
+    /// Draws the tracks; nothing where the table has fewer than two moments, or no number in them.
+    fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
+        let TimeTable {
+            name,
+            tracks,
+            title,
+            ..
+        } = &self.about;
+        if tracks.is_empty() {
+            return Ok(());
+        }
+        let table = Table::read(&self.path)?;
+        let is_empty = |name: &String| {
+            let values = table.column(name).unwrap_or_default();
+            !values.iter().any(|value| value.is_finite())
+        };
+        let mut columns = tracks.iter().flat_map(|track| &track.columns);
+        if columns.all(is_empty) || table.column("time").is_none_or(|times| times.len() < 2) {
+            return Ok(());
+        }
+        let picture = self.path.with_extension("png");
+        let mut views = run.scene().views.iter().filter(|view| view.animation);
+        let drawn = match views.any(|view| view.name == *name) {
+            true => Err(anyhow!(
+                "this file belongs to the view of the same name; give one of them another name"
+            )),
+            false => Chart::history(title, &table, tracks).and_then(|chart| chart.draw(&picture)),
+        };
+        log.picture(picture, drawn);
+        Ok(())
+    }
+}

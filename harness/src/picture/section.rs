@@ -30,8 +30,6 @@ impl Plane {
 pub enum Quantity<'a> {
     /// The array of scalars of this name.
     Scalar(&'a str),
-    /// One component of the array of vectors of this name.
-    Component(&'a str, usize),
     /// The length of the vectors of the array of this name.
     Magnitude(&'a str),
 }
@@ -95,7 +93,6 @@ impl Section {
                 let tuple = &shown.values[shown.components * cell..][..shown.components];
                 section.values.push(match quantity {
                     Quantity::Scalar(_) => f64::from(tuple[0]),
-                    Quantity::Component(_, component) => f64::from(tuple[component]),
                     Quantity::Magnitude(_) => tuple
                         .iter()
                         .map(|&x| f64::from(x).powi(2))
@@ -214,29 +211,13 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The array that `quantity` is taken from, once it is known to fit.
 fn array<'a>(image: &'a Image, quantity: Quantity<'_>) -> Result<&'a Array> {
-    let (name, least) = match quantity {
-        Quantity::Scalar(name) | Quantity::Magnitude(name) => (name, 1),
-        Quantity::Component(name, component) => (name, component + 1),
-    };
+    let (Quantity::Scalar(name) | Quantity::Magnitude(name)) = quantity;
     let array = image.array(name).with_context(|| {
-        let names: Vec<&str> = image
-            .arrays
-            .iter()
-            .map(|array| array.name.as_str())
-            .collect();
-        format!(
-            "the image has no array `{name}`; it has {}",
-            names.join(", ")
-        )
+        let names = image.arrays.iter().map(|array| array.name.as_str());
+        let names = names.collect::<Vec<_>>().join(", ");
+        format!("the image has no array `{name}`; it has {names}")
     })?;
-    if array.components < least {
-        bail!(
-            "array `{name}` has {} components, numbered from 0; component {} is none of them",
-            array.components,
-            least - 1
-        );
-    }
-    if array.values.len() != array.components * image.cell_count() {
+    if array.components == 0 || array.values.len() != array.components * image.cell_count() {
         bail!(
             "array `{name}` has {} values for {} cells of {} components; fill every cell",
             array.values.len(),

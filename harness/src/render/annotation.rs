@@ -1,8 +1,9 @@
-//! Title, time, colour bars and scale bar around a view.
+//! Title, time, colour bars and scale bar around a view, or around several of them side by side.
 
 use super::camera::Camera;
 use super::drawing::Drawing;
 use super::picture::Picture;
+use super::renderer::Renderer;
 use super::scales::Scales;
 use super::uniforms::round_down;
 use crate::picture::canvas::{Anchor, Canvas};
@@ -15,7 +16,7 @@ use plotters::style::RGBColor;
 /// Around text, pixels.
 const MARGIN: f64 = 18.0;
 /// Part of the view's height that a colour bar takes.
-pub const BAR: f64 = 0.7;
+const BAR: f64 = 0.7;
 /// Width that the scale bar has at most, in parts of the view's.
 const SCALE_BAR: f64 = 0.2;
 /// Half of the height of the scale bar's ends, pixels.
@@ -103,13 +104,13 @@ impl Layout {
 }
 
 /// Width that colour bars of this height take beside a view, pixels.
-pub fn bars_width(bars: &[ColourBar], height: f64) -> Result<f64> {
+fn bars_width(bars: &[ColourBar], height: f64) -> Result<f64> {
     let widths = bars.iter().map(|bar| bar.width(height));
     widths.sum()
 }
 
 /// Draws colour bars to the right of a view of this corner and size, from left to right.
-pub fn draw_bars(
+fn draw_bars(
     canvas: &mut Canvas<'_>,
     bars: &[ColourBar],
     corner: [f64; 2],
@@ -133,7 +134,7 @@ pub fn draw_bars(
 }
 
 /// Copies a picture onto the canvas.
-pub fn paste(canvas: &mut Canvas<'_>, picture: &Picture, [left, top]: [f64; 2]) {
+fn paste(canvas: &mut Canvas<'_>, picture: &Picture, [left, top]: [f64; 2]) {
     let [width, height] = [picture.width, picture.height].map(f64::from);
     canvas.shade([left, top], [left + width, top + height], |[x, y]| {
         let [r, g, b] = picture.pixel((x - left) as u32, (y - top) as u32);
@@ -142,7 +143,7 @@ pub fn paste(canvas: &mut Canvas<'_>, picture: &Picture, [left, top]: [f64; 2]) 
 }
 
 /// What was drawn on the canvas.
-pub fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
+fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
     let pixels = canvas.rgb();
     let pixels = pixels.chunks_exact(3);
     Picture {
@@ -153,7 +154,7 @@ pub fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
 }
 
 /// A bar in the lower left corner of a view, with its length in metres at the camera's target.
-pub fn scale_bar(
+fn scale_bar(
     canvas: &mut Canvas<'_>,
     camera: &Camera,
     [left, top]: [f64; 2],
@@ -173,14 +174,14 @@ pub fn scale_bar(
 }
 
 /// Length of the scale bar of a view, m and pixels.
-pub fn scale(camera: &Camera, [width, height]: [u32; 2]) -> (f64, f64) {
+fn scale(camera: &Camera, [width, height]: [u32; 2]) -> (f64, f64) {
     let pixels_per_metre = camera.pixels_per_metre(f64::from(height));
     let length = round_down(SCALE_BAR * f64::from(width) / pixels_per_metre);
     (length, length * pixels_per_metre)
 }
 
 /// A time as it is drawn.
-pub fn time_stamp(time: f64) -> String {
+fn time_stamp(time: f64) -> String {
     format!("t = {} s", crate::picture::short(time))
 }
 
@@ -188,4 +189,75 @@ pub fn time_stamp(time: f64) -> String {
 fn decimal(value: f64) -> String {
     let decimals = (-value.log10().floor()).max(0.0) as usize;
     format!("{value:.decimals$}")
+}
+
+/// Between frames and around text, pixels.
+const GAP: f64 = 12.0;
+
+impl Renderer {
+    /// Drawings as the frames of one picture, `columns` in a row, each of the renderer's size with its
+    /// time above; title, colour bars and scale bar are those of the first.
+    ///
+    /// # Errors
+    /// Those of [`Self::render`]; if there is no drawing or no column; if the drawings' colours mean
+    /// different values.
+    pub fn strip(&self, drawings: &[Drawing<'_>], columns: usize) -> Result<Picture> {
+        let Some(first) = drawings.first().filter(|_| columns > 0) else {
+            bail!("a strip of no frames or no columns; give one at least");
+        };
+        let scales = Scales::of(first)?;
+        let bars: Vec<_> = scales.bars().into_iter().cloned().collect();
+        for (index, drawing) in drawings.iter().enumerate() {
+            if Scales::of(drawing)?.bars() != scales.bars() {
+                bail!(
+                    "frame {index} has other colours than the first: give all of them the same \
+                     colours.range"
+                );
+            }
+        }
+        let size = self.size();
+        let [frame_width, frame_height] = size.map(f64::from);
+        let columns = columns.min(drawings.len());
+        let rows = drawings.len().div_ceil(columns);
+        let head = match first.title.is_empty() {
+            true => 0.0,
+            false => 2.0 * GAP + TITLE,
+        };
+        let timed = drawings.iter().any(|drawing| drawing.time.is_some());
+        let label = if timed { TEXT + 1.5 * GAP } else { 0.0 };
+        let width = columns as f64 * (frame_width + GAP) - GAP;
+        let row = label + frame_height + GAP;
+        let height = rows as f64 * row - GAP;
+        let side = match bars.is_empty() {
+            true => 0.0,
+            false => (bars_width(&bars, BAR * height)? + GAP).ceil(),
+        };
+        let whole = [(width + side) as u32, (head + height) as u32];
+        let mut canvas = Canvas::new(whole[0], whole[1]);
+        if head > 0.0 {
+            let text = fitting(&first.title, TITLE, f64::from(whole[0]) - 2.0 * GAP)?;
+            let at = [GAP, GAP + 0.5 * TITLE];
+            canvas.text(&first.title, at, text, Anchor::Left, INK)?;
+        }
+        for (index, drawing) in drawings.iter().enumerate() {
+            let left = (index % columns) as f64 * (frame_width + GAP);
+            let top = head + (index / columns) as f64 * row;
+            let (camera, view) = self.view(drawing, size)?;
+            paste(&mut canvas, &view, [left, top + label]);
+            if let Some(time) = drawing.time {
+                let at = [left + 0.5 * frame_width, top + 0.5 * label];
+                canvas.text(&time_stamp(time), at, TEXT, Anchor::Centre, INK)?;
+            }
+            if index == 0 && drawing.scale_bar {
+                scale_bar(&mut canvas, &camera, [left, top + label], size)?;
+            }
+        }
+        draw_bars(
+            &mut canvas,
+            &bars,
+            [0.0, head],
+            [width as u32, height as u32],
+        )?;
+        Ok(picture(&canvas, whole))
+    }
 }

@@ -27,34 +27,19 @@ pub struct Mesh {
 impl Mesh {
     /// A polyhedron with flat faces and all its edges.
     pub fn of(block: &Polyhedron) -> Self {
-        let faces = block.loops().iter().zip(block.faces());
-        let edges = block.edges().iter();
-        Self::faceted(
-            block.vertices(),
-            faces.map(|(corners, face)| (corners.as_slice(), face.normal)),
-            edges.copied(),
-        )
-    }
-
-    /// Flat convex faces, each with its corners (indices of `points`, counter-clockwise seen from
-    /// outside) and its unit normal, and edges between two points.
-    pub fn faceted<'a>(
-        points: &[DVec3],
-        faces: impl IntoIterator<Item = (&'a [u32], DVec3)>,
-        edges: impl IntoIterator<Item = [u32; 2]>,
-    ) -> Self {
+        let points = block.vertices();
         let mut mesh = Self::default();
-        for (corners, normal) in faces {
+        for (corners, face) in block.loops().iter().zip(block.faces()) {
             let first = mesh.vertices.len() as u32;
             mesh.vertices.extend(corners.iter().map(|&corner| Vertex {
                 position: points[corner as usize],
-                normal,
+                normal: face.normal,
             }));
             mesh.triangles.extend(
                 (2..corners.len() as u32).map(|last| [first, first + last - 1, first + last]),
             );
         }
-        let edges = edges.into_iter();
+        let edges = block.edges().iter();
         mesh.edges = edges
             .map(|ends| ends.map(|end| points[end as usize]))
             .collect();

@@ -36,7 +36,6 @@ mod pipelines;
 mod plane_binding;
 mod renderer;
 mod scales;
-mod strip;
 mod strokes;
 mod submission;
 mod uniforms;

@@ -17,13 +17,15 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// Nothing if all was done.
-    fn some(what: &str, done: f64, of: f64) -> Option<Self> {
-        (done < of).then(|| Self {
-            what: what.to_owned(),
+    /// Those of (what, done, of how much) that were not done in full.
+    fn some<'a>(works: impl IntoIterator<Item = (&'a str, f64, f64)>) -> Vec<Self> {
+        let works = works.into_iter().filter(|(_, done, of)| done < of);
+        let left = |(what, done, of): (&str, _, _)| Self {
+            what: what.into(),
             done,
             of,
-        })
+        };
+        works.map(left).collect()
     }
 
     /// Features that the kernels of a lattice do without, and its bricks without water.
@@ -43,77 +45,60 @@ impl LeftOut {
         let of = features.len() as f64;
         let run = (geometry.plain.len() + geometry.mixed.len()) as f64;
         let all = run + f64::from(geometry.solid_bricks);
+        let absent_count = absent.len() as f64;
         let kernel = format!(
             "features of the fluid kernel, without {}",
             absent.join(", ")
         );
-        [
-            Self::some(&kernel, of - absent.len() as f64, of),
-            Self::some("bricks of cells, the others being solid", run, all),
-            Self::some(
-                "bricks with walls, the others being plain",
-                geometry.mixed.len() as f64,
-                run,
-            ),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        let walls = geometry.mixed.len() as f64;
+        Self::some([
+            (kernel.as_str(), of - absent_count, of),
+            ("bricks of cells, the others being solid", run, all),
+            ("bricks with walls, the others being plain", walls, run),
+        ])
     }
 
     /// Bricks of a lattice that no block reaches.
     pub fn of_places(coupling: &Coupling) -> Vec<Self> {
-        let bricks =
-            (coupling.plain_bricks + coupling.mixed_bricks + coupling.saturated_bricks) as f64;
-        let with = "bricks with blocks, the others running the kernel without";
-        Self::some(with, coupling.saturated_bricks as f64, bricks)
-            .into_iter()
-            .collect()
+        let with = coupling.saturated_bricks;
+        let bricks = coupling.plain_bricks + coupling.mixed_bricks + with;
+        let what = "bricks with blocks, the others running the kernel without";
+        Self::some([(what, with as f64, bricks as f64)])
     }
 
     /// What blocks in a fluid did without.
     pub fn of_coupling(coupling: &Coupling) -> Vec<Self> {
+        let readings = coupling.readings as f64;
         let steps = (coupling.readings + coupling.readings_skipped) as f64;
+        let computed = "tiles of blocks computed anew, the others standing still";
+        let tiles = coupling.tiles_computed as f64;
         let mut all = Self::of_places(coupling);
-        all.extend(Self::some(
-            "tiles of blocks computed anew, the others standing still",
-            coupling.tiles_computed as f64,
-            steps * coupling.tiles as f64,
-        ));
-        all.extend(Self::some(
-            "loads read back, the others not being needed",
-            coupling.readings as f64,
-            steps,
-        ));
+        all.extend(Self::some([
+            (computed, tiles, steps * coupling.tiles as f64),
+            (
+                "loads read back, the others not being needed",
+                readings,
+                steps,
+            ),
+        ]));
         all
     }
 
     /// What contacts did without.
     pub fn of_rocks(rocks: &Rocks) -> Vec<Self> {
-        let blocks = rocks.blocks as f64;
-        [
-            Self::some(
-                "candidate pairs, the others being far apart",
-                rocks.pairs as f64,
-                0.5 * blocks * (blocks - 1.0),
-            ),
-            Self::some(
-                "linear programs, the other pairs being decided by their caches or faces",
-                rocks.programs as f64,
-                rocks.tests as f64,
-            ),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        let (blocks, pairs) = (rocks.blocks as f64, rocks.pairs as f64);
+        let far = "candidate pairs, the others being far apart";
+        let decided = "linear programs, the other pairs being decided by their caches or faces";
+        Self::some([
+            (far, pairs, 0.5 * blocks * (blocks - 1.0)),
+            (decided, rocks.programs as f64, rocks.tests as f64),
+        ])
     }
 
     /// What water of particles did without.
     pub fn of_pool(pool: &WaterSummary) -> Vec<Self> {
         let sorts = "sorts, the lists of neighbours serving several steps";
-        Self::some(sorts, pool.sorts as f64, pool.steps_here as f64)
-            .into_iter()
-            .collect()
+        Self::some([(sorts, pool.sorts as f64, pool.steps_here as f64)])
     }
 
     /// All of them in one line; none if nothing was left out.

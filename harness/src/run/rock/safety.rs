@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt;
 
 /// Factors of safety of a block in a run. In JSON an infinite one and one that is not known are both null.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Safety {
     /// The block.
     pub block: String,
@@ -28,41 +28,29 @@ pub struct Factors {
     pub toppling: f64,
 }
 
-impl Default for Factors {
-    fn default() -> Self {
-        Self::of([f64::NAN; 3])
-    }
-}
-
-impl Factors {
-    fn of([sliding, uplift, toppling]: [f64; 3]) -> Self {
-        Self {
-            sliding,
-            uplift,
-            toppling,
-        }
-    }
-
-    fn all(&self) -> [f64; 3] {
-        [self.sliding, self.uplift, self.toppling]
-    }
-}
-
 impl Safety {
-    /// RunLog how `block` stands at `time` (s).
+    /// Notes how `block` stands at `time` (s).
     pub fn note(all: &mut Vec<Self>, block: &str, time: f64, now: &Standing) {
-        let now = [now.sliding.factor, now.uplift, now.toppling];
+        let last = Factors {
+            sliding: now.sliding.factor,
+            uplift: now.uplift,
+            toppling: now.toppling,
+        };
         let least = match all.iter().find(|known| known.block == block) {
             // A number is less than none.
-            Some(known) => std::array::from_fn(|k| known.least.all()[k].min(now[k])),
-            None => now,
+            Some(Self { least, .. }) => Factors {
+                sliding: least.sliding.min(last.sliding),
+                uplift: least.uplift.min(last.uplift),
+                toppling: least.toppling.min(last.toppling),
+            },
+            None => last,
         };
         all.retain(|known| known.block != block);
         all.push(Self {
             block: block.into(),
             time,
-            last: Factors::of(now),
-            least: Factors::of(least),
+            last,
+            least,
         });
     }
 }
@@ -79,9 +67,11 @@ impl fmt::Display for Safety {
 
 impl fmt::Display for Factors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = ["sliding", "uplift", "toppling"];
-        for (k, (name, factor)) in names.iter().zip(self.all()).enumerate() {
-            let comma = if k == 0 { "" } else { ", " };
+        for (comma, name, factor) in [
+            ("", "sliding", self.sliding),
+            (", ", "uplift", self.uplift),
+            (", ", "toppling", self.toppling),
+        ] {
             match factor.is_nan() {
                 true => write!(f, "{comma}{name} none (no contact)")?,
                 false => write!(f, "{comma}{name} {factor:.2}")?,

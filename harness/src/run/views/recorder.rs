@@ -5,8 +5,8 @@ use super::super::{
     recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
 };
-use super::{fluid::Fluid, frame::Frame, stage::Stage};
-use crate::render::{Picture, animate};
+use super::{fluid::Fluid, frame::frame, stage::Stage};
+use crate::render::{Drawing, Picture, animate};
 use anyhow::{Result, bail};
 use riprap::scene::View;
 use std::{
@@ -34,7 +34,7 @@ pub struct Views {
     /// Why it could not be made.
     failed: Option<String>,
     /// Frames for the strip.
-    strip: Vec<Frame>,
+    strip: Vec<Drawing<'static>>,
 }
 
 impl Views {
@@ -65,7 +65,7 @@ impl Views {
         self.folder.join(format!("{}{ending}.png", self.view.name))
     }
 
-    fn stage(&mut self, run: &SceneRun, frame: &Frame) -> Result<&Stage> {
+    fn stage(&mut self, run: &SceneRun, frame: &Drawing<'static>) -> Result<&Stage> {
         if let Some(failed) = &self.failed {
             bail!("{failed}");
         }
@@ -120,7 +120,7 @@ impl Recorder for Views {
 
     fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
         let path = self.path(&format!("_{:06}", run.step()));
-        let frame = Frame::of(run, &self.fluid)?;
+        let frame = frame(run, &self.fluid)?;
         let wanted = self.wanted(run.step()).then(|| frame.clone());
         let stage = self.stage(run, &frame);
         let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));

@@ -1,6 +1,6 @@
 //! What a view shows: the meshes of the blocks, the camera and the colours, the same in every picture.
 
-use super::frame::{Frame, share_ranges};
+use super::frame::{colours, share_ranges};
 use super::{super::scene_run::SceneRun, shown::each_shape};
 use crate::{
     gpu,
@@ -42,7 +42,7 @@ impl Stage {
         run: &SceneRun,
         view: &scene::View,
         adapter: Option<&str>,
-        frame: &Frame,
+        frame: &Drawing<'static>,
     ) -> Result<Self> {
         let adapter = gpu::pick(adapter)?;
         let limits = wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits());
@@ -75,37 +75,32 @@ impl Stage {
     }
 
     /// The picture of a frame.
-    pub fn draw(&self, mut frame: Frame) -> Result<Picture> {
+    pub fn draw(&self, mut frame: Drawing<'static>) -> Result<Picture> {
         share_ranges(std::slice::from_mut(&mut frame));
         self.renderer.render(&self.drawing(frame))
     }
 
     /// The frames side by side, two in a row.
-    pub fn strip(&self, mut frames: Vec<Frame>) -> Result<Picture> {
+    pub fn strip(&self, mut frames: Vec<Drawing<'static>>) -> Result<Picture> {
         share_ranges(&mut frames);
         let drawings = frames.into_iter().map(|frame| self.drawing(frame));
         self.small.strip(&drawings.collect::<Vec<_>>(), 2)
     }
 
-    fn drawing(&self, frame: Frame) -> Drawing<'_> {
+    fn drawing<'a>(&'a self, frame: Drawing<'a>) -> Drawing<'a> {
         Drawing {
             meshes: &self.meshes,
-            instances: frame.bodies,
-            planes: frame.planes,
-            traces: frame.traces,
-            drops: frame.drops,
             lines: self.edges.clone(),
             view: self.camera,
             ground: self.ground,
             scale_bar: true,
             title: self.title.clone(),
-            time: Some(frame.time),
             colours: self.speed.map(|speed| Colours {
                 label: "speed".into(),
                 unit: "m/s".into(),
                 range: Some([0.0, speed]),
             }),
-            ..Drawing::default()
+            ..frame
         }
     }
 }
@@ -133,12 +128,12 @@ fn camera(scene: &Scene, view: &scene::View) -> View {
 }
 
 /// What of the first frame the camera shall see, which must not depend on the step that a run begins with.
-fn framed(frame: &Frame) -> Frame {
+fn framed(frame: &Drawing<'static>) -> Drawing<'static> {
     let mut seen = frame.clone();
     let fluid = seen.traces.is_some() || seen.drops.is_some() || !seen.planes.is_empty();
     // A ground that reaches far would push the camera away from what moves on it.
-    if fluid || seen.bodies.iter().any(|body| !body.fixed) {
-        seen.bodies.retain(|body| !body.fixed);
+    if fluid || seen.instances.iter().any(|body| !body.fixed) {
+        seen.instances.retain(|body| !body.fixed);
     }
     // The edges of the domain hold all water.
     if let Some(drops) = &mut seen.drops {
@@ -147,7 +142,7 @@ fn framed(frame: &Frame) -> Frame {
     if let Some(traces) = &mut seen.traces {
         traces.lines.clear();
     }
-    for colours in seen.colours() {
+    for colours in colours(&mut seen) {
         // Colour bars of about the usual width.
         colours.range.get_or_insert([0.0, 1.0]);
     }

@@ -1,70 +1,11 @@
 //! Bodies and lines are where the camera sees them, and nearer ones hide farther ones.
 
 use super::fixture::{
-    WHITE, body, body_in_the_middle_row, extent, level, oblique, plain_cube, render, seen, speed,
+    WHITE, body, body_in_the_middle_row, drawing, extent, level, plain_cube, render, speed,
 };
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 use riprap::geometry::Polyhedron;
 use riprap_harness::render::{Camera, Drawing, Instance, Line, Mesh, View};
-
-/// Area of the convex hull, by Andrew's monotone chain.
-fn hull_area(mut points: Vec<[f64; 2]>) -> f64 {
-    points.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
-    let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for p in points {
-            while let [.., a, b] = chain[..] {
-                if (b[0] - a[0]) * (p[1] - a[1]) > (b[1] - a[1]) * (p[0] - a[0]) {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut hull = half(&mut points.iter().copied());
-    hull.extend(half(&mut points.iter().rev().copied()));
-    let next = hull.iter().cycle().skip(1);
-    let twice: f64 = hull
-        .iter()
-        .zip(next)
-        .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
-        .sum();
-    0.5 * twice.abs()
-}
-
-#[test]
-fn a_cube_covers_what_a_pinhole_camera_sees_of_it() {
-    let size = [480, 360];
-    let meshes = [plain_cube()];
-    let turn = DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(0.2);
-    let centre = DVec3::new(0.2, 0.5, -0.1);
-    for camera in [level(), oblique()] {
-        let cube = Instance {
-            deformation: DMat3::from_quat(turn),
-            ..body(centre)
-        };
-        let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![cube],
-            view: View::From(camera),
-            ..Drawing::default()
-        };
-        let picture = render(&drawing, size);
-        let pixels = picture
-            .rgba
-            .chunks(4)
-            .filter(|rgba| rgba[..3] != WHITE)
-            .count() as f64;
-        let corners = meshes[0].vertices.iter();
-        let corners = corners.map(|v| seen(&camera, size, centre + turn * v.position));
-        let area = hull_area(corners.collect());
-        // Pixels that are covered in part count whole: half a pixel along an outline of 4 √area.
-        assert!((pixels / area - 1.0).abs() < 0.02, "{pixels} of {area}");
-    }
-}
 
 #[test]
 fn the_nearer_block_hides_the_farther_in_any_order() {
@@ -76,11 +17,8 @@ fn the_nearer_block_hides_the_farther_in_any_order() {
     };
     let colour = |instances: Vec<Instance>| {
         let drawing = Drawing {
-            meshes: &meshes,
-            instances,
-            view: View::From(level()),
             colours: speed([0.0, 1.0]),
-            ..Drawing::default()
+            ..drawing(&meshes, instances, level())
         };
         let picture = render(&drawing, size);
         let [x, y] = body_in_the_middle_row(&picture);
@@ -142,12 +80,11 @@ fn far_from_the_origin_a_picture_is_the_same() {
             to: origin,
             ..level()
         };
-        let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![body(origin + DVec3::new(0.125, 0.25, -0.375))],
-            view: View::From(camera),
-            ..Drawing::default()
-        };
+        let drawing = drawing(
+            &meshes,
+            vec![body(origin + DVec3::new(0.125, 0.25, -0.375))],
+            camera,
+        );
         render(&drawing, size)
     });
     assert_ne!(extent(&here)[0], [u32::MAX, 0]);
@@ -158,12 +95,7 @@ fn far_from_the_origin_a_picture_is_the_same() {
 fn odd_sizes_have_no_shear() {
     let meshes = [plain_cube()];
     for size in [[101, 67], [63, 64], [65, 33], [257, 90]] {
-        let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![body(DVec3::ZERO)],
-            view: View::From(level()),
-            ..Drawing::default()
-        };
+        let drawing = drawing(&meshes, vec![body(DVec3::ZERO)], level());
         let picture = render(&drawing, size);
         assert_eq!([picture.width, picture.height], size);
         assert_eq!(picture.rgba.len() as u32, 4 * size[0] * size[1]);

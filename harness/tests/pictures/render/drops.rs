@@ -1,8 +1,8 @@
 //! Small balls: size, place, colour and depth.
 
-use super::fixture::{WHITE, body, body_in_the_middle_row, level, plain_cube, render};
+use super::fixture::{WHITE, body, body_in_the_middle_row, drawing, level, plain_cube, render};
 use glam::DVec3;
-use riprap_harness::render::{Colours, Drawing, Drop, Drops, View};
+use riprap_harness::render::{Colours, Drawing, Drop, Drops};
 
 /// Balls of `radius` (m) at `centres`, all of the lowest value.
 fn drops(radius: f64, centres: &[DVec3]) -> Option<Drops> {
@@ -28,11 +28,8 @@ fn seen(drops: Option<Drops>, cube: Option<DVec3>) -> riprap_harness::render::Pi
     let meshes = [plain_cube()];
     render(
         &Drawing {
-            meshes: &meshes,
-            instances: cube.into_iter().map(body).collect(),
             drops,
-            view: View::From(level()),
-            ..Drawing::default()
+            ..drawing(&meshes, cube.into_iter().map(body).collect(), level())
         },
         [500, 300],
     )
@@ -91,17 +88,4 @@ fn a_ball_far_smaller_than_a_pixel_is_still_there() {
     let picture = seen(drops(1e-5, &[DVec3::ZERO]), None);
     let there = (0..300).any(|y| (0..400).any(|x| picture.pixel(x, y) != WHITE));
     assert!(there);
-}
-
-#[test]
-fn balls_that_are_nowhere_are_refused() {
-    let drawing = |drops| Drawing {
-        drops,
-        view: View::From(level()),
-        ..Drawing::default()
-    };
-    let words = super::fixture::refusal(&drawing(drops(0.1, &[DVec3::NAN])));
-    assert!(words.contains("drops"), "{words}");
-    let words = super::fixture::refusal(&drawing(drops(0.0, &[DVec3::ZERO])));
-    assert!(words.contains("radius"), "{words}");
 }

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use riprap::geometry::Polyhedron;
 use riprap::wgpu;
 use riprap_harness::gpu;
-use riprap_harness::render::{Camera, Colours, Drawing, Instance, Mesh, Picture, Renderer};
+use riprap_harness::render::{Camera, Colours, Drawing, Instance, Mesh, Picture, Renderer, View};
 use std::sync::LazyLock;
 
 pub const WHITE: [u8; 3] = [255; 3];
@@ -23,12 +23,6 @@ pub fn render(drawing: &Drawing<'_>, size: [u32; 2]) -> Picture {
     renderer(size).render(drawing).expect("a picture")
 }
 
-/// What rendering is refused with.
-pub fn refusal(drawing: &Drawing<'_>) -> String {
-    let refused = renderer([320, 240]).render(drawing);
-    refused.expect_err("an error").to_string()
-}
-
 /// A cube with edges of 1 m, without lines on its edges.
 pub fn plain_cube() -> Mesh {
     let cube = Polyhedron::cuboid(DVec3::ONE).expect("a cube");
@@ -45,6 +39,16 @@ pub fn body(centre: DVec3) -> Instance {
         deformation: DMat3::IDENTITY,
         value: None,
         fixed: false,
+    }
+}
+
+/// Bodies seen by a camera, and nothing else.
+pub fn drawing(meshes: &[Mesh], instances: Vec<Instance>, camera: Camera) -> Drawing<'_> {
+    Drawing {
+        meshes,
+        instances,
+        view: View::From(camera),
+        ..Drawing::default()
     }
 }
 

@@ -1,11 +1,11 @@
 //! Planes through a fluid and traces of its flow, among blocks.
 
 use super::fixture::{
-    WHITE, body, extent, level, linear, oblique, pixel_at, plain_cube, refusal, render, seen, speed,
+    WHITE, body, drawing, level, linear, oblique, pixel_at, plain_cube, render, seen, speed,
 };
 use glam::DVec3;
 use riprap_harness::picture::{Palette, Plane, Trace};
-use riprap_harness::render::{Camera, Colours, Drawing, FluidPlane, Look, Traces, View};
+use riprap_harness::render::{Camera, Colours, Drawing, FluidPlane, Traces, View};
 
 fn pressure(range: [f64; 2]) -> Colours {
     Colours {
@@ -83,11 +83,8 @@ fn a_block_is_seen_before_its_plane_and_not_behind_it() {
         let mut plane = counting(0.0);
         plane.values = vec![4.0; 8];
         let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![body(DVec3::new(0.0, y, 0.0))],
             planes: vec![plane],
-            view: View::From(level()),
-            ..Drawing::default()
+            ..drawing(&meshes, vec![body(DVec3::new(0.0, y, 0.0))], level())
         };
         let width = view_width(&drawing);
         let picture = render(&drawing, SIZE);
@@ -167,24 +164,6 @@ fn planes_of_one_quantity_share_a_bar_and_others_have_their_own() {
 }
 
 #[test]
-fn a_camera_that_frames_sees_all_of_a_plane() {
-    let drawing = Drawing {
-        planes: vec![counting(2.0)],
-        view: View::Framing(Look::default()),
-        ..Drawing::default()
-    };
-    let width = view_width(&drawing);
-    let [columns, rows] = extent(&render(&drawing, SIZE));
-    assert!(columns[0] > 0 && rows[0] > 0 && rows[1] < SIZE[1] - 1);
-    // One of the directions is used up but for its margins; the colour bar is not in the view.
-    let high = f64::from(rows[1] - rows[0]) / f64::from(SIZE[1]);
-    assert!(
-        high > 0.9 || f64::from(columns[0]) < 0.05 * f64::from(width),
-        "{high}"
-    );
-}
-
-#[test]
 fn a_trace_has_its_speeds_colours_between_dark_rims() {
     // From x = −1 m to 1 m, from 0 to 1 m/s.
     let place = |n: i32| DVec3::new(f64::from(n) / 40.0 - 1.0, 0.0, 0.02);
@@ -248,62 +227,11 @@ fn a_plane_before_all_bodies_is_not_cut_off() {
         ..level()
     };
     let drawing = Drawing {
-        meshes: &meshes,
-        instances: vec![body(DVec3::ZERO)],
         planes: vec![counting(-9.0)],
-        view: View::From(near),
-        ..Drawing::default()
+        ..drawing(&meshes, vec![body(DVec3::ZERO)], near)
     };
     let width = view_width(&drawing);
     let picture = render(&drawing, SIZE);
     let [x, y] = seen(&near, [width, SIZE[1]], DVec3::new(0.1, -9.0, 0.1));
     assert_eq!(pixel_at(&picture, [x, y]), viridis(6.0 / 8.0));
-}
-
-#[test]
-fn planes_and_traces_that_cannot_be_drawn_are_refused() {
-    let with = |change: &dyn Fn(&mut FluidPlane)| {
-        let mut plane = counting(0.0);
-        change(&mut plane);
-        refusal(&Drawing {
-            planes: vec![counting(1.0), plane],
-            ..Drawing::default()
-        })
-    };
-    let few = with(&|plane| plane.values.truncate(7));
-    assert!(
-        few.contains("planes[1]") && few.contains("7 values for 4 × 2"),
-        "{few}"
-    );
-    let axis = with(&|plane| plane.plane.normal = 3);
-    assert!(
-        axis.contains("planes[1]") && axis.contains("give 0 (x)"),
-        "{axis}"
-    );
-    let flat = with(&|plane| plane.spacing = 0.0);
-    assert!(flat.contains("a positive size"), "{flat}");
-    let far = with(&|plane| plane.plane.position = f64::NAN);
-    assert!(far.contains("not finite"), "{far}");
-    let range = refusal(&Drawing {
-        planes: vec![FluidPlane {
-            colours: pressure([1.0, 1.0]),
-            ..counting(0.0)
-        }],
-        ..Drawing::default()
-    });
-    assert!(range.contains("the lower first"), "{range}");
-    let trace = refusal(&Drawing {
-        traces: Some(Traces {
-            lines: vec![Trace {
-                points: vec![DVec3::ZERO, DVec3::X],
-                speeds: vec![1.0],
-            }],
-            colours: pressure([0.0, 1.0]),
-        }),
-        ..Drawing::default()
-    });
-    assert!(
-        trace.contains("traces") && trace.contains("one speed"),
-        "{trace}"
-    );
 }

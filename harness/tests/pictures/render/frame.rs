@@ -1,6 +1,6 @@
 //! What stands around a view, and what a camera chooses to see.
 
-use super::fixture::{body, extent, level, plain_cube, render};
+use super::fixture::{body, drawing, extent, level, plain_cube, render};
 use glam::{DMat3, DVec3};
 use riprap::geometry::Polyhedron;
 use riprap_harness::render::{Background, Drawing, Ground, Instance, Look, Mesh, Picture, View};
@@ -11,22 +11,16 @@ fn the_scale_bar_is_as_long_as_an_edge_of_that_length() {
     // 0.2 of the view is 0.70 m at this distance, so the bar is 0.5 m long.
     let half = 0.5 * Polyhedron::cuboid(DVec3::ONE).expect("a cube").radius() / 0.75_f64.sqrt();
     let meshes = [plain_cube()];
-    let drawing = Drawing {
-        meshes: &meshes,
-        // A thin plate of 0.5 m × 0.5 m in the plane of the target.
-        instances: vec![Instance {
-            deformation: DMat3::from_diagonal(DVec3::new(half, 1e-3, half)),
-            ..body(DVec3::ZERO)
-        }],
-        view: View::From(level()),
-        ..Drawing::default()
+    // A thin plate of 0.5 m × 0.5 m in the plane of the target.
+    let plate = Instance {
+        deformation: DMat3::from_diagonal(DVec3::new(half, 1e-3, half)),
+        ..body(DVec3::ZERO)
     };
-    let [[first, last], _] = extent(&render(&drawing, size));
+    let [[first, last], _] = extent(&render(&drawing(&meshes, vec![plate], level()), size));
     let plate = f64::from(last - first + 1);
     let only_bar = Drawing {
-        view: View::From(level()),
         scale_bar: true,
-        ..Drawing::default()
+        ..drawing(&[], Vec::new(), level())
     };
     let picture = render(&only_bar, size);
     // The longest dark run of a row.
@@ -48,12 +42,9 @@ fn title_time_and_label_are_drawn_and_leave_the_view_alone() {
     let meshes = [plain_cube()];
     let with = |title: &str, time| {
         let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![body(DVec3::ZERO)],
-            view: View::From(level()),
             title: title.into(),
             time,
-            ..Drawing::default()
+            ..drawing(&meshes, vec![body(DVec3::ZERO)], level())
         };
         render(&drawing, size)
     };

@@ -1,6 +1,6 @@
 //! Animations and strips.
 
-use super::fixture::{WHITE, body, level, plain_cube, renderer, speed};
+use super::fixture::{WHITE, body, drawing, level, plain_cube, renderer, speed};
 use glam::DVec3;
 use riprap_harness::render::{Drawing, Instance, View, animate};
 use std::fs::File;
@@ -14,12 +14,11 @@ fn an_animation_has_its_frames_in_order_and_plays_for_ever() {
     let meshes = [plain_cube()];
     let renderer = renderer([75, 51]);
     let frame = |index: usize| {
-        let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![body(DVec3::new(0.3 * index as f64 - 0.3, 0.0, 0.0))],
-            view: View::From(level()),
-            ..Drawing::default()
-        };
+        let drawing = drawing(
+            &meshes,
+            vec![body(DVec3::new(0.3 * index as f64 - 0.3, 0.0, 0.0))],
+            level(),
+        );
         renderer.render(&drawing)
     };
     animate(&path, 3, Duration::from_millis(40), (0..3).map(frame)).expect("an animation");

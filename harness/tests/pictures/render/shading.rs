@@ -1,13 +1,14 @@
 //! Light, shadow, edges and colours on bodies.
 
 use super::fixture::{
-    body, body_in_the_middle_row, level, linear, oblique, pixel_at, plain_cube, render, seen, speed,
+    body, body_in_the_middle_row, drawing, level, linear, oblique, pixel_at, plain_cube, render,
+    seen, speed,
 };
 use glam::DVec3;
 use riprap::geometry::Polyhedron;
 use riprap::wgpu::naga;
 use riprap_harness::picture::Palette;
-use riprap_harness::render::{Camera, Drawing, Ground, Instance, Mesh, SHADERS, View};
+use riprap_harness::render::{Camera, Drawing, Ground, Instance, Mesh, SHADERS};
 
 #[test]
 fn shaders_are_valid() {
@@ -26,15 +27,13 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
     let meshes = [plain_cube()];
     let size = [420, 200];
     for value in [0.0, 0.35, 0.7, 1.0] {
+        let coloured = Instance {
+            value: Some(value),
+            ..body(DVec3::ZERO)
+        };
         let drawing = Drawing {
-            meshes: &meshes,
-            instances: vec![Instance {
-                value: Some(value),
-                ..body(DVec3::ZERO)
-            }],
-            view: View::From(level()),
             colours: speed([0.0, 1.0]),
-            ..Drawing::default()
+            ..drawing(&meshes, vec![coloured], level())
         };
         let picture = render(&drawing, size);
         let [x, y] = body_in_the_middle_row(&picture);
@@ -63,16 +62,15 @@ fn shaded_colours_keep_the_ratios_of_the_colour_map() {
 #[test]
 fn fixed_blocks_are_grey() {
     let meshes = [plain_cube()];
-    let drawing = Drawing {
-        meshes: &meshes,
-        instances: vec![Instance {
+    let drawing = drawing(
+        &meshes,
+        vec![Instance {
             value: Some(1.0),
             fixed: true,
             ..body(DVec3::ZERO)
         }],
-        view: View::From(level()),
-        ..Drawing::default()
-    };
+        level(),
+    );
     let [r, g, b] = render(&drawing, [120, 90]).pixel(60, 45);
     assert!(r == g && g == b && r < 255, "{r} {g} {b}");
 }
@@ -81,12 +79,7 @@ fn fixed_blocks_are_grey() {
 fn the_three_visible_faces_of_a_cube_differ() {
     let size = [240, 180];
     let meshes = [plain_cube()];
-    let drawing = Drawing {
-        meshes: &meshes,
-        instances: vec![body(DVec3::ZERO)],
-        view: View::From(oblique()),
-        ..Drawing::default()
-    };
+    let drawing = drawing(&meshes, vec![body(DVec3::ZERO)], oblique());
     let picture = render(&drawing, size);
     let shades = [DVec3::X, -DVec3::Y, DVec3::Z]
         .map(|normal| pixel_at(&picture, seen(&oblique(), size, 0.5 * normal))[0]);
@@ -106,12 +99,7 @@ fn edges_are_drawn_dark() {
     let cube = Mesh::of(&Polyhedron::cuboid(DVec3::ONE).expect("a cube"));
     assert_eq!(cube.edges.len(), 12);
     let meshes = [cube];
-    let drawing = Drawing {
-        meshes: &meshes,
-        instances: vec![body(DVec3::ZERO)],
-        view: View::From(oblique()),
-        ..Drawing::default()
-    };
+    let drawing = drawing(&meshes, vec![body(DVec3::ZERO)], oblique());
     let picture = render(&drawing, size);
     // The edge between the front and the top.
     let [x, y] = seen(&oblique(), size, DVec3::new(0.0, -0.5, 0.5)).map(|place| place as u32);
@@ -129,12 +117,9 @@ fn a_block_throws_its_shadow_away_from_the_sun() {
         ..oblique()
     };
     let drawing = Drawing {
-        meshes: &meshes,
-        instances: vec![body(DVec3::new(0.0, 0.0, 1.0))],
-        view: View::From(camera),
         ground: Some(Ground { height: 0.0 }),
         sun: Some(DVec3::new(1.0, 0.0, 1.0)),
-        ..Drawing::default()
+        ..drawing(&meshes, vec![body(DVec3::new(0.0, 0.0, 1.0))], camera)
     };
     let picture = render(&drawing, size);
     // Between the lines of the grid.

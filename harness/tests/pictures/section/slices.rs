@@ -181,8 +181,6 @@ fn what_cannot_be_cut_is_refused_with_what_there_is() {
         error.contains("no array `speed`; it has pressure, solid"),
         "{error}"
     );
-    let error = refusal(Quantity::Component("pressure", 2), 2, 0.1);
-    assert!(error.contains("component 2 is none of them"), "{error}");
     let error = refusal(Quantity::Scalar("pressure"), 2, 1.6);
     assert!(
         error.contains("z = 1.6 m misses the domain") && error.contains("0 to 1.5 m"),

@@ -3,7 +3,7 @@
 use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
     Stand,
-    solids::tank::{self, Tank, block, numbers, turn},
+    tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion};
 

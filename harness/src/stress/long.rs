@@ -4,7 +4,7 @@
 use super::{Cell, Map, Outcome, Sink, tally::Tally};
 use crate::validate::{
     Stand, fields,
-    solids::tank::{self, Tank, block, numbers, turn},
+    tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion, Scene};
 use std::time::Instant;

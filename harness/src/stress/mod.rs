@@ -25,7 +25,7 @@ pub use sink::Sink;
 
 use crate::{
     bench::Machine,
-    validate::{Stand, solids::tank::Tank},
+    validate::{Stand, tank::Tank},
 };
 use std::{path::PathBuf, time::Instant};
 

@@ -3,7 +3,7 @@
 use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
     Stand,
-    solids::tank::{self, Tank, block, numbers},
+    tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, EddyViscosity, Motion, Scene};
 

@@ -1,7 +1,7 @@
 //! Blocks in places where something may go wrong: each runs, or ends with an error that says what to change.
 
 use super::{Cell, Map, Outcome, Sink};
-use crate::validate::{Stand, solids::tank::Tank};
+use crate::validate::{Stand, tank::Tank};
 use riprap::scene::Scene;
 use std::path::Path;
 

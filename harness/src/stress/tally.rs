@@ -1,7 +1,7 @@
 //! Energy of fluid and blocks, which without forces cannot grow.
 
 use super::Cell;
-use crate::validate::solids::tank::Tank;
+use crate::validate::tank::Tank;
 use anyhow::Context;
 use glam::DVec3;
 

@@ -42,22 +42,16 @@ pub fn re1000(stand: &Stand) -> Outcome {
 fn run(stand: &Stand, sizes: &[u32], reynolds: f64, column: &str, limit: f64) -> Outcome {
     let mut records = Vec::new();
     for &n in sizes {
-        let Cavity {
-            trial,
-            errors: [of_u, of_v, of_both],
-            change,
-        } = measure(stand, n, (reynolds, column), Method::DEFAULT)?;
+        let found = measure(stand, n, (reynolds, column), Method::DEFAULT)?;
+        let (trial, [of_u, of_v, of_both]) = (found.trial, found.errors);
         for (name, error) in [("u", of_u), ("v", of_v)] {
             let quantity = format!("rms error of {name} / U, {n} cells");
-            records.push(trial.report(quantity, error, None));
+            records.push(trial.report(quantity, error));
         }
         let quantity = format!("rms error of u and v / U, {n} cells");
-        records.push(if Some(&n) == sizes.last() {
-            trial.at_most(quantity, of_both, limit)
-        } else {
-            trial.report(quantity, of_both, None)
-        });
-        records.push(trial.report("change in the last L/U / U", change, None));
+        let judged = (Some(&n) == sizes.last()).then_some(limit);
+        records.push(trial.at_most(quantity, of_both, judged));
+        records.push(trial.report("change in the last L/U / U", found.change));
     }
     Ok(records)
 }

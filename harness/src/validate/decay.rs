@@ -116,23 +116,17 @@ fn convergence(stand: &Stand, flow: &Vortices) -> Outcome {
     let mut records = Vec::new();
     let mut errors = Vec::new();
     for n in SIZES {
-        let Decay {
-            trial,
-            error,
-            viscosity,
-        } = flow.decay(stand, n, Method::DEFAULT)?;
-        records.push(trial.report(format!("L2 error of u, {n} cells"), error, None));
+        let found = flow.decay(stand, n, Method::DEFAULT)?;
+        let trial = found.trial;
+        records.push(trial.report(format!("L2 error of u, {n} cells"), found.error));
         let quantity = format!("viscosity / nominal, {n} cells");
-        records.push(if n == SIZES[2] {
-            trial.relative(quantity, viscosity, 1.0, VISCOSITY_LIMIT)
-        } else {
-            trial.report(quantity, viscosity, Some(1.0))
-        });
-        errors.push(error);
+        let limit = (n == SIZES[2]).then_some(VISCOSITY_LIMIT);
+        records.push(trial.relative(quantity, found.viscosity, 1.0, limit));
+        errors.push(found.error);
         if n == SIZES[2] {
             let coarse = (errors[0] / errors[1]).log2();
             let fine = (errors[1] / errors[2]).log2();
-            records.push(trial.report("order, 16 to 32 cells", coarse, Some(2.0)));
+            records.push(trial.relative("order, 16 to 32 cells", coarse, 2.0, None));
             records.push(trial.at_least("order, 32 to 64 cells", fine, LEAST_ORDER));
         }
     }

@@ -11,10 +11,10 @@ pub mod method;
 pub mod record;
 pub mod stand;
 pub mod stopwatch;
+pub mod tank;
 
 pub(crate) mod cavity;
 mod conservation;
-mod dda;
 pub(crate) mod decay;
 mod golden;
 mod null_models;
@@ -24,14 +24,6 @@ mod outlet;
 pub(crate) mod plane_walls;
 mod repeatability;
 pub(crate) mod rock;
-mod rock_broadphase;
-mod rock_contact;
-mod rock_free_body;
-mod rock_incline;
-mod rock_rebound;
-mod rock_rest;
-mod rock_toppling;
-mod rock_wedge;
 mod shear_wave;
 mod slots;
 pub(crate) mod solids;
@@ -156,23 +148,23 @@ pub const CASES: &[Case] = &[
     long("solids/sphere", "drag of a sphere in a stream", solids::obstacle::sphere),
     long("solids/cube", "drag of a cube in a stream (Hölzer & Sommerfeld 2008)", solids::obstacle::cube),
     long("solids/incline-flow", "drag of a cube on a bed of 30° in water that starts to run (Gardner & Sitar 2018)", solids::incline_flow::run),
-    short("rock/incline", "a block slides on an incline, or sticks, by its friction angle", rock_incline::run),
-    short("rock/toppling", "a column on an incline topples if tan α > b/h", rock_toppling::run),
-    short("rock/rebound", "rebound of a block from a fixed one at four damping ratios", rock_rebound::run),
-    short("rock/free-body", "free rotation of an asymmetric body", rock_free_body::run),
-    short("rock/wedge", "wedges on two planes slide by their factor of safety (Goodman & Shi 1985)", rock_wedge::run),
-    short("rock/stack", "a crooked stack of ten cubes stands still", rock_rest::stack),
-    short("rock/pyramid", "a pyramid of 55 cubes stands still", rock_rest::pyramid),
-    short("rock/arch", "a masonry arch of fifteen stones stands still", rock_rest::arch),
-    short("rock/contact-sign", "contact or not, against GJK and EPA", rock_contact::sign),
-    short("rock/broadphase", "pairs of both broadphases against all pairs tried", rock_broadphase::run),
-    short("dda/critical-step", "critical time step of a deformable block", dda::critical_step::run),
-    short("dda/spin", "centrifugal strain of a spinning deformable block", dda::spin::run),
-    short("dda/vibration", "period of a cube that swings in its volume", dda::vibration::run),
-    short("dda/bar", "stress and elongation of a hanging bar", dda::bar::run),
-    short("dda/stack", "a stack of deformable and rigid cubes under its weight", dda::contact::stack),
-    short("dda/collision", "two bars meet end to end without damping", dda::contact::collision),
-    short("dda/rigid-limit", "a stiff block moves as a rigid one, the difference falls with 1/E", dda::rigid_limit::run),
+    short("rock/incline", "a block slides on an incline, or sticks, by its friction angle", rock::incline::slides),
+    short("rock/toppling", "a column on an incline topples if tan α > b/h", rock::incline::toppling),
+    short("rock/rebound", "rebound of a block from a fixed one at four damping ratios", rock::dynamics::rebound),
+    short("rock/free-body", "free rotation of an asymmetric body", rock::dynamics::free_body),
+    short("rock/wedge", "wedges on two planes slide by their factor of safety (Goodman & Shi 1985)", rock::incline::wedge),
+    short("rock/stack", "a crooked stack of ten cubes stands still", rock::rest::stack),
+    short("rock/pyramid", "a pyramid of 55 cubes stands still", rock::rest::pyramid),
+    short("rock/arch", "a masonry arch of fifteen stones stands still", rock::rest::arch),
+    short("rock/contact-sign", "contact or not, against GJK and EPA", rock::detection::sign),
+    short("rock/broadphase", "pairs of both broadphases against all pairs tried", rock::detection::broadphase),
+    short("dda/critical-step", "critical time step of a deformable block", rock::deformable::critical_step),
+    short("dda/spin", "centrifugal strain of a spinning deformable block", rock::deformable::spin),
+    short("dda/vibration", "period of a cube that swings in its volume", rock::deformable::vibration),
+    short("dda/bar", "stress and elongation of a hanging bar", rock::deformable::bar),
+    short("dda/stack", "a stack of deformable and rigid cubes under its weight", rock::deformable::stack),
+    short("dda/collision", "two bars meet end to end without damping", rock::deformable::collision),
+    short("dda/rigid-limit", "a stiff block moves as a rigid one, the difference falls with 1/E", rock::deformable::rigid_limit),
     short("water/still", "hydrostatic pressure of water at rest", water::still::run),
     short("water/film", "film of viscous water down an incline", water::film::run),
     short("water/submerged", "buoyancy of a box under water and on the floor", water::buoyancy::submerged),

@@ -1,12 +1,9 @@
 //! The stagnation point in an offset open joint (Gardner & Sitar 2018, section 6.2), on three grids.
 
-use super::{Outcome, Stand, Trial, record::describe};
+use super::{Outcome, Stand, Trial, record::describe, tank::Tank};
 use anyhow::Context;
-use riprap::{
-    scene::{Field, ProbePlace, Scene},
-    simulation::Simulation,
-};
-use std::{path::Path, time::Instant};
+use riprap::scene::{Field, ProbePlace, Scene};
+use std::path::Path;
 
 /// The scene that ships, with cells of 1/16 in.
 const SCENE: &str = include_str!("../../scenes/offset_joint.toml");
@@ -48,22 +45,14 @@ pub fn stagnation(stand: &Stand) -> Outcome {
         let trial = &means.trial;
         let (height, pressure) = peak(&means.face);
         let name = |what: &str| format!("{what}, cell {:.3} mm", 1e3 * cell);
-        records.push(trial.report(name("stagnation point, m"), height, None));
-        records.push(trial.report(name("its pressure / (ρV²/2)"), pressure / DYNAMIC, None));
+        records.push(trial.report(name("stagnation point, m"), height));
+        records.push(trial.report(name("its pressure / (ρV²/2)"), pressure / DYNAMIC));
         let joint = means.joint / DYNAMIC;
         records.push(trial.at_most(name("joint's pressure / (ρV²/2)"), joint, 1.0));
         // Water that turns over in the joint goes up and down; nothing can pass through.
         let [up, down] = means.upright.map(|v| v / 6.096);
-        records.push(trial.report(
-            name("largest mean upward velocity in the joint / V"),
-            up,
-            None,
-        ));
-        records.push(trial.report(
-            name("largest mean downward velocity there / V"),
-            -down,
-            None,
-        ));
+        records.push(trial.report(name("largest mean upward velocity in the joint / V"), up));
+        records.push(trial.report(name("largest mean downward velocity there / V"), -down));
         if let Some([before, coarse]) = before.replace([height, cell]) {
             let change = (height - before).abs() / coarse;
             records.push(trial.at_most(name("its change / coarse cell"), change, 1.0));
@@ -74,32 +63,30 @@ pub fn stagnation(stand: &Stand) -> Outcome {
 
 /// Runs the scene; the means begin when the flow has developed.
 fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
-    let begin = Instant::now();
-    let made = Simulation::new(&stand.device, &stand.queue, scene);
-    let mut simulation = stand.drive("the kernels", made)??;
+    let mut tank = Tank::fill(stand, scene)?;
     let end = scene.run.duration.context("the scene has a duration")?;
     let cell = scene.domain.cell;
     let [mut face, joint] = [region(scene, "downstream_face")?, region(scene, "joint")?];
     // Only the cells that touch it.
     face.0[0] = face.1[0] - cell;
     let centres: Vec<_> = scene.domain.centres().collect();
-    let open = |n: &u32| simulation.solid().get(*n as usize) != Some(&true);
-    let cells: Vec<u32> = (0..centres.len() as u32)
-        .filter(open)
-        .filter(|&n| {
-            [face, joint]
-                .iter()
-                .any(|r| within(r, &centres[n as usize]))
-        })
-        .collect();
+    let open = |n: &u32| tank.simulation.solid().get(*n as usize) != Some(&true);
+    let seen = |n: &u32| {
+        [face, joint]
+            .iter()
+            .any(|r| within(r, &centres[*n as usize]))
+    };
+    let all = 0..centres.len() as u32;
+    let cells: Vec<u32> = all.filter(open).filter(seen).collect();
     let mut pressure = vec![0.0; cells.len()];
     let mut upright = vec![0.0; cells.len()];
-    advance(stand, &mut simulation, BEGIN)?;
+    let steps = |time: f64| (time / tank.simulation.time_step()).round().max(1.0) as u64;
+    let (begin, sample) = (steps(BEGIN), steps(SAMPLE));
+    tank.advance(begin)?;
     let mut samples = 0.0;
-    while simulation.time() < end {
-        advance(stand, &mut simulation, SAMPLE)?;
-        let read = simulation.read(&[Field::Pressure, Field::Velocity], &cells);
-        let arrays = stand.drive("reading the joint", read)??;
+    while tank.simulation.time() < end {
+        tank.advance(sample)?;
+        let arrays = tank.read(&[Field::Pressure, Field::Velocity], &cells)?;
         for n in 0..cells.len() {
             pressure[n] += f64::from(arrays[0].values[n]);
             upright[n] += f64::from(arrays[1].values[3 * n + 1]);
@@ -128,26 +115,10 @@ fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
             speeds().fold(f64::INFINITY, f64::min),
         ],
         trial: Trial {
-            setup: simulation
-                .lattice()
-                .map_or_else(String::new, |lattice| describe(lattice.setup())),
-            cells: centres.len() as u64,
-            steps: simulation.step(),
-            seconds: begin.elapsed().as_secs_f64(),
-            ..Trial::default()
+            setup: describe(tank.lattice().setup()),
+            ..tank.trial("")
         },
     })
-}
-
-/// Runs for a time (s), some steps in a submission.
-fn advance(stand: &Stand, simulation: &mut Simulation, time: f64) -> anyhow::Result<()> {
-    let mut left = (time / simulation.time_step()).round().max(1.0) as u64;
-    while left > 0 {
-        let some = left.min(200);
-        stand.drive("the joint", simulation.advance(some))??;
-        left -= some;
-    }
-    Ok(())
 }
 
 /// Lower and upper corner of a probe of the scene, m.

@@ -90,14 +90,13 @@ fn run(stand: &Stand, setup: Setup, inlet: Option<f64>) -> Outcome {
         let h = f64::from(HEIGHT);
         [4.0 * SPEED * y * (h - y) / (h * h), 0.0, 0.0]
     });
-    records.push(trial.report("L2 difference of u from the parabola", shape, None));
+    records.push(trial.report("L2 difference of u from the parabola", shape));
     let last = f64::from(end.excess[middle(LENGTH - 1)]) / 3.0;
     records.push(trial.report(
         "p in the last cell / drop in the channel",
         last / (slope(SPEED) * f64::from(LENGTH)).abs(),
-        None,
     ));
     let change = fields::largest_change(&before, &end) / SPEED;
-    records.push(trial.report("change of u in the last 1000 steps / U", change, None));
+    records.push(trial.report("change of u in the last 1000 steps / U", change));
     Ok(records)
 }

@@ -23,7 +23,7 @@ pub fn pulse(stand: &Stand) -> Outcome {
     }
     let (trial, returned) = send(stand, 0.0, Face::Pressure { density: 1.0 })?;
     let quantity = "pressure: returned amplitude, U = 0";
-    records.push(trial.report(quantity, returned, None));
+    records.push(trial.report(quantity, returned));
     Ok(records)
 }
 

@@ -73,7 +73,7 @@ fn each_tau<Exact: Fn(f64, f64) -> f64>(
         records.push(trial.at_most(format!("L2 error of u, τ = {tau}"), error, LIMIT));
         let profile: Vec<_> = (0..3).map(|y| f64::from(end.velocity[0][4 * y])).collect();
         let quantity = format!("wall at y, cells, τ = {tau}");
-        records.push(trial.report(quantity, root(&profile), None));
+        records.push(trial.report(quantity, root(&profile)));
     }
     Ok(records)
 }

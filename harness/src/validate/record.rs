@@ -3,6 +3,7 @@
 use super::stopwatch::Spent;
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, Storage};
 use serde::Serialize;
+use std::time::Instant;
 
 /// One number that a case measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,7 +48,19 @@ pub struct Trial {
 }
 
 impl Trial {
-    fn record(&self, quantity: impl Into<String>, value: f64) -> Record {
+    /// What was run on the host since `begin`.
+    pub fn since(begin: Instant, setup: impl Into<String>, cells: u64, steps: u64) -> Self {
+        Self {
+            setup: setup.into(),
+            cells,
+            steps,
+            seconds: begin.elapsed().as_secs_f64(),
+            ..Self::default()
+        }
+    }
+
+    /// A number without reference and limit.
+    pub fn report(&self, quantity: impl Into<String>, value: f64) -> Record {
         Record {
             case: String::new(),
             setup: self.setup.clone(),
@@ -63,25 +76,17 @@ impl Trial {
         }
     }
 
-    fn judged(mut record: Record, error: f64, limit: f64) -> Record {
-        record.error = Some(error);
-        record.limit = Some(limit);
-        // A comparison with NaN is false: what is not a number does not pass.
-        record.passed = error <= limit;
-        record
-    }
-
-    /// Passes if |value/reference − 1| ≤ limit.
+    /// Passes if |value/reference − 1| ≤ limit; without a limit the error is reported.
     pub fn relative(
         &self,
         quantity: impl Into<String>,
         value: f64,
         reference: f64,
-        limit: f64,
+        limit: impl Into<Option<f64>>,
     ) -> Record {
-        let mut record = self.record(quantity, value);
-        record.reference = Some(reference);
-        Self::judged(record, (value / reference - 1.0).abs(), limit)
+        let error = (value / reference - 1.0).abs();
+        let record = self.report(quantity, value);
+        record.judged(reference, error, limit.into())
     }
 
     /// Passes if |value − reference| ≤ limit.
@@ -92,38 +97,44 @@ impl Trial {
         reference: f64,
         limit: f64,
     ) -> Record {
-        let mut record = self.record(quantity, value);
-        record.reference = Some(reference);
-        Self::judged(record, (value - reference).abs(), limit)
+        let error = (value - reference).abs();
+        let record = self.report(quantity, value);
+        record.judged(reference, error, Some(limit))
     }
 
-    /// For a value that is an error itself: passes if value ≤ limit.
-    pub fn at_most(&self, quantity: impl Into<String>, value: f64, limit: f64) -> Record {
-        let mut record = self.record(quantity, value);
-        record.reference = Some(0.0);
-        Self::judged(record, value, limit)
+    /// For a value that is an error itself: passes if value ≤ limit; without a limit it is reported.
+    pub fn at_most(
+        &self,
+        quantity: impl Into<String>,
+        value: f64,
+        limit: impl Into<Option<f64>>,
+    ) -> Record {
+        let record = self.report(quantity, value);
+        match limit.into() {
+            Some(limit) => record.judged(0.0, value, Some(limit)),
+            None => record,
+        }
     }
 
     /// Passes if value ≥ bound; the error is what is missing.
     pub fn at_least(&self, quantity: impl Into<String>, value: f64, bound: f64) -> Record {
-        let mut record = self.record(quantity, value);
-        record.reference = Some(bound);
         // `f64::max` would turn NaN into 0.
         let missing = if value >= bound { 0.0 } else { bound - value };
-        Self::judged(record, missing, 0.0)
+        let record = self.report(quantity, value);
+        record.judged(bound, missing, Some(0.0))
     }
+}
 
-    /// A number without a limit; with a reference the relative error is told.
-    pub fn report(
-        &self,
-        quantity: impl Into<String>,
-        value: f64,
-        reference: Option<f64>,
-    ) -> Record {
-        let mut record = self.record(quantity, value);
-        record.reference = reference;
-        record.error = reference.map(|r| (value / r - 1.0).abs());
-        record
+impl Record {
+    fn judged(self, reference: f64, error: f64, limit: Option<f64>) -> Self {
+        Self {
+            reference: Some(reference),
+            error: Some(error),
+            limit,
+            // A comparison with NaN is false: what is not a number does not pass.
+            passed: limit.is_none_or(|limit| error <= limit),
+            ..self
+        }
     }
 }
 

@@ -50,7 +50,7 @@ pub fn run(_: &Stand) -> Outcome {
     Ok(vec![
         Record {
             seconds: trial.seconds,
-            ..trial.report("combinations that naga validates", f64::from(linked), None)
+            ..trial.report("combinations that naga validates", f64::from(linked))
         },
         trial.at_most("combinations with other bindings", wrong.len() as f64, 0.0),
     ])

@@ -58,7 +58,7 @@ pub fn run(stand: &Stand) -> Outcome {
         }
         if [2, 7, H as usize - 1].contains(&y) {
             let quantity = format!("U⁺ at y⁺ = {wall_units:.1}");
-            records.push(trial.report(quantity, mean(y), Some(expected)));
+            records.push(trial.relative(quantity, mean(y), expected, None));
         }
     }
     let quantity = format!("largest error of U⁺, y⁺ > 10 (at {:.0})", worst.1);

@@ -69,13 +69,12 @@ fn run(stand: &Stand, outlet: Face) -> Outcome {
     let mut records = vec![trial.at_least("steps without a fault", survived as f64, steps as f64)];
     if fault.is_none() {
         records.extend([
-            trial.report("largest speed / U, second half", fastest / SPEED, None),
+            trial.report("largest speed / U, second half", fastest / SPEED),
             trial.report(
                 "largest |p| at the outlet / (ρU²/2)",
                 swing / (0.5 * SPEED * SPEED),
-                None,
             ),
-            trial.report("Strouhal number f D/U", strouhal(&crosswise), None),
+            trial.report("Strouhal number f D/U", strouhal(&crosswise)),
         ]);
     }
     Ok(records)

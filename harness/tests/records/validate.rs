@@ -94,7 +94,7 @@ fn each_measure_judges_in_its_own_way() {
     assert!(trial.at_most("", 1e-6, 1e-6).passed);
     assert!(trial.at_least("", 2.0, 1.95).passed);
     assert!(!trial.at_least("", 1.9, 1.95).passed);
-    assert!(trial.report("", 17.0, Some(1.0)).passed);
+    assert!(trial.relative("", 17.0, 1.0, None).passed);
 }
 
 #[test]
@@ -109,6 +109,6 @@ fn what_is_not_a_number_does_not_pass() {
 fn a_row_says_how_the_record_went() {
     let failed = record::row(&trial().at_most("drift", 2.0, 1.0));
     assert!(failed.starts_with("FAIL drift"), "{failed}");
-    let told = record::row(&trial().report("drift", 2.0, None));
+    let told = record::row(&trial().report("drift", 2.0));
     assert!(told.starts_with("info drift"), "{told}");
 }

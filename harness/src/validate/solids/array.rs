@@ -1,11 +1,11 @@
 //! Drag of a simple cubic array of spheres (Zick & Homsy 1982): F = 6πμaKU, F the whole force on a sphere and U
 //! the mean velocity over fluid and spheres.
 
-use super::{
-    super::{Method, Outcome, Record, Stand, Trial},
+use crate::picture::{Chart, Curve, Mark, Measure};
+use crate::validate::{
+    Method, Outcome, Record, Stand, Trial,
     tank::{self, Tank, block, numbers},
 };
-use crate::picture::{Chart, Curve, Mark, Measure};
 use riprap::scene::{BlockShape, Motion};
 use std::f64::consts::{PI, TAU};
 
@@ -106,7 +106,7 @@ impl Array {
                 tank.simulation.step()
             );
         }
-        let force = tank.external_load(0).flow.force.x;
+        let force = tank.load(0).flow.force.x;
         Ok(Drag {
             ratio: force / (stokes * flux) / self.published(),
             balance: force / (push * volume) - 1.0,
@@ -138,7 +138,7 @@ impl Drag {
     }
 
     fn told(&self, array: &Array) -> Record {
-        self.trial.report(name(array), self.ratio, Some(1.0))
+        self.trial.relative(name(array), self.ratio, 1.0, None)
     }
 }
 

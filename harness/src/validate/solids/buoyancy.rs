@@ -1,7 +1,7 @@
 //! A block at rest in a closed tank: it feels ρVg and nothing else.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion, Scene};
@@ -46,7 +46,7 @@ pub fn archimedes(stand: &Stand) -> Outcome {
         scene.coupling.interval = (STEPS / 8) as u32;
         let mut tank = Tank::fill(stand, &scene)?;
         tank.advance(STEPS)?;
-        let load = tank.external_load(0);
+        let load = tank.load(0);
         let force = load.flow.force + load.buoyancy.force;
         let torque = load.flow.torque() + load.buoyancy.torque();
         let how = match (turned, heavy) {
@@ -72,9 +72,9 @@ pub fn neutral(stand: &Stand) -> Outcome {
         let mut scene = cube(tau, true, Motion::Free)?;
         scene.fluid.acceleration = numbers(scene.rock.gravity);
         let mut tank = Tank::fill(stand, &scene)?;
-        let start = tank.pose(0)?;
+        let start = tank.pose(0);
         tank.advance(STEPS)?;
-        let end = tank.pose(0)?;
+        let end = tank.pose(0);
         let trial = tank.trial("neutral cube");
         // The way that it would fall without water.
         let fall = 0.5 * GRAVITY * (STEPS as f64).powi(2);

@@ -1,7 +1,7 @@
 //! A cube that crosses the grid: fluid that moves with it must not notice.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, numbers, turn},
 };
 use glam::DVec3;
@@ -32,7 +32,7 @@ fn forces(tank: &mut Tank<'_>, steps: u64) -> anyhow::Result<Vec<DVec3>> {
     let mut all = Vec::new();
     for _ in 0..steps {
         tank.advance(1)?;
-        all.push(tank.external_load(0).flow.force);
+        all.push(tank.load(0).flow.force);
     }
     Ok(all)
 }
@@ -66,7 +66,7 @@ pub fn run(stand: &Stand) -> Outcome {
         let spike = found.windows(2).map(jump).fold(0.0, f64::max) / mean.abs();
         let how = if turned { "turned" } else { "along the grid" };
         let quantity = format!("largest jump of the drag / its mean, {how}");
-        records.push(trial.report(quantity, spike, None));
+        records.push(trial.report(quantity, spike));
     }
     Ok(records)
 }

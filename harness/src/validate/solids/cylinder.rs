@@ -1,7 +1,7 @@
 //! A cylinder in a channel, Reynolds number 20: the steady plane flow 2D-1 of Schäfer & Turek (1996).
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, numbers},
 };
 use riprap::{
@@ -61,7 +61,7 @@ pub fn run(stand: &Stand) -> Outcome {
         scene.coupling.interval = (steps / 8) as u32;
         let mut tank = Tank::fill(stand, &scene)?;
         tank.advance(steps / 8 * 8)?;
-        let force = tank.external_load(0).flow.force.x / extent[2];
+        let force = tank.load(0).flow.force.x / extent[2];
         let drag = force / (0.5 * mean * mean * cells);
         let trial = tank.trial("cylinder in a channel, Re 20");
         records.push(trial.relative(format!("C_d, D = {size}"), drag, DRAG, limit));

@@ -14,11 +14,11 @@
 //! Without cells it would be the added mass of the cube between bed and surface, times the pull of the slope, until the
 //! flow leaves its edges.
 
-use super::{
-    super::{Outcome, Record, Stand},
+use crate::picture::{Chart, Curve, Mark, Measure};
+use crate::validate::{
+    Outcome, Record, Stand, Trial,
     tank::{Tank, block},
 };
-use crate::picture::{Chart, Curve, Mark, Measure};
 use riprap::scene::{Block, BlockShape, Boundary, Field, Motion, Probe, ProbePlace, Scene};
 use std::path::Path;
 
@@ -76,12 +76,12 @@ pub fn run(stand: &Stand) -> Outcome {
     let whole: f64 = fine.iter().map(|[_, b]| b * b).sum();
     let difference = (square / whole).sqrt();
     if let Some(last) = records.last().cloned() {
-        let trial = super::super::Trial {
+        let trial = Trial {
             setup: "all grids".into(),
             cells: last.cells,
             steps: last.steps,
             seconds: last.seconds,
-            ..super::super::Trial::default()
+            ..Trial::default()
         };
         let quantity = "difference of the drag histories, r.m.s.";
         records.push(trial.at_most(quantity, difference, 5e-2));
@@ -147,7 +147,7 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
     while tank.simulation.time() < scene.coupling.hold - 0.5 * units.time_step {
         tank.advance(1)?;
         let [force, along] = [0, 1].map(|block| {
-            let load = tank.external_load(block);
+            let load = tank.load(block);
             load.flow.force.x + load.buoyancy.force.x
         });
         impulse += force * units.time_step;
@@ -175,17 +175,11 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
         trial.report(
             "drag at the end of the hold, N",
             drag.last().map_or(f64::NAN, |d| d[1]),
-            None,
         ),
-        trial.report(
-            "momentum to the bed / to the block",
-            friction / impulse,
-            None,
-        ),
+        trial.report("momentum to the bed / to the block", friction / impulse),
         trial.report(
             "momentum to the bed / gain of a layer of cells",
             friction / (scene.fluid.density * x * y * units.cell * slope * time),
-            None,
         ),
         trial.at_most(
             "(pull − drag − friction − gain of momentum) / drag",
@@ -193,19 +187,16 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
             1e-2,
         ),
     ];
-    let begin = tank.pose(0)?.centre;
+    let begin = tank.pose(0).centre;
     while tank.simulation.time() < scene.run.duration.unwrap_or_default()
-        && (tank.pose(0)?.centre - begin).length() < MOVED * EDGE
+        && (tank.pose(0).centre - begin).length() < MOVED * EDGE
     {
         tank.advance(1)?;
     }
     let moved = tank.simulation.time() - time;
-    records.push(
-        tank.trial(&what)
-            .report("first motion after it, s", moved, None),
-    );
+    records.push(tank.trial(&what).report("first motion after it, s", moved));
     let mean = start.iter().sum::<f64>() / start.len() as f64;
-    records.push(trial.report("drag at the start, N", mean, None));
+    records.push(trial.report("drag at the start, N", mean));
     Ok(History {
         drag,
         records,

@@ -1,7 +1,7 @@
 //! Blocks that come near a wall: what the grid feels of the fluid between them, and what lubrication adds to it.
 
-use super::{
-    super::{Outcome, Stand, Trial},
+use crate::validate::{
+    Outcome, Stand, Trial,
     tank::{self, Tank, block, numbers},
 };
 use glam::{DQuat, DVec3};
@@ -159,15 +159,16 @@ pub fn run(stand: &Stand) -> Outcome {
             let mut force = 0.0;
             for _ in 0..WINDOW {
                 tank.advance(1)?;
-                force += tank.external_load(0).flow.force.z / WINDOW as f64;
+                force += tank.load(0).flow.force.z / WINDOW as f64;
             }
             let (grid, theory) = (force / SPEED, body.theory(gap));
             let whole = grid + body.film(gap)?;
             let trial = tank.trial(name);
-            records.push(trial.report(
+            records.push(trial.relative(
                 format!("{name}, gap {gap}: grid alone / theory"),
                 grid / theory,
-                Some(1.0),
+                1.0,
+                None,
             ));
             // Wider ones have no film, and theory knows nothing of the sides of a cube.
             if gap < 1.0 {
@@ -202,7 +203,7 @@ pub fn landing(stand: &Stand) -> Outcome {
             let expected = sinking(body, weight, from, to);
             while times[1].is_nan() && (tank.simulation.step() as f64) < 4.0 * expected + 1e3 {
                 tank.advance(1)?;
-                let gap = tank.pose(0)?.centre.z - body.half();
+                let gap = tank.pose(0).centre.z - body.half();
                 for (time, mark) in times.iter_mut().zip([from, to]) {
                     if before > mark && gap <= mark {
                         let part = (before - mark) / (before - gap);
@@ -215,10 +216,8 @@ pub fn landing(stand: &Stand) -> Outcome {
             let ratio = (times[1] - times[0]) / expected;
             let trial: Trial = tank.trial(&format!("{name}, {how} lubrication"));
             let quantity = format!("{name}: time from 1 to 0.2 cells / theory, {how} lubrication");
-            records.push(match lubrication {
-                true => trial.relative(quantity, ratio, 1.0, LIMIT),
-                false => trial.report(quantity, ratio, Some(1.0)),
-            });
+            let limit = lubrication.then_some(LIMIT);
+            records.push(trial.relative(quantity, ratio, 1.0, limit));
         }
     }
     Ok(records)

@@ -1,7 +1,5 @@
 //! Blocks in a fluid.
 
-pub mod tank;
-
 pub mod array;
 pub mod buoyancy;
 pub mod crossing;

@@ -1,7 +1,7 @@
 //! Momentum of fluid and blocks in a periodic box, and the mass of the fluid.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, numbers},
 };
 use glam::DVec3;

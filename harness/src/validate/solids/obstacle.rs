@@ -3,8 +3,8 @@
 //! A quarter of each is computed, between planes of symmetry; the other sides slip, ten sizes apart where values of an
 //! unbounded stream are the reference, so that the body takes up less than 1 % of the section.
 
-use super::{
-    super::{Method, Outcome, Stand, Trial},
+use crate::validate::{
+    Method, Outcome, Stand, Trial,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Boundary, Motion};
@@ -155,7 +155,7 @@ impl Stream {
         let mut sum = 0.0;
         for _ in 0..READINGS {
             tank.advance(every)?;
-            sum += tank.external_load(0).flow.force.x;
+            sum += tank.load(0).flow.force.x;
         }
         // Four quarters, and ρ = 1.
         let force = 4.0 * sum / READINGS as f64;

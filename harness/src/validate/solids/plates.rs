@@ -1,7 +1,7 @@
 //! Flow between two plates that are blocks: Poiseuille's, between surfaces that lie a little outside of where they should.
 
-use super::{
-    super::{Method, Outcome, Stand},
+use crate::validate::{
+    Method, Outcome, Stand, Trial,
     tank::{self, Tank, block, numbers},
 };
 use anyhow::Context;
@@ -33,7 +33,7 @@ pub fn run(stand: &Stand) -> Outcome {
         for tau in [0.52, 0.6, 1.0] {
             let flow = Flow::measure(stand, gap, tau, 0.0)?;
             let quantity = format!("flow / Poiseuille's, {gap} cells, τ = {tau}");
-            records.push(flow.trial.report(quantity, flow.carried, Some(1.0)));
+            records.push(flow.trial.relative(quantity, flow.carried, 1.0, None));
         }
     }
     Ok(records)
@@ -45,7 +45,7 @@ struct Flow {
     outside: f64,
     /// What flows through, over what should.
     carried: f64,
-    trial: super::super::Trial,
+    trial: Trial,
 }
 
 impl Flow {

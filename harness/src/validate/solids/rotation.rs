@@ -1,7 +1,7 @@
 //! Torque on a sphere that turns in a viscous fluid: 8πμr³ω/(1 − c) in a dilute periodic array.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Motion};
@@ -33,7 +33,7 @@ pub fn run(stand: &Stand) -> Outcome {
         tank.advance(8 * u64::from(scene.coupling.interval))?;
         let concentration = 4.0 / 3.0 * PI * (radius / length).powi(3);
         let exact = -8.0 * PI * nu * radius.powi(3) * omega / (1.0 - concentration);
-        let torque = tank.external_load(0).flow.torque();
+        let torque = tank.load(0).flow.torque();
         let trial = tank.trial("turning sphere");
         let quantity = format!("T / (8πμr³ω/(1−c)), r = {radius}, τ = {tau}");
         records.push(trial.relative(quantity, torque.z / exact, 1.0, limit));

@@ -5,11 +5,8 @@
 //! Stokes' law and the walls of a square duct (Happel & Brenner 1983) allow 0.0355. The same tank with a twentieth of the
 //! weight, where inertia hardly matters, is a second reference for it.
 
-use super::{
-    super::{Method, Outcome, Record, Stand, Trial},
-    tank::Tank,
-};
 use crate::picture::{Chart, Curve, Mark, Measure};
+use crate::validate::{Method, Outcome, Record, Stand, Trial, tank::Tank};
 use riprap::scene::Scene;
 use std::path::Path;
 
@@ -136,7 +133,7 @@ impl Oil {
         let (mut gap, mut fastest) = (Vec::new(), 0.0f64);
         while tank.simulation.time() < time {
             tank.advance(every)?;
-            let pose = tank.pose(0)?;
+            let pose = tank.pose(0);
             fastest = fastest.max(-pose.velocity.z);
             gap.push([tank.simulation.time(), pose.centre.z - RADIUS]);
         }

@@ -1,10 +1,10 @@
 //! How the drag of a cube swings as its faces cross cells, over resolution and relaxation time.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::picture::{Chart, Curve, Mark, Measure};
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block},
 };
-use crate::picture::{Chart, Curve, Mark, Measure};
 use riprap::{
     formula::Formula,
     scene::{BlockShape, Motion},
@@ -49,7 +49,7 @@ pub fn run(stand: &Stand) -> Outcome {
             let mut drag = Vec::new();
             for _ in 0..COUNTED * CROSSING + 1 {
                 tank.advance(1)?;
-                drag.push(-tank.external_load(0).flow.force.x);
+                drag.push(-tank.load(0).flow.force.x);
             }
             let load: Vec<f64> = drag.windows(2).map(|two| 0.5 * (two[0] + two[1])).collect();
             let mean = load.iter().sum::<f64>() / load.len() as f64;
@@ -64,13 +64,9 @@ pub fn run(stand: &Stand) -> Outcome {
             let swing = swing.fold(0.0, f64::max);
             let trial = tank.trial(&format!("cube of {size}"));
             let of = format!("D = {size}, τ = {tau}");
-            records.push(trial.report(
-                format!("largest jump of a step / mean drag, {of}"),
-                jump,
-                None,
-            ));
+            records.push(trial.report(format!("largest jump of a step / mean drag, {of}"), jump));
             let quantity = format!("swing of what it feels in a crossing / mean drag, {of}");
-            records.push(trial.report(quantity, swing, None));
+            records.push(trial.report(quantity, swing));
             points.push([tau, 100.0 * swing]);
             table.push([edge, tau, 100.0 * jump, 100.0 * swing]);
         }

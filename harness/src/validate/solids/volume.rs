@@ -1,7 +1,7 @@
 //! The solid fractions of the cells of a block add up to its volume.
 
-use super::{
-    super::{Outcome, Stand},
+use crate::validate::{
+    Outcome, Stand,
     tank::{self, Tank, block, turn},
 };
 use riprap::scene::{BlockShape, Motion};
@@ -59,7 +59,7 @@ pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (column, (name, _, volume)) in shapes.iter().enumerate() {
         let error = |row: usize| {
-            let load = tank.external_load(shapes.len() * row + column).flow;
+            let load = tank.load(shapes.len() * row + column).flow;
             ((load.entrained + load.missing) / volume - 1.0).abs()
         };
         let worst = (0..turns as usize).map(error).fold(0.0, largest);

@@ -1,8 +1,8 @@
 //! Boxes in still water: Archimedes.
 
-use super::{
-    super::{Outcome, Stand, Trial},
-    pool::{self, GRAVITY, Pool},
+use crate::validate::{
+    Outcome, Stand, Trial,
+    tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
 
@@ -38,14 +38,14 @@ pub fn held(
         "#,
         0.5 * LENGTH
     );
-    let mut scene = pool::scene([LENGTH, 1.5 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
-    pool::choose(&mut scene, scheme);
-    let mut pool = Pool::fill(stand, &scene)?;
-    pool.advance(3.0)?;
+    let mut scene = tank::pool([LENGTH, 1.5 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
+    tank::choose(&mut scene, scheme);
+    let mut pool = Tank::fill(stand, &scene)?;
+    pool.advance_to(3.0)?;
     let mut force = glam::DVec3::ZERO;
     for look in 1..=LOOKS {
-        pool.advance(3.0 + 0.05 * f64::from(look))?;
-        force += pool.external_load(0).flow.force / f64::from(LOOKS);
+        pool.advance_to(3.0 + 0.05 * f64::from(look))?;
+        force += pool.load(0).flow.force / f64::from(LOOKS);
     }
     let weight = 1000.0 * GRAVITY * EDGE * EDGE;
     Ok((
@@ -98,13 +98,13 @@ pub fn stacked(stand: &Stand) -> Outcome {
             )
         });
         let size = [LENGTH, 1.5 * DEPTH];
-        let scene = pool::scene(size, SPACING, [LENGTH, DEPTH], &boxes.concat())?;
-        let mut pool = Pool::fill(stand, &scene)?;
-        pool.advance(2.0)?;
+        let scene = tank::pool(size, SPACING, [LENGTH, DEPTH], &boxes.concat())?;
+        let mut pool = Tank::fill(stand, &scene)?;
+        pool.advance_to(2.0)?;
         let mut up = 0.0;
         for look in 1..=LOOKS {
-            pool.advance(2.0 + 0.05 * f64::from(look))?;
-            up += pool.external_load(1).flow.force.z / f64::from(LOOKS);
+            pool.advance_to(2.0 + 0.05 * f64::from(look))?;
+            up += pool.load(1).flow.force.z / f64::from(LOOKS);
         }
         let push = 1000.0 * GRAVITY * EDGE;
         let trial = pool.trial("stacked boxes");
@@ -123,12 +123,9 @@ pub fn floating(stand: &Stand) -> Outcome {
     for layers in [12, 8] {
         let (trial, draft, tilt) = float(stand, f64::from(layers) * SPACING)?;
         let name = format!("draft / exact, {} spacings", layers / 2);
-        if layers == 12 {
-            records.push(trial.relative(name, draft, 1.0, 0.01));
-            records.push(trial.at_most("tilt, rad", tilt, 0.01));
-        } else {
-            records.push(trial.report(name, draft, Some(1.0)));
-        }
+        let limit = (layers == 12).then_some(0.01);
+        records.push(trial.relative(name, draft, 1.0, limit));
+        records.extend(limit.map(|limit| trial.at_most("tilt, rad", tilt, limit)));
     }
     Ok(records)
 }
@@ -154,13 +151,13 @@ fn float(stand: &Stand, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
         "#,
         DEPTH - start + 0.5 * height
     );
-    let scene = pool::scene([LENGTH, 2.0 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
-    let mut pool = Pool::fill(stand, &scene)?;
+    let scene = tank::pool([LENGTH, 2.0 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
+    let mut pool = Tank::fill(stand, &scene)?;
     let end = if stand.full { 20.0 } else { 8.0 };
-    pool.advance(end)?;
+    pool.advance_to(end)?;
     let mut draft = 0.0;
     for look in 1..=LOOKS {
-        pool.advance(end + 0.05 * f64::from(look))?;
+        pool.advance_to(end + 0.05 * f64::from(look))?;
         let bottom = pool.pose(0).centre.z - 0.5 * height;
         draft += (level(&pool.water()?.positions, width) - bottom) / f64::from(LOOKS);
     }

@@ -1,8 +1,8 @@
 //! A dam that breaks (Martin & Moyce 1952): how fast the front runs over the dry floor.
 
-use super::{
-    super::{Outcome, Stand, Trial},
-    pool::{self, GRAVITY, Pool},
+use crate::validate::{
+    Outcome, Stand, Trial,
+    tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
 
@@ -16,13 +16,13 @@ const STRETCH: [f64; 2] = [1.8, 3.6];
 pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Trial, [f64; 2])> {
     let spacing = WIDTH / f64::from(columns);
     let size = [5.0 * WIDTH, 3.0 * WIDTH];
-    let mut scene = pool::scene(size, spacing, [WIDTH, 2.0 * WIDTH], "")?;
-    pool::choose(&mut scene, scheme);
-    let mut pool = Pool::fill(stand, &scene)?;
+    let mut scene = tank::pool(size, spacing, [WIDTH, 2.0 * WIDTH], "")?;
+    tank::choose(&mut scene, scheme);
+    let mut pool = Tank::fill(stand, &scene)?;
     let unit = (WIDTH / (2.0 * GRAVITY)).sqrt();
     let (mut front, mut time) = (vec![1.0], vec![0.0]);
     while front[front.len() - 1] < 3.9 && time[time.len() - 1] < 6.0 {
-        pool.advance(pool.simulation.time() + 0.02 * unit)?;
+        pool.advance_to(pool.simulation.time() + 0.02 * unit)?;
         let water = pool.water()?;
         // On the floor: spray ahead of it is not the front.
         let floor = water.positions.iter().filter(|x| x.z < 2.0 * spacing);

@@ -1,9 +1,6 @@
 //! A film of viscous water that runs down an incline: u = g_x/ν (H z − z²/2).
 
-use super::{
-    super::{Outcome, Stand},
-    pool::Pool,
-};
+use crate::validate::{Outcome, Stand, tank::Tank};
 use anyhow::Result;
 use riprap::scene::Scene;
 use std::path::Path;
@@ -48,22 +45,19 @@ pub fn run(stand: &Stand) -> Outcome {
         );
         let scene = Scene::from_toml(&text, Path::new("."), "film")?;
         scene.check()?;
-        let mut pool = Pool::fill(stand, &scene)?;
+        let mut pool = Tank::fill(stand, &scene)?;
         let fading = 4.0 * DEPTH.powi(2) / (std::f64::consts::PI.powi(2) * VISCOSITY);
-        pool.advance(FADINGS * fading)?;
+        pool.advance_to(FADINGS * fading)?;
         let miss = profile(&mut pool)?;
         let name = format!("L2(u), H/Δx = {layers}");
         let trial = pool.trial("viscous film");
-        records.push(match limit {
-            Some(limit) => trial.at_most(name, miss, limit),
-            None => trial.report(name, miss, None),
-        });
+        records.push(trial.at_most(name, miss, limit));
     }
     Ok(records)
 }
 
 /// L2 error of the velocity along the incline.
-fn profile(pool: &mut Pool<'_>) -> Result<f64> {
+fn profile(pool: &mut Tank<'_>) -> Result<f64> {
     let water = pool.water()?;
     let (mut off, mut all) = (0.0, 0.0);
     for (x, v) in water.positions.iter().zip(&water.velocities) {

@@ -1,8 +1,8 @@
 //! A piston that makes waves: H/S = 2 (cosh 2kh − 1)/(sinh 2kh + 2kh) (Dean & Dalrymple 1991).
 
-use super::{
-    super::{Outcome, Stand},
-    pool::{self, GRAVITY, Pool},
+use crate::validate::{
+    Outcome, Stand,
+    tank::{self, GRAVITY, Tank},
 };
 use std::f64::consts::PI;
 
@@ -53,19 +53,19 @@ pub fn run(stand: &Stand) -> Outcome {
         2.0 * PI / PERIOD,
     );
     let size = [length + thick, 1.6 * DEPTH];
-    let mut scene = pool::scene(size, spacing, [length + thick, DEPTH], &more)?;
+    let mut scene = tank::pool(size, spacing, [length + thick, DEPTH], &more)?;
     if let Some(particles) = &mut scene.particles {
         // Waves of a tenth of the depth move far slower than a fall through it.
         particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
     }
-    let mut pool = Pool::fill(stand, &scene)?;
+    let mut pool = Tank::fill(stand, &scene)?;
     let gauge = thick + 0.5 * STROKE + GAUGE * DEPTH;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut lows, mut highs) = (Vec::new(), Vec::new());
-    pool.advance(BEFORE * PERIOD)?;
+    pool.advance_to(BEFORE * PERIOD)?;
     let looks = 40;
     for look in 1..=looks * MEASURED as u32 {
-        pool.advance(BEFORE * PERIOD + PERIOD * f64::from(look) / f64::from(looks))?;
+        pool.advance_to(BEFORE * PERIOD + PERIOD * f64::from(look) / f64::from(looks))?;
         let level = level(&pool.water()?.positions, gauge, spacing);
         (low, high) = (low.min(level), high.max(level));
         if look % looks == 0 {

@@ -1,7 +1,5 @@
 //! Free water by particles.
 
-pub mod pool;
-
 pub mod buoyancy;
 pub mod dam;
 pub mod film;

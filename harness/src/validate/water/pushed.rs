@@ -3,9 +3,9 @@
 //! p = ρ a (L/2 − Σ 4 L/(n π)² cosh k z / cosh k H cos ω t), n odd, k = n π/L, ω² = g k tanh k H, more on one wall and less on
 //! the other.
 
-use super::{
-    super::{Outcome, Record, Stand},
-    pool::{self, GRAVITY, Pool},
+use crate::validate::{
+    Outcome, Record, Stand,
+    tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scene;
 use std::f64::consts::PI;
@@ -72,7 +72,7 @@ fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
             )
         })
         .collect();
-    let mut scene = pool::scene(size, spacing, [reach, DEPTH], &sensors)?;
+    let mut scene = tank::pool(size, spacing, [reach, DEPTH], &sensors)?;
     if let Some(particles) = &mut scene.particles {
         particles.largest_speed = Some(SOUND * (GRAVITY * DEPTH).sqrt());
     }
@@ -80,7 +80,7 @@ fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
 }
 
 /// Impulse since the start on one of them, Pa s.
-fn impulse(pool: &Pool<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
+fn impulse(pool: &Tank<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
     let sensor = pool.simulation.sensor(&format!("{name}_{side}"));
     sensor.map_or(f64::NAN, |sensor| sensor.impulse)
 }
@@ -89,10 +89,10 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
     let spacing = DEPTH / f64::from(layers);
     let mut scene = tank([length, 1.4 * DEPTH], spacing, length)?;
     scene.fluid.acceleration[0] = (-PUSH * GRAVITY).into();
-    let mut pool = Pool::fill(stand, &scene)?;
+    let mut pool = Tank::fill(stand, &scene)?;
     let mut records = Vec::new();
     for passages in ENDS {
-        pool.advance(passages * (DEPTH / GRAVITY).sqrt())?;
+        pool.advance_to(passages * (DEPTH / GRAVITY).sqrt())?;
         let time = pool.simulation.time();
         for (name, heights) in PATCHES {
             let [more, less] = SIDES.map(|side| impulse(&pool, name, side));
@@ -117,14 +117,14 @@ fn strike(stand: &Stand) -> anyhow::Result<Vec<Record>> {
     // Hardly any weight: the start wants some.
     scene.fluid.acceleration[2] = (-1e-3).into();
     scene.water[0].velocity = [-speed, 0.0, 0.0];
-    let mut pool = Pool::fill(stand, &scene)?;
+    let mut pool = Tank::fill(stand, &scene)?;
     // Sound goes through the depth six times; jets have hardly begun.
-    pool.advance(0.05 * DEPTH / speed)?;
+    pool.advance_to(0.05 * DEPTH / speed)?;
     let trial = pool.trial("struck");
     let record = |(name, heights)| {
         let found = impulse(&pool, name, SIDES[0]) / (1000.0 * speed * DEPTH);
         let what = format!("impulse of water that strikes flat, ρUH, at the {name}");
-        trial.report(what, found, Some(exact(40.0 * DEPTH, heights, 1e-4)))
+        trial.relative(what, found, exact(40.0 * DEPTH, heights, 1e-4), None)
     };
     Ok(PATCHES.map(record).into())
 }

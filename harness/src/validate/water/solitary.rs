@@ -1,10 +1,10 @@
 //! A box that falls at the end of a channel (Scott Russell 1844, Monaghan & Kos 2000): the wave that leaves it is solitary,
 //! and runs at c² = g (D + H) (Rayleigh 1876; waves half as high as the water is deep are 0.5 % slower).
 
-use super::{
-    super::{Outcome, Stand},
-    maker::level,
-    pool::{self, GRAVITY, Pool},
+use super::maker::level;
+use crate::validate::{
+    Outcome, Stand,
+    tank::{self, GRAVITY, Tank},
 };
 
 /// Depth D, m.
@@ -41,13 +41,13 @@ pub fn run(stand: &Stand) -> Outcome {
         0.5 * width,
         DEPTH - DIPPED + 0.5 * height
     );
-    let scene = pool::scene([LENGTH, 0.72], spacing, [LENGTH, DEPTH], &more)?;
-    let mut pool = Pool::fill(stand, &scene)?;
+    let scene = tank::pool([LENGTH, 0.72], spacing, [LENGTH, DEPTH], &more)?;
+    let mut pool = Tank::fill(stand, &scene)?;
     let mut crests = [[f64::NEG_INFINITY, 0.0]; 2];
     let mut at = 0.0;
     while at < END {
         at += 0.01;
-        pool.advance(at)?;
+        pool.advance_to(at)?;
         let positions = pool.water()?.positions;
         let time = pool.simulation.time();
         for (crest, gauge) in crests.iter_mut().zip(GAUGES) {
@@ -63,7 +63,7 @@ pub fn run(stand: &Stand) -> Outcome {
     let trial = pool.trial("falling box");
     Ok(vec![
         trial.relative("speed / √(g (D + H))", speed / theory, 1.0, 0.05),
-        trial.report("H/D at 10 depths from the box", first / DEPTH - 1.0, None),
+        trial.report("H/D at 10 depths from the box", first / DEPTH - 1.0),
         trial.at_least(
             "share of H left 9 depths on",
             (last - DEPTH) / (first - DEPTH),

@@ -1,8 +1,8 @@
 //! Water at rest under its weight: p = ρ g (H − z).
 
-use super::{
-    super::{Outcome, Stand, Trial},
-    pool::{self, GRAVITY, Pool},
+use crate::validate::{
+    Outcome, Stand, Trial,
+    tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
 
@@ -28,14 +28,14 @@ pub struct Still {
 /// A tank as deep as `layers` spacings.
 pub fn measure(stand: &Stand, layers: u32, scheme: Scheme) -> anyhow::Result<Still> {
     let spacing = DEPTH / f64::from(layers);
-    let mut scene = pool::scene([DEPTH, 1.5 * DEPTH], spacing, [DEPTH; 2], "")?;
-    pool::choose(&mut scene, scheme);
-    let mut pool = Pool::fill(stand, &scene)?;
+    let mut scene = tank::pool([DEPTH, 1.5 * DEPTH], spacing, [DEPTH; 2], "")?;
+    tank::choose(&mut scene, scheme);
+    let mut pool = Tank::fill(stand, &scene)?;
     let wave = (GRAVITY * DEPTH).sqrt();
     let (mut bottom, mut miss, mut speed) = (0.0, 0.0, 0.0);
     for look in 0..=LOOKS {
         let passages = PASSAGES - f64::from(LOOKS - look);
-        pool.advance(passages * DEPTH / wave)?;
+        pool.advance_to(passages * DEPTH / wave)?;
         if look == 0 {
             continue;
         }
@@ -77,23 +77,15 @@ pub fn run(stand: &Stand) -> Outcome {
     };
     let mut records = Vec::new();
     for &layers in layers {
-        let Still {
-            trial,
-            bottom,
-            miss,
-            speed,
-        } = measure(stand, layers, Scheme::Delta)?;
+        let found = measure(stand, layers, Scheme::Delta)?;
+        let trial = found.trial;
         let name = |what: &str| format!("{what}, H/Δx = {layers}");
         // The targets are those of twenty layers; coarser tanks show how the error falls.
-        if layers < 20 {
-            records.push(trial.report(name("p at the bottom, Pa"), bottom, Some(BOTTOM)));
-            records.push(trial.report(name("L2(p)"), miss, None));
-            records.push(trial.report(name("u_rms / √(gH)"), speed, None));
-        } else {
-            records.push(trial.relative(name("p at the bottom, Pa"), bottom, BOTTOM, 0.02));
-            records.push(trial.at_most(name("L2(p)"), miss, 0.02));
-            records.push(trial.at_most(name("u_rms / √(gH)"), speed, 0.002));
-        }
+        let limit = |limit| (layers >= 20).then_some(limit);
+        let bottom = name("p at the bottom, Pa");
+        records.push(trial.relative(bottom, found.bottom, BOTTOM, limit(0.02)));
+        records.push(trial.at_most(name("L2(p)"), found.miss, limit(0.02)));
+        records.push(trial.at_most(name("u_rms / √(gH)"), found.speed, limit(0.002)));
     }
     Ok(records)
 }

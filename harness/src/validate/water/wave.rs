@@ -1,11 +1,9 @@
 //! A standing wave of small amplitude: ω² = g k tanh kH.
 
-use super::{
-    super::{
-        Outcome, Stand, Trial,
-        stopwatch::{Spent, Stopwatch},
-    },
-    pool::{self, GRAVITY},
+use crate::validate::{
+    Outcome, Stand, Trial,
+    stopwatch::{Spent, Stopwatch},
+    tank::{self, GRAVITY},
 };
 use glam::DVec3;
 use riprap::{
@@ -46,14 +44,11 @@ pub fn run(stand: &Stand) -> Outcome {
         .iter()
         .flat_map(|n| LENGTHS.map(|length| (*n, length)))
     {
-        let Wave {
-            trial,
-            period,
-            loss,
-        } = measure(stand, layers, length, Scheme::Delta)?;
+        let found = measure(stand, layers, length, Scheme::Delta)?;
+        let trial = found.trial;
         let name = |what: &str| format!("{what}, H/Δx = {layers}");
-        records.push(trial.relative(name("period / exact"), period, 1.0, 0.01));
-        records.push(trial.at_most(name("amplitude lost a period"), loss, 0.05));
+        records.push(trial.relative(name("period / exact"), found.period, 1.0, 0.01));
+        records.push(trial.at_most(name("amplitude lost a period"), found.loss, 0.05));
     }
     Ok(records)
 }
@@ -77,8 +72,8 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
     let period = 2.0 * PI / omega;
     let spacing = DEPTH / f64::from(layers);
-    let mut scene = pool::scene([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
-    pool::choose(&mut scene, scheme);
+    let mut scene = tank::pool([length, 1.4 * DEPTH], spacing, [length, DEPTH], "")?;
+    tank::choose(&mut scene, scheme);
     let blocks = block_setup(&scene)?;
     let (mut setup, start) = particle_setup(&scene, &blocks)?;
     if stand.software {

@@ -1,6 +1,9 @@
-//! Blocks in a tank whose cell is 1 m, step 1 s and fluid 1 kg/m³: SI and lattice units are the same.
+//! Scenes of validation cases, and a scene that runs.
+//!
+//! Those of the lattice have a cell of 1 m, a step of 1 s and a fluid of 1 kg/m³: SI and lattice units are the same. Those
+//! of free water are in a plane.
 
-use super::super::{
+use super::{
     Stand, Trial,
     record::describe,
     stopwatch::{Spent, Stopwatch, WARM_UP},
@@ -11,8 +14,9 @@ use riprap::{
     geometry::Pose,
     lattice::Lattice,
     output::Array,
-    scene::{Block, BlockShape, Boundary, Field, Motion, Rotation, Scene},
+    scene::{Block, BlockShape, Boundary, Field, Motion, Rotation, Scene, Scheme},
     simulation::{Simulation, Totals},
+    sph::{SphSolver, Water},
     units::Units,
 };
 use std::{path::Path, time::Instant};
@@ -91,6 +95,56 @@ pub fn turn(n: u32) -> Rotation {
     }
 }
 
+/// Gravity, m/s².
+pub const GRAVITY: f64 = 9.81;
+
+/// A tank of `size` (m; in a plane, open above) with water; `more` are further tables.
+///
+/// # Errors
+/// If the text is no scene.
+pub fn pool(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyhow::Result<Scene> {
+    let [length, height] = size;
+    let [reach, depth] = water;
+    let text = format!(
+        r#"
+        domain = {{ size = [{length}, 1, {height}] }}
+        fluid = {{ acceleration = [0, 0, -{GRAVITY}] }}
+        rock = {{ gravity = [0, 0, -{GRAVITY}] }}
+        run = {{ steps = 1 }}
+        [particles]
+        spacing = {spacing}
+        plane = true
+        [boundaries]
+        x_min = {{ kind = "wall" }}
+        x_max = {{ kind = "wall" }}
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "open" }}
+        [[water]]
+        kind = "box"
+        size = [{reach}, 1, {depth}]
+        position = [{}, 0.5, {}]
+        [[materials]]
+        name = "rock"
+        density = 1000
+        normal_stiffness = 1e7
+        friction = 30
+        {more}
+        "#,
+        0.5 * reach,
+        0.5 * depth
+    );
+    let scene = Scene::from_toml(&text, Path::new("."), "pool")?;
+    scene.check()?;
+    Ok(scene)
+}
+
+/// Chooses the equations of the water.
+pub fn choose(scene: &mut Scene, scheme: Scheme) {
+    if let Some(particles) = &mut scene.particles {
+        particles.scheme = scheme;
+    }
+}
+
 /// A scene that runs, with the time that it took.
 #[derive(Debug)]
 pub struct Tank<'a> {
@@ -102,16 +156,6 @@ pub struct Tank<'a> {
 }
 
 impl<'a> Tank<'a> {
-    /// The lattice of the fluid.
-    pub fn lattice(&self) -> &Lattice {
-        self.simulation.lattice().expect("a tank has a lattice")
-    }
-
-    /// Its units.
-    pub fn units(&self) -> &Units {
-        self.simulation.units().expect("a tank has a lattice")
-    }
-
     /// Puts the scene on the device.
     ///
     /// # Errors
@@ -127,7 +171,22 @@ impl<'a> Tank<'a> {
         })
     }
 
-    /// Runs steps.
+    /// The lattice of the fluid.
+    pub fn lattice(&self) -> &Lattice {
+        self.simulation.lattice().expect("a tank with a lattice")
+    }
+
+    /// The solver of free water.
+    pub fn particles(&self) -> &SphSolver {
+        self.simulation.particles().expect("a tank of free water")
+    }
+
+    /// Units of the lattice.
+    pub fn units(&self) -> &Units {
+        self.simulation.units().expect("a tank with a lattice")
+    }
+
+    /// Runs steps of the lattice.
     ///
     /// # Errors
     /// If the flow leaves the range of the method, or the device is lost or silent.
@@ -139,33 +198,49 @@ impl<'a> Tank<'a> {
         while self.simulation.step() < end {
             let warm = self.simulation.step() >= WARM_UP;
             let some = if warm { most } else { WARM_UP };
-            let some = some.min(end - self.simulation.step());
-            let watch = Stopwatch::start();
-            let done = self.simulation.advance(some);
-            self.stand.drive("blocks in a fluid", done)??;
-            if warm {
-                watch.stop(&mut self.stepping);
-            }
+            self.submit(some.min(end - self.simulation.step()), warm)?;
         }
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(())
     }
 
+    /// Runs free water to the first step that ends at the time `until` (s) or later.
+    ///
+    /// # Errors
+    /// If the water leaves the range of the method, or the device is lost or silent.
+    pub fn advance_to(&mut self, until: f64) -> anyhow::Result<()> {
+        let begin = Instant::now();
+        while self.simulation.time() < until * (1.0 - 1e-9) {
+            self.submit(1, self.simulation.step() > 0)?;
+        }
+        self.seconds += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Runs steps in one submission; if `warm`, their time counts.
+    fn submit(&mut self, steps: u64, warm: bool) -> anyhow::Result<()> {
+        let watch = Stopwatch::start();
+        let done = self.simulation.advance(steps);
+        self.stand.drive("a validation case", done)??;
+        if warm {
+            watch.stop(&mut self.stepping);
+        }
+        Ok(())
+    }
+
     /// Load on a block at the last exchange.
-    pub fn external_load(&self, block: usize) -> FluidLoad {
-        let coupled = self.simulation.coupled();
-        coupled.map_or_else(FluidLoad::default, |coupled| coupled.cell_load()[block])
+    pub fn load(&self, block: usize) -> FluidLoad {
+        match (self.simulation.coupled(), self.simulation.rock()) {
+            (Some(coupled), _) => coupled.cell_load()[block],
+            (None, Some(rock)) => rock.external_load()[block],
+            (None, None) => FluidLoad::default(),
+        }
     }
 
     /// Where a block is.
-    ///
-    /// # Errors
-    /// If there is none.
-    pub fn pose(&self, block: usize) -> anyhow::Result<Pose> {
-        let poses = self.simulation.coupled().map(|c| c.blocks().poses());
-        poses
-            .and_then(|poses| poses.get(block).copied())
-            .ok_or_else(|| anyhow::anyhow!("the scene has no block {block}"))
+    pub fn pose(&self, block: usize) -> Pose {
+        let rock = self.simulation.rock().expect("a tank with blocks");
+        rock.blocks().poses()[block]
     }
 
     /// Largest y⁺ half a cell from a block.
@@ -196,13 +271,36 @@ impl<'a> Tank<'a> {
         Ok(self.stand.drive("reading cells", read)??)
     }
 
+    /// The free water as it is.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn water(&mut self) -> anyhow::Result<Water> {
+        let water = self.simulation.water();
+        Ok(self.stand.drive("reading particles", water)??)
+    }
+
     /// What has been run so far; `what` says what is in the tank.
     pub fn trial(&self, what: &str) -> Trial {
-        let lattice = self.lattice();
+        let (how, cells) = match self.simulation.particles() {
+            Some(particles) => {
+                let setup = particles.setup();
+                let how = format!(
+                    "Δx {:.4} m, h {} Δx, c₀ {:.1} m/s",
+                    setup.spacing, setup.smoothing, setup.sound_speed
+                );
+                (how, particles.counts().fluid.into())
+            }
+            None => {
+                let lattice = self.lattice();
+                let cells = lattice.grid().cell_count() as u64;
+                (describe(lattice.setup()), cells)
+            }
+        };
         Trial {
-            setup: format!("{what}, {}", describe(lattice.setup())),
-            cells: lattice.grid().cell_count() as u64,
-            steps: self.simulation.step(),
+            setup: format!("{what}, {how}"),
+            cells,
+            steps: self.simulation.fluid_steps(),
             seconds: self.seconds,
             stepping: self.stepping,
         }

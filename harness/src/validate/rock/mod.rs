@@ -1,10 +1,16 @@
 //! Dry blocks that run on the host.
 
+pub mod deformable;
+pub mod detection;
+pub mod dynamics;
+pub mod incline;
+pub mod rest;
+
 use super::Trial;
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::{Polyhedron, Shape},
-    rock::{Block, Blocks, Material, Setup, Snapshot, broadphase::HostBroadphase, law::Joint},
+    rock::{Block, Blocks, EnergyLedger, Material, Setup, broadphase::HostBroadphase, law::Joint},
 };
 use std::{sync::Arc, time::Instant};
 
@@ -18,7 +24,8 @@ pub const DENSITY: f64 = 2500.0;
 pub struct Rock {
     /// The blocks.
     pub blocks: Blocks,
-    finder: HostBroadphase,
+    /// Their energies before the first step.
+    pub start: EnergyLedger,
     what: String,
     seconds: f64,
 }
@@ -26,9 +33,10 @@ pub struct Rock {
 impl Rock {
     /// Blocks at the start, and what they are, in a line.
     pub fn new(setup: Setup, what: impl Into<String>) -> anyhow::Result<Self> {
+        let blocks = Blocks::new(setup)?;
         Ok(Self {
-            blocks: Blocks::new(setup)?,
-            finder: HostBroadphase,
+            start: blocks.ledger(),
+            blocks,
             what: what.into(),
             seconds: 0.0,
         })
@@ -45,9 +53,9 @@ impl Rock {
     ) -> anyhow::Result<Self> {
         let mut before = Self::new(Setup { damping, ..held }, "")?;
         before.run(time)?;
-        let state: Snapshot = before.blocks.snapshot();
         let mut after = Self::new(setup, what)?;
-        after.blocks.restore(&state)?;
+        after.blocks.restore(&before.blocks.snapshot())?;
+        after.start = after.blocks.ledger();
         after.seconds = before.seconds;
         Ok(after)
     }
@@ -56,9 +64,20 @@ impl Rock {
     pub fn run(&mut self, time: f64) -> anyhow::Result<()> {
         let begin = Instant::now();
         let until = self.blocks.time() + time;
-        pollster::block_on(self.blocks.advance(&mut self.finder, until))?;
+        pollster::block_on(self.blocks.advance(&mut HostBroadphase, until))?;
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// What the ledger of the energies has lost or gained, J.
+    pub fn energy_error(&self) -> f64 {
+        (self.blocks.ledger().balance() - self.start.balance()).abs()
+    }
+
+    /// Vertical stress of a deformable block, Pa.
+    pub fn vertical_stress(&self, block: usize) -> f64 {
+        let stress = self.blocks.stress(block);
+        stress.map_or(f64::NAN, |stress| stress.z_axis.z)
     }
 
     /// What has been run so far.
@@ -76,6 +95,11 @@ impl Rock {
 /// A box of these edges, m.
 pub fn cuboid(x: f64, y: f64, z: f64) -> anyhow::Result<Arc<Shape>> {
     Ok(Arc::new(Polyhedron::cuboid(DVec3::new(x, y, z))?.into()))
+}
+
+/// A fixed floor of this width (m) whose top is at z = 0.
+pub fn floor(width: f64) -> anyhow::Result<Block> {
+    Ok(Block::new("floor", cuboid(width, width, 1.0)?, DVec3::Z * -0.5).fixed())
 }
 
 /// A rotation about y that turns x downwards by `degrees`.

@@ -1,10 +1,9 @@
 //! The fluid step and copies on every adapter, or on the one whose name contains `$RIPRAP_ADAPTER`.
 //!
 //! One iteration is two steps, an even and an odd one. Times are GPU time, CPU time over the cores
-//! on software adapters, wall time where a GPU has no timestamps. At the end a table compares the
-//! adapters.
+//! on software adapters, wall time where a GPU has no timestamps.
 
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, measurement::WallTime};
 use kit::{
     clock::Clock,
     copy::{Copy, METHODS},
@@ -17,10 +16,7 @@ use riprap::{
     lattice::{Collision, Force, Lattice, Setup, Storage},
     wgpu,
 };
-use std::{collections::BTreeMap, time::Duration};
-
-/// Kernel and variant → adapter → million cells, or megabytes, a second.
-type Table = BTreeMap<String, BTreeMap<String, f64>>;
+use std::time::Duration;
 
 type Change = fn(&mut Setup);
 
@@ -45,24 +41,17 @@ fn main() -> Result<(), Error> {
         .measurement_time(Duration::from_millis(500))
         .configure_from_args();
     let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
-    let mut table = Table::new();
     for adapter in gpu::adapters() {
         let name = gpu::describe(&adapter.get_info());
         if name.to_lowercase().contains(&wanted.to_lowercase()) {
-            bench(&mut criterion, &adapter, &name, &mut table)?;
+            bench(&mut criterion, &adapter, &name)?;
         }
     }
     criterion.final_summary();
-    print(&table);
     Ok(())
 }
 
-fn bench(
-    criterion: &mut Criterion,
-    adapter: &wgpu::Adapter,
-    name: &str,
-    table: &mut Table,
-) -> Result<(), Error> {
+fn bench(criterion: &mut Criterion, adapter: &wgpu::Adapter, name: &str) -> Result<(), Error> {
     let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
     let (device, queue) = gpu::open(adapter, adapter.features() & wanted, adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
@@ -83,103 +72,41 @@ fn bench(
                 STREAM_ONLY => Subject::Streaming(Box::new(StreamOnly::new(&device, lattice)?)),
                 _ => Subject::Steps(Box::new(lattice)),
             };
-            let id = Id {
-                kernel: "collide_stream",
-                variant: format!("{variant} {n}³"),
-                adapter: name,
-                throughput: Throughput::Elements(2 * u64::from(n).pow(3)),
-            };
-            id.measure(criterion, &mut clock, subject, table);
+            let mut group = criterion.benchmark_group("collide_stream");
+            group.throughput(Throughput::Elements(2 * u64::from(n).pow(3)));
+            let id = BenchmarkId::new(format!("{variant} {n}³"), name);
+            measure(&mut group, id, &mut clock, subject);
         }
     }
     let copy = Copy::new(&device, 32 << 20)?;
     for method in METHODS {
-        let id = Id {
-            kernel: "copy",
-            variant: format!("{method:?}"),
-            adapter: name,
-            throughput: Throughput::Bytes(2 * copy.traffic() as u64),
-        };
-        id.measure(
-            criterion,
-            &mut clock,
-            Subject::Copying(&copy, method),
-            table,
-        );
+        let mut group = criterion.benchmark_group("copy");
+        group.throughput(Throughput::Bytes(2 * copy.traffic() as u64));
+        let id = BenchmarkId::new(format!("{method:?}"), name);
+        measure(&mut group, id, &mut clock, Subject::Copying(&copy, method));
     }
     Ok(())
 }
 
-/// What a measurement is called, and what one iteration does.
-struct Id<'a> {
-    kernel: &'a str,
-    variant: String,
-    adapter: &'a str,
-    throughput: Throughput,
-}
-
-impl Id<'_> {
-    fn measure(
-        self,
-        criterion: &mut Criterion,
-        clock: &mut Clock,
-        mut subject: Subject<'_>,
-        table: &mut Table,
-    ) {
-        let mut group = criterion.benchmark_group(self.kernel);
-        group.throughput(self.throughput.clone());
-        let mut best = f64::INFINITY;
-        group.bench_function(BenchmarkId::new(&self.variant, self.adapter), |bencher| {
-            bencher.iter_custom(|iterations| {
-                // Submissions stay short: drivers reset a GPU that is busy for seconds.
-                let mut total = 0.0;
-                let mut left = iterations;
-                while left > 0 {
-                    let now = left.min(32);
-                    match clock.run(&mut subject, 2 * now as u32) {
-                        Ok(spent) => {
-                            best = best.min(2.0 * spent.basis);
-                            total += 2.0 * spent.basis * now as f64;
-                        }
-                        Err(error) => panic!("{}: {error}", self.adapter),
-                    }
-                    left -= now;
-                }
-                // Criterion divides by it.
-                Duration::from_secs_f64(total).max(Duration::from_nanos(1))
-            });
+fn measure(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    id: BenchmarkId,
+    clock: &mut Clock,
+    mut subject: Subject<'_>,
+) {
+    group.bench_function(id, |bencher| {
+        bencher.iter_custom(|iterations| {
+            // Submissions stay short: drivers reset a GPU that is busy for seconds.
+            let mut total = 0.0;
+            let mut left = iterations;
+            while left > 0 {
+                let now = left.min(32);
+                let turn = clock.run(&mut subject, 2 * now as u32);
+                total += 2.0 * turn.expect("a device").basis * now as f64;
+                left -= now;
+            }
+            // Criterion divides by it.
+            Duration::from_secs_f64(total).max(Duration::from_nanos(1))
         });
-        group.finish();
-        let done = match self.throughput {
-            Throughput::Elements(n) | Throughput::Bytes(n) => n as f64,
-            _ => 0.0,
-        };
-        if best.is_finite() {
-            let row = table.entry(format!("{}/{}", self.kernel, self.variant));
-            row.or_default()
-                .insert(self.adapter.into(), done / best / 1e6);
-        }
-    }
-}
-
-/// One row a kernel, one column an adapter.
-fn print(table: &Table) {
-    let mut adapters: Vec<_> = table.values().flat_map(BTreeMap::keys).collect();
-    adapters.sort();
-    adapters.dedup();
-    println!("\nFastest of the samples: MLUPS of collide_stream, MB/s of copy");
-    for (n, adapter) in adapters.iter().enumerate() {
-        println!("  [{n}] {adapter}");
-    }
-    let heads: String = (0..adapters.len())
-        .map(|n| format!("{:>11}", format!("[{n}]")))
-        .collect();
-    println!("{:<32}{heads}", "");
-    for (kernel, row) in table {
-        let cells = adapters.iter().map(|adapter| match row.get(*adapter) {
-            Some(speed) => format!("{speed:>11.1}"),
-            None => format!("{:>11}", "-"),
-        });
-        println!("{kernel:<32}{}", cells.collect::<String>());
-    }
+    });
 }

@@ -4,11 +4,14 @@
 //! Times are CPU time over the cores on software adapters, wall time on others. Pairs are those within the support,
 //! each counted once for each of its two ends, as the kernels meet them.
 
-use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
-use kit::{gpu, tank::Tank};
+use kit::{
+    clock::{Clock, PATIENCE},
+    gpu,
+    tank::Tank,
+};
 use riprap::{sph::NeighbourSearch, wgpu};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Particles along an edge.
 const EDGES: [u32; 2] = [20, 40];
@@ -27,25 +30,19 @@ fn main() -> Result<(), riprap::Error> {
         .split(',')
         .filter_map(|edge| edge.trim().parse().ok())
         .collect();
-    let edges = if edges.is_empty() {
-        EDGES.to_vec()
-    } else {
-        edges
+    let edges = match &edges[..] {
+        [] => &EDGES,
+        given => given,
     };
-    let mut rows = Vec::new();
     for adapter in gpu::adapters() {
         let name = gpu::describe(&adapter.get_info());
         if name.to_lowercase().contains(&wanted.to_lowercase()) {
-            for &edge in &edges {
-                rows.push(bench(&mut criterion, &adapter, &name, edge)?);
+            for &edge in edges {
+                bench(&mut criterion, &adapter, &name, edge)?;
             }
         }
     }
     criterion.final_summary();
-    println!("\nFastest of the samples");
-    for row in rows {
-        println!("{row}");
-    }
     Ok(())
 }
 
@@ -54,7 +51,7 @@ fn bench(
     adapter: &wgpu::Adapter,
     name: &str,
     edge: u32,
-) -> Result<String, riprap::Error> {
+) -> Result<(), riprap::Error> {
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
     let software = gpu::is_software(&adapter.get_info());
     let neighbours = if software {
@@ -63,38 +60,31 @@ fn bench(
         NeighbourSearch::Cells
     };
     let mut tank = Tank::fill(&device, &queue, edge, neighbours)?;
-    let count = tank.count;
-    let mut best = f64::INFINITY;
+    let clock = Clock::new(&device, &queue, software);
+    println!(
+        "{} particles, {:.1} neighbours, {:.2} million pairs a step",
+        tank.count,
+        tank.neighbours,
+        tank.pairs / 1e6
+    );
     let mut group = criterion.benchmark_group("particles");
-    group.throughput(Throughput::Elements(count as u64 * u64::from(STEPS)));
-    group.bench_function(BenchmarkId::new(count.to_string(), name), |bencher| {
+    group.throughput(Throughput::Elements(tank.count as u64 * u64::from(STEPS)));
+    group.bench_function(BenchmarkId::new(tank.count.to_string(), name), |bencher| {
         bencher.iter_custom(|iterations| {
             let mut total = 0.0;
             for _ in 0..iterations {
-                let (cpu, wall) = (ProcessTime::now(), Instant::now());
-                let done = tank.advance(&device, &queue, STEPS);
-                let done = gpu::drive(&device, Duration::from_secs(300), "a step", done);
-                let steps = match done {
-                    Ok(Ok([steps, _])) => f64::from(steps),
-                    Ok(Err(error)) | Err(error) => panic!("{name}: {error}"),
-                };
-                let cores = std::thread::available_parallelism().map_or(1, usize::from);
-                let spent = match software {
-                    true => cpu.elapsed().as_secs_f64() / cores as f64,
-                    false => wall.elapsed().as_secs_f64(),
-                };
-                best = best.min(spent / steps);
-                total += spent / steps * f64::from(STEPS);
+                let mut taken = 0;
+                let spent = clock.time(|| {
+                    let done = tank.advance(&device, &queue, STEPS);
+                    [taken, _] = gpu::drive(&device, PATIENCE, "a step", done)??;
+                    Ok::<_, riprap::Error>(())
+                });
+                let spent = clock.basis(spent.expect("a device"));
+                total += spent / f64::from(taken) * f64::from(STEPS);
             }
             Duration::from_secs_f64(total).max(Duration::from_nanos(1))
         });
     });
     group.finish();
-    Ok(format!(
-        "{count:>9} particles, {:>5.1} neighbours: {:>8.2} ms a step, {:>7.2} million particles/s, {:>9.1} million pairs/s on {name}",
-        tank.neighbours,
-        1e3 * best,
-        count as f64 / best / 1e6,
-        tank.pairs / best / 1e6,
-    ))
+    Ok(())
 }

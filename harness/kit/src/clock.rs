@@ -1,23 +1,89 @@
-//! Running something a number of times and seeing what it took.
+//! What a piece of work takes: by the clock on the wall, of the CPU, and between timestamps of a GPU.
 
 use super::gpu;
 use super::subject::Subject;
 use cpu_time::ProcessTime;
 use riprap::{Error, gpu::timer::Timer, wgpu};
-use std::time::{Duration, Instant};
+use std::{
+    ops::AddAssign,
+    time::{Duration, Instant},
+};
 
 /// A hanging driver is given up after this.
-const PATIENCE: Duration = Duration::from_secs(300);
+pub const PATIENCE: Duration = Duration::from_secs(300);
+
+/// Seconds of a piece of work.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// By the clock on the wall.
+    pub wall: f64,
+    /// Of the CPU, all threads that worked together.
+    pub cpu: f64,
+}
+
+impl Spent {
+    /// More than any.
+    pub const MOST: Self = Self {
+        wall: f64::INFINITY,
+        cpu: f64::INFINITY,
+    };
+
+    /// What `share` times as much work takes.
+    pub fn scaled(self, share: f64) -> Self {
+        Self {
+            wall: share * self.wall,
+            cpu: share * self.cpu,
+        }
+    }
+
+    /// The lower of each: others on the machine can only add.
+    pub fn lower(self, other: Self) -> Self {
+        Self {
+            wall: self.wall.min(other.wall),
+            cpu: self.cpu.min(other.cpu),
+        }
+    }
+}
+
+impl AddAssign for Spent {
+    fn add_assign(&mut self, other: Self) {
+        self.wall += other.wall;
+        self.cpu += other.cpu;
+    }
+}
+
+/// Work under way.
+#[derive(Debug)]
+pub struct Stopwatch {
+    wall: Instant,
+    cpu: ProcessTime,
+}
+
+impl Stopwatch {
+    /// Begins.
+    pub fn start() -> Self {
+        Self {
+            wall: Instant::now(),
+            cpu: ProcessTime::now(),
+        }
+    }
+
+    /// What was spent since the start, by all threads of this process.
+    pub fn spent(&self) -> Spent {
+        Spent {
+            wall: self.wall.elapsed().as_secs_f64(),
+            cpu: self.cpu.elapsed().as_secs_f64(),
+        }
+    }
+}
 
 /// Seconds of one turn.
 #[derive(Clone, Copy, Debug)]
-pub struct Spent {
-    /// By the clock on the wall, submission and waiting included.
-    pub wall: f64,
+pub struct Turn {
+    /// Submission and waiting included.
+    pub spent: Spent,
     /// Between GPU timestamps around the pass.
     pub device: Option<f64>,
-    /// Of all threads of this process together.
-    pub cpu: f64,
     /// What speeds are made from: CPU time over the cores on a software adapter, which a busy
     /// machine does not distort; GPU time elsewhere.
     pub basis: f64,
@@ -30,6 +96,7 @@ pub struct Clock {
     /// Its queue.
     pub queue: wgpu::Queue,
     timer: Option<Timer>,
+    /// Cores of a software adapter.
     cores: Option<f64>,
 }
 
@@ -44,63 +111,67 @@ impl Clock {
         }
     }
 
+    /// Waits until the device has done what was submitted.
+    ///
+    /// # Errors
+    /// If the device is lost or silent.
+    pub fn wait(&self) -> Result<(), Error> {
+        let waited = self.device.poll(wgpu::PollType::Wait {
+            submission_index: None,
+            timeout: Some(PATIENCE),
+        });
+        waited.map_or_else(|e| Err(Error::DeviceLost(e.to_string())), |_| Ok(()))
+    }
+
     /// What a turn takes, from `turns` of them in one submission.
     ///
     /// # Errors
     /// If the device is lost or silent.
-    pub fn run(&mut self, subject: &mut Subject<'_>, turns: u32) -> Result<Spent, Error> {
-        let (start, cpu) = (Instant::now(), ProcessTime::now());
+    pub fn run(&mut self, subject: &mut Subject<'_>, turns: u32) -> Result<Turn, Error> {
+        let watch = Stopwatch::start();
         let mut encoder = self.device.create_command_encoder(&Default::default());
         let timed = subject.record(&mut encoder, self.timer.as_mut(), turns);
         if let Some(timer) = &self.timer {
             timer.resolve(&mut encoder);
         }
         self.queue.submit([encoder.finish()]);
-        let waited = self.device.poll(wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(PATIENCE),
-        });
-        waited.map_err(|e| Error::DeviceLost(e.to_string()))?;
-        let turns = f64::from(turns);
-        let (wall, cpu) = (
-            start.elapsed().as_secs_f64() / turns,
-            cpu.elapsed().as_secs_f64() / turns,
-        );
+        self.wait()?;
+        let spent = watch.spent().scaled(1.0 / f64::from(turns));
         let device = match &mut self.timer {
             Some(timer) if timed => {
                 let read = timer.read(&self.device, &self.queue);
                 let times = gpu::drive(&self.device, PATIENCE, "the timestamps", read)??;
-                times.first().map(|(_, seconds)| seconds / turns)
+                times.first().map(|(_, seconds)| seconds / f64::from(turns))
             }
             _ => None,
         };
-        let basis = match self.cores {
-            Some(cores) => cpu / cores,
-            None => device.unwrap_or(wall),
+        let basis = match device {
+            Some(device) if self.cores.is_none() => device,
+            _ => self.basis(spent),
         };
-        Ok(Spent {
-            wall,
+        Ok(Turn {
+            spent,
             device,
-            cpu,
             basis,
         })
     }
-}
 
-impl Clock {
-    /// Seconds that `work` takes by the clock on the wall, and those that speeds are made from.
+    /// What `work` takes; [`Clock::basis`] has what speeds are made from.
     ///
     /// # Errors
     /// Those of `work`.
-    pub fn time(&self, work: impl FnOnce() -> Result<(), Error>) -> Result<[f64; 2], Error> {
-        let (start, cpu) = (Instant::now(), ProcessTime::now());
+    pub fn time<E>(&self, work: impl FnOnce() -> Result<(), E>) -> Result<Spent, E> {
+        let watch = Stopwatch::start();
         work()?;
-        let wall = start.elapsed().as_secs_f64();
-        let basis = match self.cores {
-            Some(cores) => cpu.elapsed().as_secs_f64() / cores,
-            None => wall,
-        };
-        Ok([wall, basis])
+        Ok(watch.spent())
+    }
+
+    /// CPU time over the cores on a software adapter, else time by the clock on the wall.
+    pub fn basis(&self, spent: Spent) -> f64 {
+        match self.cores {
+            Some(cores) => spent.cpu / cores,
+            None => spent.wall,
+        }
     }
 }
 

@@ -40,7 +40,10 @@ pub struct Pile {
 }
 
 impl Pile {
-    /// Fresh.
+    /// About `count` free blocks as they were cut.
+    ///
+    /// # Errors
+    /// If the cutter refuses the mass.
     pub fn fresh(count: usize) -> Result<Self> {
         let setup = jointed(count)?;
         let blocks = Blocks::new(setup.clone())?;
@@ -57,23 +60,17 @@ impl Pile {
     /// # Errors
     /// If a step fails.
     pub fn settled(count: usize) -> Result<Self> {
-        let setup = jointed(count)?;
-        let mut blocks = Blocks::new(setup.clone())?;
-        while blocks.steps() < MOST_STEPS {
+        let mut pile = Self::fresh(count)?;
+        while pile.blocks.steps() < MOST_STEPS {
             for _ in 0..20 {
-                find_pairs(&mut blocks)?;
-                blocks.step()?;
+                pile.step()?;
             }
-            if blocks.largest_speed() < REST {
+            if pile.blocks.largest_speed() < REST {
                 break;
             }
         }
-        Ok(Self {
-            free: (0..blocks.len()).filter(|&i| blocks.moves(i)).count(),
-            steps: blocks.steps(),
-            blocks,
-            setup,
-        })
+        pile.steps = pile.blocks.steps();
+        Ok(pile)
     }
 
     /// One step, with new pairs first where they are wanted.
@@ -90,7 +87,12 @@ impl Pile {
     /// # Errors
     /// None that [`Pile::settled`] has not had.
     pub fn find_pairs(&mut self) -> Result<bool> {
-        find_pairs(&mut self.blocks)
+        let wanted = self.blocks.wants_pairs();
+        if wanted {
+            let pairs = pollster::block_on(HostBroadphase.pairs(&self.blocks.aabbs()))?;
+            self.blocks.set_pairs(pairs)?;
+        }
+        Ok(wanted)
     }
 
     /// The same blocks where they are now, without velocities, pairs and contacts.
@@ -128,14 +130,18 @@ impl Pile {
     }
 }
 
-/// Gives blocks the pairs that they want; whether they did.
-fn find_pairs(blocks: &mut Blocks) -> Result<bool> {
-    let wanted = blocks.wants_pairs();
-    if wanted {
-        let pairs = pollster::block_on(HostBroadphase.pairs(&blocks.aabbs()))?;
-        blocks.set_pairs(pairs)?;
-    }
-    Ok(wanted)
+/// Three oblique joint sets of 1 m with scattered spacing.
+pub fn joint_sets() -> Vec<JointSet> {
+    let set = |dip, dip_direction, seed| JointSet {
+        dip,
+        dip_direction,
+        spacing: 1.0,
+        scatter: Scatter::Uniform { range: 0.2 },
+        origin: DVec3::splat(0.123),
+        seed,
+        persistence: None,
+    };
+    vec![set(8.0, 20.0, 1), set(80.0, 100.0, 2), set(85.0, 195.0, 3)]
 }
 
 /// Rock cut by three joint sets of 1 m. The blocks at the sides and below are bedrock and stay in their
@@ -154,17 +160,8 @@ fn jointed(count: usize) -> Result<Setup> {
             HalfSpace::through(high + BEDROCK, axis),
         ]
     });
-    let set = |dip, dip_direction, seed| JointSet {
-        dip,
-        dip_direction,
-        spacing: 1.0,
-        scatter: Scatter::Uniform { range: 0.2 },
-        origin: DVec3::splat(0.123),
-        seed,
-        persistence: None,
-    };
     let mass = RockMass {
-        joints: vec![set(8.0, 20.0, 1), set(80.0, 100.0, 2), set(85.0, 195.0, 3)],
+        joints: joint_sets(),
         ..RockMass::new(vec![sides.collect()])
     };
     let mut blocks = Vec::new();

@@ -1,28 +1,26 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
 //! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing.
 
-mod group;
-mod report;
+mod fluid;
+mod machine;
 pub mod rock;
-mod roofline;
 mod solids;
 mod table;
-mod targets;
+mod target;
 mod unused;
-mod variant;
 mod water;
 mod work;
 
+pub use fluid::storage;
 pub use kit::copy::copy_bandwidth;
-pub use report::Machine;
+pub use machine::{Kept, Machine};
 pub use work::Work;
 
 use kit::{clock::Clock, gpu};
-use report::Row;
 use riprap::wgpu;
 use serde::Serialize;
 use std::path::PathBuf;
-use targets::Target;
+use target::Target;
 
 /// What to measure, and on what.
 #[derive(clap::Args, Clone, Debug)]
@@ -85,26 +83,23 @@ pub struct Bench<'a> {
     pub full: bool,
 }
 
+impl Bench<'_> {
+    /// A clock for the device.
+    fn clock(&self) -> Clock {
+        Clock::new(self.device, self.queue, self.machine.software)
+    }
+}
+
 /// A result of a part: one object of the file.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Measured {
-    Fluid(Row),
+    Fluid(fluid::Row),
     Rock(rock::Row),
     Water(water::Row),
     Solids(solids::Row),
     Table(table::Row),
-    Target(Judged),
-}
-
-/// A target in the file, with where it was measured.
-#[derive(Serialize)]
-struct Judged {
-    part: &'static str,
-    #[serde(flatten)]
-    target: Target,
-    #[serde(flatten)]
-    machine: Machine,
+    Target(Target),
 }
 
 /// Measures, prints a table as it goes, and writes the file.
@@ -144,13 +139,13 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     if let Some(bench) = &bench
         && asked(Part::Fluid)
     {
-        let (rows, judged) = fluid(&args, bench)?;
+        let (rows, judged) = fluid::measure(&args, bench)?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Fluid));
     }
     if asked(Part::Rock) {
         let plan = rock::Plan::new(args.quick, args.full);
-        let (rows, judged) = rock::measure(&plan, bench.as_ref(), &machine)?;
+        let (rows, judged) = rock::measure(&plan, bench.as_ref())?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Rock));
     }
@@ -176,52 +171,18 @@ pub fn run(args: Args) -> anyhow::Result<()> {
             measured.extend(rows.into_iter().map(Measured::Table));
         }
     }
-    let judged = targets.into_iter().map(|target| Judged {
-        part: "target",
-        target,
-        machine: machine.clone(),
-    });
-    measured.extend(judged.map(Measured::Target));
+    measured.extend(targets.into_iter().map(Measured::Target));
     if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&measured)?;
-        std::fs::write(path, text + "\n").map_err(|e| riprap::Error::file(path, e))?;
+        let text = machine.json(measured)?;
+        std::fs::write(path, text).map_err(|e| riprap::Error::file(path, e))?;
     }
     Ok(())
 }
 
-/// The kernels of the fluid on each grid.
-fn fluid(args: &Args, bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
-    let Bench {
-        device,
-        queue,
-        machine,
-        ..
-    } = *bench;
-    let mut clock = Clock::new(device, queue, machine.software);
-    let budget = budget(args.memory, machine.software);
-    let mut rows: Vec<Row> = Vec::new();
-    let mut judged = Vec::new();
-    for grid in grids(args) {
-        if let Some(why) = too_slow(args, grid, &rows) {
-            println!("\n{grid}³: left out, {why}");
-            continue;
-        }
-        println!("\n{grid}³ cells\n{}", report::HEAD);
-        for group in variant::groups(grid, machine, args.quick, budget, device) {
-            rows.extend(group::measure(&mut clock, machine, group, args.quick)?);
-        }
-        report::explain(grid, &rows);
-        judged.extend(targets::print(grid, &rows, machine.software));
-    }
-    Ok((rows, judged))
-}
-
-fn grids(args: &Args) -> Vec<u32> {
-    match (&args.grid[..], args.quick) {
-        ([], true) => vec![64],
-        ([], false) => vec![64, 96, 128, 256],
-        (given, _) => given.to_vec(),
-    }
+/// The middle one of some values.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Bytes that one group of fluids may take.
@@ -229,9 +190,8 @@ fn budget(gib: Option<f64>, software: bool) -> u64 {
     const GIB: f64 = (1u64 << 30) as f64;
     let free = || {
         let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-        let line = text
-            .lines()
-            .find(|line| line.starts_with("MemAvailable:"))?;
+        let mut lines = text.lines();
+        let line = lines.find(|line| line.starts_with("MemAvailable:"))?;
         let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
         Some(0.5 * kib * 1024.0)
     };
@@ -243,17 +203,4 @@ fn budget(gib: Option<f64>, software: bool) -> u64 {
         None => default,
     };
     bytes as u64
-}
-
-/// Why a grid that nobody asked for takes too long, from the speed on the grids before.
-fn too_slow(args: &Args, grid: u32, rows: &[Row]) -> Option<String> {
-    // A group takes tens of steps: 0.2 s each are seconds.
-    const PATIENCE: f64 = 0.2;
-    let last = rows
-        .iter()
-        .rev()
-        .find(|row| row.variant == variant::PLAIN)?;
-    let seconds = f64::from(grid).powi(3) / (last.mlups_wall * 1e6);
-    (args.grid.is_empty() && seconds > PATIENCE)
-        .then(|| format!("a step would take {seconds:.1} s; ask for it by --grid {grid}"))
 }

@@ -1,18 +1,18 @@
 //! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
 
-use super::{Bench, report::Machine, solids::crowd};
-use glam::{DQuat, DVec3};
-use kit::{
-    clock::{Clock, Spent},
-    gpu,
-    subject::Subject,
+use super::{
+    Bench,
+    fluid::storage as name_of,
+    solids::{crowd, unit_frame},
 };
+use glam::{DQuat, DVec3};
+use kit::{clock::Clock, gpu, subject::Subject};
 use riprap::{
     Error, Result,
     geometry::{Pose, Shape},
+    gpu::readback::Readback,
     lattice::{Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_a_cell, memory},
-    psm::{Frame, SolidBlock, SolidCells},
-    units::Units,
+    psm::{SolidBlock, SolidCells},
     wgpu,
 };
 use serde::Serialize;
@@ -67,9 +67,6 @@ pub struct Row {
     pub seconds: f64,
     /// Why it was left out.
     pub left_out: Option<String>,
-    /// Where and when.
-    #[serde(flatten)]
-    pub machine: Machine,
 }
 
 impl fmt::Display for Row {
@@ -99,14 +96,8 @@ impl fmt::Display for Row {
 /// # Errors
 /// If the device is lost or silent.
 pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
-    let Bench {
-        device,
-        queue,
-        machine,
-        ..
-    } = *bench;
     println!("\nkind     store   grid |     MLUPS      GB/s  steps       s");
-    let mut clock = Clock::new(device, queue, machine.software);
+    let mut clock = bench.clock();
     let mut rows: Vec<Row> = Vec::new();
     let whole = Instant::now();
     for storage in [Storage::F32, Storage::F16] {
@@ -116,21 +107,16 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
                     part: "table",
                     kind,
                     grid,
-                    storage: if storage == Storage::F32 {
-                        "f32"
-                    } else {
-                        "f16"
-                    },
+                    storage: name_of(storage),
                     mlups: None,
                     bandwidth: None,
                     steps: 0,
                     seconds: 0.0,
                     left_out: None,
-                    machine: machine.clone(),
                 };
                 let begin = Instant::now();
-                let setup = setup(grid, storage, kind, machine, device);
-                let held = holds(&setup, device, budget);
+                let setup = setup(grid, storage, kind, bench);
+                let held = holds(&setup, bench.device, budget);
                 let over = whole.elapsed().as_secs_f64() > WHOLE - BUDGET;
                 row.left_out = held
                     .err()
@@ -159,22 +145,17 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-fn setup(
-    grid: u32,
-    storage: Storage,
-    kind: Kind,
-    machine: &Machine,
-    device: &wgpu::Device,
-) -> Setup {
+fn setup(grid: u32, storage: Storage, kind: Kind, bench: &Bench<'_>) -> Setup {
     let mut setup = Setup::periodic([grid; 3], 0.01);
     setup.storage = storage;
-    (setup.lanes, setup.max_speed) = match (machine.software, storage) {
-        (true, _) => (4, 0.0),
-        (false, Storage::F32) => (1, 0.0),
-        (false, Storage::F16) => (2, 0.0),
+    setup.max_speed = 0.0;
+    setup.lanes = match (bench.machine.software, storage) {
+        (true, _) => 4,
+        (false, Storage::F32) => 1,
+        (false, Storage::F16) => 2,
     };
-    if machine.software {
-        setup.suit_cpu(device.features());
+    if bench.machine.software {
+        setup.suit_cpu(bench.device.features());
     }
     match kind {
         Kind::Plain => {}
@@ -236,8 +217,7 @@ fn run(clock: &mut Clock, setup: Setup, kind: Kind) -> Result<(f64, u32)> {
     }
     let mut subject = Subject::Steps(Box::new(lattice));
     clock.run(&mut subject, 2)?;
-    let first: Spent = clock.run(&mut subject, 2)?;
-    let steps = number(first.wall);
+    let steps = number(clock.run(&mut subject, 2)?.spent.wall);
     Ok((clock.run(&mut subject, steps)?.basis, steps))
 }
 
@@ -258,11 +238,9 @@ fn make(device: &wgpu::Device, queue: &wgpu::Queue, setup: Setup) -> Result<Latt
         (*u, *v) = (0.02 + 1e-3 * (n % 7) as f32, 1e-4 * (n % 5) as f32);
     }
     for n in 0..2 {
-        let other = &mut state.velocity[1 + n];
-        other
-            .iter_mut()
-            .enumerate()
-            .for_each(|(k, u)| *u = 1e-3 * (k % (9 + n)) as f32);
+        for (k, u) in state.velocity[1 + n].iter_mut().enumerate() {
+            *u = 1e-3 * (k % (9 + n)) as f32;
+        }
     }
     let mut lattice = Lattice::new(device, setup)?;
     lattice.start(device, queue, &state, true)?;
@@ -280,17 +258,9 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
         loaded: true,
         faces: false,
     });
-    let frame = Frame {
-        origin: DVec3::ZERO,
-        units: Units {
-            cell: 1.0,
-            time_step: 1.0,
-            density: 1.0,
-        },
-    };
-    let mut immersed = SolidCells::new(&device, &lattice, frame, submerged.collect())?;
+    let mut immersed = SolidCells::new(&device, &lattice, unit_frame(), submerged.collect())?;
     let velocity = DVec3::new(0.0, 0.02, 0.0);
-    let mut step = 0.0;
+    let (mut step, mut readback) = (0.0, Readback::default());
     let mut steps = |count: u32| -> Result<()> {
         for _ in 0..count {
             step += 1.0;
@@ -311,27 +281,15 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
             let mut encoder = device.create_command_encoder(&Default::default());
             lattice.record_rest(&mut encoder.begin_compute_pass(&Default::default()));
             queue.submit([encoder.finish()]);
-            let sums = immersed.wrenches();
-            let read = floats(&device, &queue, sums, immersed.wrench_count())?;
+            let (sums, count) = (immersed.wrenches(), immersed.wrench_count());
+            let read = readback.read(&device, &queue, sums, count);
+            let read: Vec<f32> = gpu::drive(&device, PATIENCE, "the loads", read)??;
             immersed.loads(&read)?;
         }
         Ok(())
     };
     steps(2)?;
-    let [wall, _] = clock.time(|| steps(2))?;
-    let count = number(0.5 * wall);
-    let [_, basis] = clock.time(|| steps(count))?;
-    Ok((basis / f64::from(count), count))
-}
-
-/// Reads floats back.
-fn floats(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    buffer: &wgpu::Buffer,
-    count: usize,
-) -> Result<Vec<f32>> {
-    let mut readback = riprap::gpu::readback::Readback::default();
-    let read = readback.read(device, queue, buffer, count);
-    gpu::drive(device, PATIENCE, "the loads", read)?
+    let count = number(0.5 * clock.time(|| steps(2))?.wall);
+    let spent = clock.time(|| steps(count))?;
+    Ok((clock.basis(spent) / f64::from(count), count))
 }

@@ -2,8 +2,8 @@
 
 use super::{
     Bench,
-    solids::{Row, Turns, World},
-    targets::{Target, show},
+    solids::{Row, Table, Turns, World},
+    target::{Target, show},
 };
 use riprap::{
     formula::Formula,
@@ -34,27 +34,13 @@ struct Pair {
 /// # Errors
 /// If the device fails.
 pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
-    let Bench {
-        device,
-        queue,
-        machine,
-        quick,
-        ..
-    } = *bench;
-    let (n, rounds) = match (machine.software, quick) {
+    let (n, rounds) = match (bench.machine.software, bench.quick) {
         (true, true) => (32, 5),
         (true, false) => (48, 21),
         (false, _) => (192, 21),
     };
-    let turns = Turns::new(device, queue, machine, rounds, 0.1);
-    let mut rows = Vec::new();
-    let mut tell = |name: &str, of: &str, value: f64, unit| {
-        let mut row = Row::new(machine, name, of, value, unit);
-        row.part = "unused";
-        println!("{row}");
-        rows.push(row);
-    };
-    println!("\n{}", super::solids::HEAD);
+    let turns = Turns::new(bench, rounds, 0.1);
+    let mut table = Table::begin("unused");
     let (mut worst, mut noise) = (0.0f64, None);
     for pair in pairs(n)? {
         let mut worlds = [pair.plain, pair.unused];
@@ -64,13 +50,13 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
             true => "the same kernels",
             false => "other kernels",
         };
-        tell(pair.name, &format!("{n}³, {kernels}"), 100.0 * more, "%");
+        table.add(pair.name, &format!("{n}³, {kernels}"), 100.0 * more, "%");
         // The first is the scene beside itself.
         let noise = *noise.get_or_insert(more.abs());
         worst = worst.max(more - noise);
         if pair.sleeps {
             let said = "so it sleeps: 1, or not: 0";
-            tell(said, "", f64::from(u8::from(worlds[1].sleeps())), "");
+            table.add(said, "", f64::from(u8::from(worlds[1].sleeps())), "");
         }
     }
     let middle = [0.5 * f64::from(n) + 0.3; 3];
@@ -80,13 +66,13 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     ];
     let times = turns.measure(&mut worlds)?;
     let more = 100.0 * (times.ratio(1, 0) - 1.0);
-    tell(
+    table.add(
         "loads of faces, where they are asked for",
         &format!("{n}³"),
         more,
         "%",
     );
-    let sizes: &[u32] = match (machine.software, quick) {
+    let sizes: &[u32] = match (bench.machine.software, bench.quick) {
         (true, true) => &[40, 48],
         (true, false) => &[40, 56, 80],
         (false, _) => &[96, 192, 384],
@@ -103,7 +89,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
         let times = turns.measure(&mut worlds)?;
         let more = times.median(1) - times.median(0);
         let of = format!("{n}³, D {SMALL}, a step {:.2} ms", 1e3 * times.median(0));
-        tell("27 moving blocks, more", &of, 1e3 * more, "ms");
+        table.add("27 moving blocks, more", &of, 1e3 * more, "ms");
         costs.push(more);
     }
     let growth = match (costs.first(), costs.last()) {
@@ -119,28 +105,28 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let cells = sizes.last().zip(sizes.first());
     let cells = cells.map_or(1.0, |(last, first)| f64::from(last / first).powi(3));
     let of = format!("{cells:.0} times the cells");
-    tell(
+    table.add(
         "their cost in the largest box over the smallest",
         &of,
         growth,
         "",
     );
-    let targets = show(
-        "unused",
-        vec![
-            Target::at_most("what is unused costs ≤ 3 % beyond noise", worst, NOISE),
-            Target::at_most(
-                "moving blocks cost the same in any box, within 1.5",
-                apart,
-                1.5,
-            ),
-        ],
-    );
-    Ok((rows, targets))
+    let aims = [
+        Target::at_most(
+            "what is unused costs ≤ 3 % beyond noise",
+            Some(worst),
+            NOISE,
+        ),
+        Target::at_most(
+            "moving blocks cost the same in any box, within 1.5",
+            Some(apart),
+            1.5,
+        ),
+    ];
+    Ok((table.rows, show("unused", aims)))
 }
 
 fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
-    let plain = || World::empty(n);
     let with = |change: fn(&mut World)| -> riprap::Result<World> {
         let mut world = World::empty(n)?;
         change(&mut world);
@@ -149,30 +135,23 @@ fn pairs(n: u32) -> riprap::Result<Vec<Pair>> {
     let pair = |name, unused| -> riprap::Result<Pair> {
         Ok(Pair {
             name,
-            plain: plain()?,
+            plain: World::empty(n)?,
             unused,
             sleeps: false,
         })
     };
     let middle = [0.5 * f64::from(n) + 0.3; 3];
-    let fixed = || World::spheres(n, ACROSS, &[middle], false);
+    let none = with(|world| world.scene.numerics.eddy_viscosity = EddyViscosity::None)?;
+    let zero = with(|world| world.scene.fluid.acceleration = [0.0; 3].map(Formula::number))?;
+    let noble = with(|world| world.scene.numerics.solid_operator = SolidOperator::Noble)?;
     Ok(vec![
-        pair("nothing: the scene itself again", plain()?)?,
-        pair(
-            "eddy viscosity said to be none",
-            with(|world| world.scene.numerics.eddy_viscosity = EddyViscosity::None)?,
-        )?,
-        pair(
-            "body force said to be zero",
-            with(|world| world.scene.fluid.acceleration = [0.0; 3].map(Formula::number))?,
-        )?,
-        pair(
-            "an operator of blocks, and no block",
-            with(|world| world.scene.numerics.solid_operator = SolidOperator::Noble)?,
-        )?,
+        pair("nothing: the scene itself again", World::empty(n)?)?,
+        pair("eddy viscosity said to be none", none)?,
+        pair("body force said to be zero", zero)?,
+        pair("an operator of blocks, and no block", noble)?,
         Pair {
             name: "a block that sleeps, beside a fixed one",
-            plain: fixed()?,
+            plain: World::spheres(n, ACROSS, &[middle], false)?,
             unused: World::asleep(n, ACROSS, middle)?,
             sleeps: true,
         },
@@ -187,12 +166,8 @@ fn same_kernels(worlds: &[World; 2]) -> bool {
             let all = lattice.kernels(false);
             let all = all.map(|(kernel, groups)| {
                 let bindings: Vec<_> = kernel.bindings().iter().map(|b| b.name.clone()).collect();
-                (
-                    kernel.file().to_owned(),
-                    kernel.slots().to_vec(),
-                    bindings,
-                    groups,
-                )
+                let (file, slots) = (kernel.file().to_owned(), kernel.slots().to_vec());
+                (file, slots, bindings, groups)
             });
             Some(all.collect::<Vec<_>>())
         };

@@ -1,16 +1,17 @@
 //! Steps of free water: particles and pairs a second.
 
-use super::{Bench, copy_bandwidth, report::Machine};
-use cpu_time::ProcessTime;
-use kit::{exponent::exponent, gpu, tank::Tank};
-use riprap::{sph::NeighbourSearch, wgpu};
+use super::{Bench, copy_bandwidth};
+use kit::{
+    clock::{Clock, PATIENCE},
+    exponent::exponent,
+    gpu,
+    tank::Tank,
+};
+use riprap::sph::NeighbourSearch;
 use serde::Serialize;
-use std::time::{Duration, Instant};
 
 /// Steps between two looks at the clock.
 const STEPS: u32 = 4;
-/// Longest silence of a device that is not taken for a hang.
-const PATIENCE: Duration = Duration::from_secs(300);
 /// A step that takes longer, s, is the last that is tried, also where all sizes are wanted.
 const LONGEST: [f64; 2] = [1.5, 15.0];
 /// Looks at the clock: more where steps take less than the longest.
@@ -38,9 +39,6 @@ const BROKEN: u32 = 10;
 /// A tank that was timed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Where.
-    #[serde(flatten)]
-    pub machine: Machine,
     /// What: `water`.
     pub part: &'static str,
     /// Whether the water moves: a dam break, half way.
@@ -79,11 +77,13 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
     let Bench {
         device,
         queue,
-        machine,
         quick,
         full,
+        ..
     } = *bench;
+    let software = bench.machine.software;
     let bandwidth = copy_bandwidth(device, queue, COPIED)?;
+    let clock = bench.clock();
     println!(
         "\nwater, h/Δx = 2; the device copies {:.1} GB/s\n{:>10} {:>6} {:>7} {:>11} {:>7} {:>10} {:>16} {:>16} {:>10} {:>10} \
          {:>9}",
@@ -105,37 +105,30 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
         (_, true) => &[22, 46, 100],
         (false, false) => &[22, 46],
     };
-    let kinds: &[NeighbourSearch] = match machine.software {
+    let kinds: &[NeighbourSearch] = match software {
         true => &[NeighbourSearch::Lists, NeighbourSearch::Cells],
         false => &[NeighbourSearch::Cells, NeighbourSearch::Lists],
     };
     let (mut rows, mut moving): (Vec<Row>, Vec<Row>) = (Vec::new(), Vec::new());
     for &edge in edges {
         for &neighbours in kinds {
-            let slow = |row: &&Row| row.neighbours == format!("{neighbours:?}");
-            if rows
-                .iter()
-                .rev()
-                .find(slow)
-                .is_some_and(|row| 8.0 * row.step > LONGEST[usize::from(full)])
-            {
-                println!(
-                    "{:>10} {neighbours:?}: left out, a step would take seconds",
-                    edge.pow(3)
-                );
+            let name = format!("{neighbours:?}");
+            let last = rows.iter().rev().find(|row| row.neighbours == name);
+            if last.is_some_and(|row| 8.0 * row.step > LONGEST[usize::from(full)]) {
+                let count = edge.pow(3);
+                println!("{count:>10} {name}: left out, a step would take seconds");
                 continue;
             }
             let tank = Tank::fill(device, queue, edge, neighbours)?;
             let rounds = |step: f64| ROUNDS[usize::from(!quick && step <= LONGEST[0])];
-            let timing = Timing { machine, bandwidth };
-            rows.push(timing.measure((device, queue), tank, neighbours, rounds)?);
+            rows.push(time(&clock, bandwidth, tank, neighbours, rounds)?);
             if edge == edges[0] {
                 let mut dam = Tank::dam(device, queue, edge, neighbours)?;
                 let broken = dam.advance(device, queue, BROKEN * edge);
                 gpu::drive(device, PATIENCE, "a dam break", broken)??;
                 let count = dam.count(device, queue);
                 gpu::drive(device, PATIENCE, "counting pairs", count)??;
-                moving.push(timing.measure((device, queue), dam, neighbours, rounds)?);
+                moving.push(time(&clock, bandwidth, dam, neighbours, rounds)?);
             }
         }
     }
@@ -147,11 +140,9 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
             println!("{name}: a step costs (particles)^{exponent:.2}");
         }
     }
-    if !machine.software {
-        let best = rows
-            .iter()
-            .map(|row| row.pairs_a_second)
-            .fold(0.0, f64::max);
+    if !software {
+        let rates = rows.iter().map(|row| row.pairs_a_second);
+        let best = rates.fold(0.0, f64::max);
         let verdict = if best >= TARGET { "met" } else { "missed" };
         println!("target {TARGET:.0e} pairs a second: {best:.2e}, {verdict}");
     }
@@ -159,78 +150,70 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// What all rows of a table share.
-struct Timing<'a> {
-    machine: &'a Machine,
+/// Times the steps of a tank, in so many `rounds` as its step (s) wants, and prints the row; the device copies `bandwidth`
+/// bytes a second.
+fn time(
+    clock: &Clock,
     bandwidth: f64,
-}
-
-impl Timing<'_> {
-    /// Times the steps of a tank, in so many `rounds` as its step (s) wants, and prints the row.
-    fn measure(
-        &self,
-        (device, queue): (&wgpu::Device, &wgpu::Queue),
-        mut tank: Tank,
-        neighbours: NeighbourSearch,
-        rounds: impl Fn(f64) -> u32,
-    ) -> anyhow::Result<Row> {
-        let machine = self.machine;
-        let moving = tank.particles.max_speed() > 0.0;
-        let (mut step, mut round) = (f64::INFINITY, 0);
-        let (mut all, mut sorted) = (0.0, 0.0);
-        while round < rounds(step) {
-            let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    mut tank: Tank,
+    neighbours: NeighbourSearch,
+    rounds: impl Fn(f64) -> u32,
+) -> anyhow::Result<Row> {
+    let (device, queue) = (&clock.device, &clock.queue);
+    let moving = tank.particles.max_speed() > 0.0;
+    let (mut step, mut round) = (f64::INFINITY, 0);
+    let (mut all, mut sorted) = (0.0, 0.0);
+    while round < rounds(step) {
+        let (mut steps, mut sorts) = (0.0, 0.0);
+        let spent = clock.time(|| -> riprap::Result<()> {
             let done = tank.advance(device, queue, STEPS);
-            let [steps, sorts] = gpu::drive(device, PATIENCE, "free water", done)??.map(f64::from);
-            let spent = match machine.software {
-                true => cpu.elapsed().as_secs_f64() / machine.cores as f64,
-                false => wall.elapsed().as_secs_f64(),
-            };
-            // Lists make some steps longer than others: of all that moves the mean counts.
-            step = match moving {
-                true if all > 0.0 => (step * all + spent) / (all + steps),
-                _ => step.min(spent / steps),
-            };
-            (all, sorted) = (all + steps, sorted + sorts);
-            round += 1;
-        }
-        let lists = match neighbours {
-            NeighbourSearch::Lists => LIST_BYTES * tank.neighbours,
-            NeighbourSearch::Cells => 0.0,
+            [steps, sorts] = gpu::drive(device, PATIENCE, "free water", done)??.map(f64::from);
+            Ok(())
+        })?;
+        let spent = clock.basis(spent);
+        // Lists make some steps longer than others: of all that moves the mean counts.
+        step = match moving {
+            true if all > 0.0 => (step * all + spent) / (all + steps),
+            _ => step.min(spent / steps),
         };
-        let bytes_a_particle = OWN_BYTES + lists;
-        let particles_a_second = tank.count as f64 / step;
-        let row = Row {
-            machine: machine.clone(),
-            part: "water",
-            moving,
-            neighbours: format!("{neighbours:?}"),
-            particles: tank.count,
-            around: tank.neighbours,
-            step,
-            particles_a_second,
-            pairs_a_second: tank.pairs / step,
-            bytes_a_second: BYTES * tank.pairs / step,
-            sorted: sorted / all,
-            bytes_a_particle,
-            bandwidth: self.bandwidth,
-            bandwidth_share: bytes_a_particle * particles_a_second / self.bandwidth,
-            flops: FLOPS * tank.pairs / step,
-        };
-        println!(
-            "{:>10} {:>6.1} {:>7} {:>11} {:>6.0}% {:>10.2} {:>16.3} {:>16.1} {:>10.2} {:>9.1}% {:>9.2}",
-            row.particles,
-            row.around,
-            if row.moving { "moving" } else { "at rest" },
-            row.neighbours,
-            100.0 * row.sorted,
-            1e3 * row.step,
-            row.particles_a_second / 1e6,
-            row.pairs_a_second / 1e6,
-            row.bytes_a_second / 1e9,
-            100.0 * row.bandwidth_share,
-            row.flops / 1e9
-        );
-        Ok(row)
+        (all, sorted) = (all + steps, sorted + sorts);
+        round += 1;
     }
+    let lists = match neighbours {
+        NeighbourSearch::Lists => LIST_BYTES * tank.neighbours,
+        NeighbourSearch::Cells => 0.0,
+    };
+    let bytes_a_particle = OWN_BYTES + lists;
+    let particles_a_second = tank.count as f64 / step;
+    let row = Row {
+        part: "water",
+        moving,
+        neighbours: format!("{neighbours:?}"),
+        particles: tank.count,
+        around: tank.neighbours,
+        step,
+        particles_a_second,
+        pairs_a_second: tank.pairs / step,
+        bytes_a_second: BYTES * tank.pairs / step,
+        sorted: sorted / all,
+        bytes_a_particle,
+        bandwidth,
+        bandwidth_share: bytes_a_particle * particles_a_second / bandwidth,
+        flops: FLOPS * tank.pairs / step,
+    };
+    println!(
+        "{:>10} {:>6.1} {:>7} {:>11} {:>6.0}% {:>10.2} {:>16.3} {:>16.1} {:>10.2} {:>9.1}% {:>9.2}",
+        row.particles,
+        row.around,
+        if row.moving { "moving" } else { "at rest" },
+        row.neighbours,
+        100.0 * row.sorted,
+        1e3 * row.step,
+        row.particles_a_second / 1e6,
+        row.pairs_a_second / 1e6,
+        row.bytes_a_second / 1e9,
+        100.0 * row.bandwidth_share,
+        row.flops / 1e9
+    );
+    Ok(row)
 }

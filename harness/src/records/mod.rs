@@ -71,6 +71,9 @@ impl Job {
     }
 }
 
+/// The grids of the fluid that are recorded.
+const GRIDS: &[&str] = &["--only", "fluid", "--grid", "64", "--grid", "128"];
+
 /// All records, in the order in which they are made.
 fn jobs() -> Vec<Job> {
     let cases = validate::CASES.iter().map(|case| Job {
@@ -80,45 +83,41 @@ fn jobs() -> Vec<Job> {
         full: vec!["validate", "--full", "--case", case.name],
         target: "--json",
     });
-    let bench = |name: &str, short: &[&'static str], full: &[&'static str]| Job {
+    let benches = [
+        ("fluid", GRIDS, GRIDS),
+        (
+            "rock",
+            &["--only", "rock", "--quick"],
+            &["--only", "rock", "--full"],
+        ),
+        (
+            "water",
+            &["--only", "water"],
+            &["--only", "water", "--full"],
+        ),
+        (
+            "solids",
+            &["--only", "solids"],
+            &["--only", "solids", "--full"],
+        ),
+        ("unused", &["--only", "unused"], &["--only", "unused"]),
+        ("all", &[], &["--all"]),
+    ];
+    let benches = benches.map(|(name, short, full): (&str, &[_], &[_])| Job {
         name: format!("bench/{name}"),
         only_full: short.is_empty(),
         short: [&["bench"], short].concat(),
         full: [&["bench"], full].concat(),
         target: "--json",
-    };
-    let folder = |name: &'static str| Job {
+    });
+    let folders = ["report", "stress"].map(|name| Job {
         name: name.into(),
         only_full: false,
         short: vec![name],
         full: vec![name, "--full"],
         target: "--out",
-    };
-    let grids = ["--only", "fluid", "--grid", "64", "--grid", "128"];
-    let benches = [
-        bench("fluid", &grids, &grids),
-        bench(
-            "rock",
-            &["--only", "rock", "--quick"],
-            &["--only", "rock", "--full"],
-        ),
-        bench(
-            "water",
-            &["--only", "water"],
-            &["--only", "water", "--full"],
-        ),
-        bench(
-            "solids",
-            &["--only", "solids"],
-            &["--only", "solids", "--full"],
-        ),
-        bench("unused", &["--only", "unused"], &["--only", "unused"]),
-        bench("all", &[], &["--all"]),
-    ];
-    cases
-        .chain(benches)
-        .chain([folder("report"), folder("stress")])
-        .collect()
+    });
+    cases.chain(benches).chain(folders).collect()
 }
 
 /// Makes the records that the present commit lacks, and renders; whether all that ran met their limits.

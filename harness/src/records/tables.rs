@@ -19,6 +19,8 @@ use std::fmt::Write;
 
 const BEGIN: &str = "<!-- records: ";
 const END: &str = "<!-- end of records -->";
+/// What follows a result that missed its limit.
+const MISSED: &str = ", **missed**";
 
 /// `text` with its tables rendered from the records of `machines`.
 ///
@@ -48,10 +50,36 @@ pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
     Ok(rendered + rest)
 }
 
+/// A table of a document, under its heads.
+struct Table {
+    heads: Vec<&'static str>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn new(heads: &[&'static str]) -> Self {
+        Self {
+            heads: heads.to_vec(),
+            rows: Vec::new(),
+        }
+    }
+
+    fn markdown(&self) -> String {
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let heads = self.heads.iter().map(|head| (*head).to_owned()).collect();
+        let mut text = line(heads) + &"|---".repeat(self.heads.len()) + "|\n";
+        for row in &self.rows {
+            let escaped = row.iter().map(|cell| cell.replace('|', "\\|"));
+            text += &line(escaped.collect());
+        }
+        text
+    }
+}
+
 fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
     let mut text = String::new();
     for index in machines {
-        let lines = match request.split_once(' ') {
+        let table = match request.split_once(' ') {
             Some(("validate", patterns)) => limits(index, &cases(patterns)?)?,
             Some(("values", patterns)) => values(index, &cases(patterns)?)?,
             Some(("bench", part)) => bench(index, part)?,
@@ -61,8 +89,9 @@ fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
                 "there is no such table: validate GLOB, values GLOB, bench PART, targets PART and headline are known"
             ),
         };
-        if !lines.is_empty() {
-            write!(text, "\n{lines}\n*{}.*\n\n", index.machine)?;
+        // The front page shows a table without rows, too.
+        if !table.rows.is_empty() || request == "headline" {
+            write!(text, "\n{}\n*{}.*\n\n", table.markdown(), index.machine)?;
         }
     }
     Ok(text)
@@ -107,6 +136,15 @@ impl Measured {
         text
     }
 
+    /// `value` with the verdict on the row.
+    fn judged(&self) -> String {
+        self.result() + if self.passed { "" } else { MISSED }
+    }
+
+    fn error(&self) -> String {
+        self.error.map_or("–".into(), number)
+    }
+
     fn commit(&self) -> String {
         self.commit.clone().unwrap_or("unknown".into())
     }
@@ -129,66 +167,59 @@ fn cases(patterns: &str) -> anyhow::Result<Vec<Case>> {
 }
 
 /// All values of the cases, each with its reference.
-fn values(index: &Index, cases: &[Case]) -> anyhow::Result<String> {
-    let mut text = String::from("| quantity | value | error | commit |\n|---|---|---|---|\n");
-    let mut empty = true;
+fn values(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
+    let mut table = Table::new(&["quantity", "value", "error", "commit"]);
     for case in cases {
         let rows: Vec<Measured> = index.rows(&format!("validate/{}", case.name))?;
-        for row in rows {
-            empty = false;
-            let cells = [
+        let cells = |row: Measured| {
+            vec![
                 row.quantity.clone(),
                 row.result(),
-                row.error.map_or("–".into(), number),
+                row.error(),
                 row.commit(),
-            ];
-            line(&mut text, &cells);
-        }
+            ]
+        };
+        table.rows.extend(rows.into_iter().map(cells));
     }
-    Ok(if empty { String::new() } else { text })
+    Ok(table)
 }
 
 /// A line for each case: how many limits it meets, each one that it misses, and the nearest of the others.
-fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<String> {
-    let mut text = String::from(
-        "| case | limits met | quantity | result | error | limit | commit |\n|---|---|---|---|---|---|---|\n",
-    );
-    let mut empty = true;
+fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
+    let mut table = Table::new(&[
+        "case",
+        "limits met",
+        "quantity",
+        "result",
+        "error",
+        "limit",
+        "commit",
+    ]);
     for case in cases {
         let rows: Vec<Measured> = index.rows(&format!("validate/{}", case.name))?;
         let judged = rows.iter().filter(|row| row.limit.is_some());
-        let (met, missed): (Vec<&Measured>, Vec<&Measured>) = judged.partition(|row| row.passed);
-        let judged = met.len() + missed.len();
+        let (met, mut shown): (Vec<&Measured>, Vec<_>) = judged.partition(|row| row.passed);
+        let count = format!("{} of {}", met.len(), met.len() + shown.len());
         let nearest = met.iter().max_by(|a, b| a.share().total_cmp(&b.share()));
-        let mut shown: Vec<&Measured> = missed;
         shown.extend(nearest.copied());
         if shown.is_empty() {
             shown.extend(rows.first());
         }
-        for (place, row) in shown.iter().enumerate() {
-            empty = false;
-            let (name, count) = if place == 0 {
-                let count = format!("{} of {}", met.len(), judged);
-                (format!("`{}`: {}", case.name, case.about), count)
-            } else {
-                (String::new(), String::new())
-            };
-            let verdict = if row.passed { "" } else { ", **missed**" };
-            line(
-                &mut text,
-                &[
-                    name,
-                    count,
-                    row.quantity.clone(),
-                    row.result() + verdict,
-                    row.error.map_or("–".into(), number),
-                    row.limit(),
-                    row.commit(),
-                ],
-            );
+        let mut about = [format!("`{}`: {}", case.name, case.about), count];
+        for row in shown {
+            let [name, count] = std::mem::take(&mut about);
+            table.rows.push(vec![
+                name,
+                count,
+                row.quantity.clone(),
+                row.judged(),
+                row.error(),
+                row.limit(),
+                row.commit(),
+            ]);
         }
     }
-    Ok(if empty { String::new() } else { text })
+    Ok(table)
 }
 
 /// Columns of a part of the benchmark: the key of the record, and the head.
@@ -238,65 +269,51 @@ fn columns(part: &str) -> anyhow::Result<&'static [(&'static str, &'static str)]
     })
 }
 
-fn bench(index: &Index, part: &str) -> anyhow::Result<String> {
-    let columns = columns(part)?;
-    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
-    rows.retain(|row| !is_target(row));
-    if rows.is_empty() {
-        return Ok(String::new());
-    }
-    let mut text = String::new();
-    let heads = columns.iter().map(|(_, head)| (*head).to_owned());
-    line(
-        &mut text,
-        &heads.chain(["commit".into()]).collect::<Vec<_>>(),
-    );
-    text += &"|---".repeat(columns.len() + 1);
-    text += "|\n";
-    for row in &rows {
-        let cell = |key: &str| match row.get(key) {
-            Some(Value::Number(value)) => value.as_f64().map_or("–".into(), number),
-            Some(Value::String(value)) => value.clone(),
-            _ => "–".into(),
-        };
-        let cells = columns.iter().map(|(key, _)| cell(key));
-        line(
-            &mut text,
-            &cells.chain([cell("commit")]).collect::<Vec<_>>(),
-        );
-    }
-    Ok(text)
+/// A row of a record of `riprap bench`.
+type BenchRow = Map<String, Value>;
+
+/// The rows of a part of the benchmark, which are its targets or not.
+fn bench_rows(index: &Index, part: &str, targets: bool) -> anyhow::Result<Vec<BenchRow>> {
+    let mut rows: Vec<BenchRow> = index.rows(&format!("bench/{part}"))?;
+    rows.retain(|row| (word(row, "part") == "target") == targets);
+    Ok(rows)
 }
 
-fn is_target(row: &Map<String, Value>) -> bool {
-    row.get("part").and_then(Value::as_str) == Some("target")
+/// A text or a number of a row, a dash where there is neither.
+fn word(row: &BenchRow, key: &str) -> String {
+    match row.get(key) {
+        Some(Value::Number(value)) => value.as_f64().map_or("–".into(), number),
+        Some(Value::String(value)) => value.clone(),
+        _ => "–".into(),
+    }
+}
+
+fn bench(index: &Index, part: &str) -> anyhow::Result<Table> {
+    let columns = [columns(part)?, &[("commit", "commit")]].concat();
+    let heads: Vec<_> = columns.iter().map(|(_, head)| *head).collect();
+    let mut table = Table::new(&heads);
+    for row in bench_rows(index, part, false)? {
+        let cells = columns.iter().map(|(key, _)| word(&row, key));
+        table.rows.push(cells.collect());
+    }
+    Ok(table)
 }
 
 /// The targets of a part of the benchmark: what was found, and whether that meets them.
-fn targets(index: &Index, part: &str) -> anyhow::Result<String> {
-    let mut rows: Vec<Map<String, Value>> = index.rows(&format!("bench/{part}"))?;
-    rows.retain(is_target);
-    if rows.is_empty() {
-        return Ok(String::new());
-    }
-    let mut text = String::from("| target | of | result | commit |\n|---|---|---|---|\n");
-    for row in &rows {
-        let word = |key: &str| {
-            row.get(key)
-                .and_then(Value::as_str)
-                .unwrap_or("–")
-                .to_owned()
-        };
+fn targets(index: &Index, part: &str) -> anyhow::Result<Table> {
+    let mut table = Table::new(&["target", "of", "result", "commit"]);
+    for row in bench_rows(index, part, true)? {
         let found = row.get("found").and_then(Value::as_f64);
         let found = found.map_or("no number".into(), number);
         let met = row.get("met").and_then(Value::as_bool) == Some(true);
-        let verdict = if met { "" } else { ", **missed**" };
-        line(
-            &mut text,
-            &[word("says"), word("of"), found + verdict, word("commit")],
-        );
+        table.rows.push(vec![
+            word(&row, "says"),
+            word(&row, "of"),
+            found + if met { "" } else { MISSED },
+            word(&row, "commit"),
+        ]);
     }
-    Ok(text)
+    Ok(table)
 }
 
 /// What the front page shows: what it is, the case, and how its quantities begin.
@@ -362,55 +379,32 @@ const HEADLINES: &[(&str, &str, &str)] = &[
 /// Speeds of the fluid that the front page shows: the kernel, its storage, cells an axis, and the least MLUPS that it should reach.
 const SPEEDS: &[(&str, &str, u64, f64)] = &[("mrt", "f32", 64, 40.0), ("mrt", "f32", 128, 40.0)];
 
-fn headline(index: &Index) -> anyhow::Result<String> {
-    let mut text = String::from("| quantity | result | error | limit |\n|---|---|---|---|\n");
+fn headline(index: &Index) -> anyhow::Result<Table> {
+    let mut table = Table::new(&["quantity", "result", "error", "limit"]);
     for (about, case, begin) in HEADLINES {
         let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
-        let found = rows
-            .iter()
-            .find(|row| row.quantity.starts_with(begin) && row.limit.is_some());
-        let Some(row) = found else {
-            continue;
-        };
-        let verdict = if row.passed { "" } else { ", **missed**" };
-        line(
-            &mut text,
-            &[
-                (*about).into(),
-                row.result() + verdict,
-                row.error.map_or("–".into(), number),
-                row.limit(),
-            ],
-        );
+        let shown = |row: &&Measured| row.quantity.starts_with(begin) && row.limit.is_some();
+        let cells = |row: &Measured| vec![(*about).into(), row.judged(), row.error(), row.limit()];
+        table.rows.extend(rows.iter().find(shown).map(cells));
     }
-    let rows: Vec<Map<String, Value>> = index.rows("bench/fluid")?;
+    let rows = bench_rows(index, "fluid", false)?;
     for (kernel, storage, grid, limit) in SPEEDS {
         let found = rows.iter().find(|row| {
-            row.get("variant").and_then(Value::as_str) == Some(kernel)
-                && row.get("storage").and_then(Value::as_str) == Some(storage)
+            word(row, "variant") == *kernel
+                && word(row, "storage") == *storage
                 && row.get("grid").and_then(Value::as_u64) == Some(*grid)
         });
         let Some(mlups) = found.and_then(|row| row.get("mlups")?.as_f64()) else {
             continue;
         };
-        let verdict = if mlups >= *limit { "" } else { ", **missed**" };
-        line(
-            &mut text,
-            &[
-                format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS"),
-                number(mlups) + verdict,
-                "–".into(),
-                format!("at least {limit}"),
-            ],
-        );
+        table.rows.push(vec![
+            format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS"),
+            number(mlups) + if mlups >= *limit { "" } else { MISSED },
+            "–".into(),
+            format!("at least {limit}"),
+        ]);
     }
-    Ok(text)
-}
-
-/// A line of a table.
-fn line(text: &mut String, cells: &[String]) {
-    let cells: Vec<_> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-    let _ = writeln!(text, "| {} |", cells.join(" | "));
+    Ok(table)
 }
 
 /// Four significant digits, without trailing zeros.

@@ -71,29 +71,21 @@ fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::
         format!("{mach}"),
         "largest energy / that of the start; driven: largest max|u| / U₀",
     );
-    let mut cell = cell.run(|cell| follow(stand, &scene, (ratio, speed), steps, cell))?;
+    let mut cell = cell.run(|cell| {
+        let mut tank = Tank::fill(stand, &scene)?;
+        cell.warned = super::warned(tank.simulation.advice());
+        let peaks = Peaks::of(&mut tank, ratio.unwrap_or(1.0), [steps, LOOKS], cell)?;
+        let [of_block, of_flow] = [peaks.block_speed, peaks.flow_speed].map(|u| u / speed);
+        cell.detail = format!("largest speed / U₀: block {of_block:.3}, fluid {of_flow:.3}");
+        // What drives a block gives it energy.
+        let free = ratio.is_some();
+        cell.value = Some(if free { peaks.energy } else { of_flow });
+        if free && (peaks.energy > RISE || of_block > RISE) {
+            cell.outcome = Outcome::Unphysical;
+        }
+        Ok(())
+    })?;
     let well = !matches!(cell.outcome, Outcome::Error(_) | Outcome::Unphysical);
     cell.agrees = Some(well || !cell.warned.is_empty());
     Ok(cell)
-}
-
-fn follow(
-    stand: &Stand,
-    scene: &riprap::scene::Scene,
-    (ratio, speed): (Option<f64>, f64),
-    steps: u64,
-    cell: &mut Cell,
-) -> anyhow::Result<()> {
-    let mut tank = Tank::fill(stand, scene)?;
-    cell.warned = super::warned(&tank);
-    let peaks = Peaks::of(&mut tank, ratio.unwrap_or(1.0), [steps, LOOKS], cell)?;
-    let Peaks { energy, .. } = peaks;
-    let [block_speed, flow_speed] = [peaks.block_speed, peaks.flow_speed].map(|u| u / speed);
-    cell.detail = format!("largest speed / U₀: block {block_speed:.3}, fluid {flow_speed:.3}");
-    // What drives a block gives it energy.
-    cell.value = Some(if ratio.is_some() { energy } else { flow_speed });
-    if ratio.is_some() && (energy > RISE || block_speed > RISE) {
-        cell.outcome = Outcome::Unphysical;
-    }
-    Ok(())
 }

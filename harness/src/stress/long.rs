@@ -96,12 +96,8 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         let (process, device) = warm;
         if let (Some(from), Some(to)) = (process, sizes.0) {
             let growth = to as f64 / from as f64 - 1.0;
-            report(
-                "growth of the process",
-                growth,
-                GROWTH,
-                format!("{from} to {to} bytes"),
-            )?;
+            let text = format!("{from} to {to} bytes");
+            report("growth of the process", growth, GROWTH, text)?;
         }
         let growth = sizes.1 as f64 / device as f64 - 1.0;
         let text = format!("{device} to {} bytes of the blocks on the device", sizes.1);
@@ -115,7 +111,7 @@ fn cell(tank: &Tank<'_>, name: &str, begin: Instant) -> Cell {
     let steps = tank.simulation.step();
     Cell {
         steps,
-        warned: super::warned(tank),
+        warned: super::warned(tank.simulation.advice()),
         seconds: begin.elapsed().as_secs_f64(),
         ..Cell::new(MAP.name, "", name.into(), steps.to_string(), "as named")
     }
@@ -141,30 +137,16 @@ fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow:
     let once = || -> anyhow::Result<_> {
         let mut tank = Tank::fill(stand, scene)?;
         tank.advance(steps)?;
-        let bits = bits(&mut tank, stand)?;
-        Ok((
-            bits,
-            cell(&tank, "bytes that differ in a second run", begin),
-        ))
+        // Everything that the next steps depend on.
+        let state = stand.drive("the state", tank.simulation.checkpoint())??;
+        let mut bytes = Vec::new();
+        state.write_to(&mut bytes)?;
+        let name = "bytes that differ in a second run";
+        Ok((bytes, cell(&tank, name, begin)))
     };
     let ((first, _), (second, cell)) = (once()?, once()?);
-    let differ = first.iter().zip(&second).filter(|(a, b)| a != b).count();
-    let differ = differ + first.len().abs_diff(second.len());
-    sink.add(judged(
-        cell,
-        differ as f64,
-        0.0,
-        format!("of {}", first.len()),
-    ))
-}
-
-/// Everything that the next steps depend on.
-fn bits(tank: &mut Tank<'_>, stand: &Stand) -> anyhow::Result<Vec<u8>> {
-    let state = tank.simulation.checkpoint();
-    let state = stand.drive("the state", state)??;
-    let mut bytes = Vec::new();
-    state.write_to(&mut bytes)?;
-    Ok(bytes)
+    let differ = super::bytes_that_differ(&first, &second) as f64;
+    sink.add(judged(cell, differ, 0.0, format!("of {}", first.len())))
 }
 
 /// Bytes that blocks take on the device.

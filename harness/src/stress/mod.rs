@@ -4,12 +4,10 @@
 //! A map is a function that runs one cell after the other and hands each to a [`Sink`], which has it on disk before
 //! the next begins. The short form has coarse axes and short runs, and says so; `--full` has the whole.
 
-mod advice;
 mod cell;
 mod density;
 mod long;
 mod maps;
-mod outcome;
 mod packed;
 mod places;
 mod restarts;
@@ -18,15 +16,12 @@ mod sink;
 mod stiffness;
 mod tally;
 
-pub use cell::Cell;
+pub use cell::{Cell, Outcome};
 pub use maps::{MAPS, Map};
-pub use outcome::Outcome;
 pub use sink::Sink;
 
-use crate::{
-    bench::Machine,
-    validate::{Stand, tank::Tank},
-};
+use crate::{bench::Machine, validate::Stand};
+use riprap::scene::Advice;
 use std::{path::PathBuf, time::Instant};
 
 /// Maps where the methods are stable, and tries what may break them; writes stress.csv, stress.json and a picture of
@@ -50,17 +45,19 @@ pub struct Args {
     pub adapter: Option<String>,
 }
 
-/// What a simulation warns of, as [`Cell::warned`] has it.
-fn warned(tank: &Tank<'_>) -> String {
-    let advice = tank.simulation.advice();
-    let places: Vec<_> = advice
-        .iter()
-        .map(|warning| warning.place.as_str())
-        .collect();
+/// Warnings, as [`Cell::warned`] has them.
+fn warned(advice: &Advice) -> String {
+    let places: Vec<_> = advice.iter().map(|warning| &*warning.place).collect();
     match places.is_empty() {
         true => String::new(),
         false => format!("warned {}", places.join(" ")),
     }
+}
+
+/// Bytes of two states that differ.
+fn bytes_that_differ(a: &[u8], b: &[u8]) -> usize {
+    let both = a.iter().zip(b).filter(|(a, b)| a != b);
+    both.count() + a.len().abs_diff(b.len())
 }
 
 /// Draws the maps; whether no message was unclear and nothing that is judged missed its limit.

@@ -76,27 +76,18 @@ fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> an
     let (y, x) = (format!("{gap}"), format!("{mach}"));
     let cell = Cell::new(MAP.name, panel, y, x, "largest max|u| / U₀");
     let scene = scene(motion, gap, speed)?;
-    let mut cell = cell.run(|cell| follow(stand, &scene, speed, steps, cell))?;
+    let mut cell = cell.run(|cell| {
+        let mut tank = Tank::fill(stand, &scene)?;
+        cell.warned = super::warned(tank.simulation.advice());
+        let peaks = Peaks::of(&mut tank, RATIO, [steps, LOOKS], cell)?;
+        cell.value = Some(peaks.flow_speed / speed);
+        cell.detail = format!("largest energy / that of the start {:.3}", peaks.energy);
+        // Around corners a stream is faster than far away; more energy than at the start it cannot have.
+        if peaks.energy > RISE {
+            cell.outcome = Outcome::Unphysical;
+        }
+        Ok(())
+    })?;
     cell.agrees = Some(cell.outcome.is_good() || !cell.warned.is_empty());
     Ok(cell)
-}
-
-fn follow(
-    stand: &Stand,
-    scene: &Scene,
-    speed: f64,
-    steps: u64,
-    cell: &mut Cell,
-) -> anyhow::Result<()> {
-    let mut tank = Tank::fill(stand, scene)?;
-    cell.warned = super::warned(&tank);
-    let peaks = Peaks::of(&mut tank, RATIO, [steps, LOOKS], cell)?;
-    let Peaks { energy, .. } = peaks;
-    cell.value = Some(peaks.flow_speed / speed);
-    cell.detail = format!("largest energy / that of the start {energy:.3}");
-    // Around corners a stream is faster than far away; more energy than at the start it cannot have.
-    if energy > RISE {
-        cell.outcome = Outcome::Unphysical;
-    }
-    Ok(())
 }

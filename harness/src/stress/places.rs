@@ -203,25 +203,23 @@ impl Place {
 fn measure(stand: &Stand, place: &Place, steps: u64) -> anyhow::Result<Cell> {
     let (y, x) = (place.name.into(), "outcome".into());
     let cell = Cell::new(MAP.name, "", y, x, "steps until the error");
-    let mut cell = cell.run(|cell| follow(stand, place, steps, cell))?;
+    let mut cell = cell.run(|cell| {
+        let scene = Scene::from_toml(&place.text(), Path::new("."), "stress")?;
+        let mut tank = Tank::fill(stand, &scene)?;
+        cell.warned = super::warned(tank.simulation.advice());
+        while tank.simulation.step() < steps {
+            let done = tank.advance(50);
+            cell.steps = tank.simulation.step();
+            done?;
+        }
+        Ok(())
+    })?;
     place.judge(&mut cell);
     // What will end badly because of where a block is at the start is to be told before; of what comes later, the
     // library does not know.
     let told = cell.steps == 0 || cell.warned.contains("boundaries");
     cell.agrees = Some(cell.outcome.is_good() || told || place.name.starts_with("driven"));
     Ok(cell)
-}
-
-fn follow(stand: &Stand, place: &Place, steps: u64, cell: &mut Cell) -> anyhow::Result<()> {
-    let scene = Scene::from_toml(&place.text(), Path::new("."), "stress")?;
-    let mut tank = Tank::fill(stand, &scene)?;
-    cell.warned = super::warned(&tank);
-    while tank.simulation.step() < steps {
-        let done = tank.advance(50);
-        cell.steps = tank.simulation.step();
-        done?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,15 +1,12 @@
 //! Runs that are cut twenty times and go on from files, beside the same ones uncut.
 
 use super::{Cell, Map, Outcome, Sink};
-use crate::{gpu, validate::Stand};
+use crate::validate::Stand;
 use riprap::{
     scene::Scene,
     simulation::{Simulation, checkpoint::Checkpoint},
 };
-use std::{
-    path::Path,
-    time::{Duration, Instant},
-};
+use std::{path::Path, time::Instant};
 
 /// The map.
 pub const MAP: Map = Map {
@@ -139,24 +136,19 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         let whole = run_in_parts(stand, &scene, &file, &[steps])?;
         let parts: Vec<u64> = (0..CUTS).map(part).collect();
         let cut = run_in_parts(stand, &scene, &file, &parts)?;
-        let differ = whole.iter().zip(&cut).filter(|(a, b)| a != b).count();
-        let differ = differ + whole.len().abs_diff(cut.len());
+        let differ = super::bytes_that_differ(&whole, &cut);
+        let quantity = "bytes of the state that differ at the end";
+        let (y, x) = (name.into(), "bytes that differ".into());
         sink.add(Cell {
-            map: MAP.name.into(),
-            panel: String::new(),
-            y: name.into(),
-            x: "bytes that differ".into(),
             outcome: match differ {
                 0 => Outcome::Ended,
                 _ => Outcome::OverLimit,
             },
             value: Some(differ as f64),
-            quantity: "bytes of the state that differ at the end".into(),
             steps,
-            warned: String::new(),
-            agrees: None,
             seconds: begin.elapsed().as_secs_f64(),
             detail: format!("{CUTS} cuts, {} bytes", whole.len()),
+            ..Cell::new(MAP.name, "", y, x, quantity)
         })?;
     }
     std::fs::remove_file(&file)?;
@@ -170,16 +162,14 @@ fn run_in_parts(
     file: &Path,
     parts: &[u64],
 ) -> anyhow::Result<Vec<u8>> {
-    const PATIENCE: Duration = Duration::from_secs(300);
-    let (device, queue) = (&stand.device, &stand.queue);
     for (n, steps) in parts.iter().enumerate() {
-        let made = Simulation::new(device, queue, scene);
-        let mut simulation = gpu::drive(device, PATIENCE, "the kernels", made)??;
+        let made = Simulation::new(&stand.device, &stand.queue, scene);
+        let mut simulation = stand.drive("the kernels", made)??;
         if n > 0 {
             simulation.restore(&Checkpoint::read(file)?)?;
         }
-        gpu::drive(device, PATIENCE, "the steps", simulation.advance(*steps))??;
-        let state = gpu::drive(device, PATIENCE, "the state", simulation.checkpoint())??;
+        stand.drive("the steps", simulation.advance(*steps))??;
+        let state = stand.drive("the state", simulation.checkpoint())??;
         state.write(file)?;
     }
     Ok(std::fs::read(file)?)

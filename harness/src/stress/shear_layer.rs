@@ -1,10 +1,18 @@
 //! The doubly periodic shear layer (Minion & Brown 1997, J. Comput. Phys. 138:734), κ = 80 on 64²: layers thinner
 //! than a cell roll up. A scheme that holds here at a viscosity and a Mach number holds where the grid resolves nothing.
 
-use super::{Cell, Map, Outcome, Sink, advice::Advice};
-use crate::validate::{Flow, Stand, fields};
-use riprap::lattice::{Collision, Equilibrium, Setup, State, Storage};
-use std::{f64::consts::TAU, time::Instant};
+use super::{Cell, Map, Outcome, Sink};
+use crate::{
+    bench,
+    validate::{Flow, Stand, fields, record},
+};
+use riprap::{
+    Error,
+    lattice::{Collision, Equilibrium, Setup, State, Storage},
+    scene::Scene,
+    units::Units,
+};
+use std::{f64::consts::TAU, path::Path, time::Instant};
 
 /// The map.
 pub const MAP: Map = Map {
@@ -78,25 +86,12 @@ impl Method {
         }
     }
 
-    fn collision(&self) -> &'static str {
-        match self.collision {
-            Collision::Bgk => "bgk",
-            Collision::Suga => "suga",
-            Collision::Hermite => "hermite",
-        }
-    }
-
     fn name(&self) -> String {
-        let equilibrium = match self.equilibrium {
-            Equilibrium::SecondOrder => "order 2",
-            Equilibrium::Product => "product",
-        };
+        let collision = record::collision(self.collision);
+        let equilibrium = record::equilibrium(self.equilibrium);
         let wale = if self.wale { " wale" } else { "" };
-        let storage = match self.storage {
-            Storage::F32 => "f32",
-            Storage::F16 => "f16",
-        };
-        format!("{} {equilibrium}{wale} {storage}", self.collision())
+        let storage = bench::storage(self.storage);
+        format!("{collision} {equilibrium}{wale} {storage}")
     }
 
     /// As a scene has it.
@@ -106,7 +101,7 @@ impl Method {
             Equilibrium::SecondOrder => "second_order",
             Equilibrium::Product => "product",
         };
-        let collision = self.collision();
+        let collision = record::collision(self.collision);
         format!(
             "collision = \"{collision}\"\nequilibrium = \"{equilibrium}\"\neddy_viscosity = \"{eddy}\"\n"
         )
@@ -121,6 +116,31 @@ impl Method {
             setup.lanes = setup.lanes.max(2);
         }
         setup
+    }
+}
+
+/// What the library says before a run with the lattice viscosity `nu`, the largest speed `speed` (cells a step) and these
+/// `numerics`, lines of TOML, as [`Cell::warned`] has it.
+fn advice(nu: f64, speed: f64, numerics: &str) -> anyhow::Result<String> {
+    let text = format!(
+        "run = {{ steps = 1 }}\n[domain]\nsize = {CELLS:?}\ncell = 1\n[fluid]\ndensity = 1\nviscosity = {nu:e}\n\
+         [numerics]\ntime_step = 1\nvelocity_scale = {speed:e}\n{numerics}"
+    );
+    let scene = Scene::from_toml(&text, Path::new("."), "stress")?;
+    match scene.advise(&Units::of(&scene)?) {
+        Err(Error::Scene { key, .. }) => Ok(format!("refused {key}")),
+        Err(other) => Err(other.into()),
+        Ok(warnings) => Ok(super::warned(&warnings)),
+    }
+}
+
+/// Whether advice fits a run that ended well or badly: what ends badly wants a warning at least, and what ends well is
+/// not to be refused. A warning of what ends well may be one of accuracy.
+fn fits(advice: &str, well: bool) -> bool {
+    match advice {
+        "" => well,
+        refused if refused.starts_with("refused") => !well,
+        _ => true,
     }
 }
 
@@ -176,7 +196,7 @@ fn against_f32(sink: &Sink, method: &Method, cell: &Cell) -> String {
 fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> anyhow::Result<Cell> {
     let begin = Instant::now();
     let speed = mach / 3f64.sqrt();
-    let advice = Advice::of(CELLS, nu, speed, &method.numerics())?;
+    let advice = advice(nu, speed, &method.numerics())?;
     let mut flow = stand.flow(method.setup(stand, nu), &start(speed), true)?;
     let found = follow(&mut flow, steps, speed)?;
     // Pressure holds about Ma² of the energy, which may come back; more than that no flow without forces gains.
@@ -193,11 +213,11 @@ fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> an
     let (y, x) = (format!("{nu:e}"), format!("{mach}"));
     Ok(Cell {
         // That vortices go on is no fault of the method.
-        agrees: Some(advice.fits(found.fault.is_none() && !gains)),
+        agrees: Some(fits(&advice, found.fault.is_none() && !gains)),
         outcome,
         value: found.fault.is_none().then_some(found.speed),
         steps: found.steps,
-        warned: advice.words(),
+        warned: advice,
         seconds: begin.elapsed().as_secs_f64(),
         detail: format!(
             "largest max|u| / U₀ {:.3}, largest rise of the kinetic energy {:.4}{cause}",
@@ -251,8 +271,8 @@ mod tests {
         for (n, method) in all.iter().enumerate() {
             assert!(all[..n].iter().all(|other| other.name() != method.name()));
             // Within what every method takes.
-            let advice = Advice::of(CELLS, 0.01, 0.01, &method.numerics()).unwrap();
-            assert_eq!(advice, Advice::Silent, "{}", method.name());
+            let advice = advice(0.01, 0.01, &method.numerics()).unwrap();
+            assert_eq!(advice, "", "{}", method.name());
         }
         let short = Method::all(false);
         assert!(short.iter().all(|method| all.contains(method)));
@@ -266,5 +286,17 @@ mod tests {
         assert!(sum.abs() < 1e-4, "{sum}");
         let fastest = state.velocity[0].iter().fold(0f32, |m, u| m.max(u.abs()));
         assert!((fastest - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn only_silence_before_a_fall_and_refusals_of_what_holds_are_wrong() {
+        let of = |nu, speed| advice(nu, speed, "").unwrap();
+        let (silent, warned, refused) = (of(0.01, 0.02), of(1e-5, 0.02), of(0.01, 0.2));
+        assert_eq!(silent, "");
+        assert_eq!(warned, "warned domain.cell");
+        assert_eq!(refused, "refused numerics.time_step");
+        assert!(fits(&silent, true) && !fits(&silent, false));
+        assert!(fits(&warned, true) && fits(&warned, false));
+        assert!(!fits(&refused, true) && fits(&refused, false));
     }
 }

@@ -7,21 +7,11 @@ use super::{
 use crate::bench::Machine;
 use anyhow::{Context, Result};
 use riprap::output::replace;
-use serde::Serialize;
 use std::{
     fs::File,
     io::Write,
     path::{Path, PathBuf},
 };
-
-/// A cell in the list, with where it was found.
-#[derive(Serialize)]
-struct Kept<'a> {
-    #[serde(flatten)]
-    cell: &'a Cell,
-    #[serde(flatten)]
-    machine: &'a Machine,
-}
 
 /// The cells so far, which are on disk already.
 #[derive(Debug)]
@@ -78,10 +68,7 @@ impl Sink {
     }
 
     fn list(&self) -> Result<()> {
-        let machine = &self.machine;
-        let kept = |cell| Kept { cell, machine };
-        let cells: Vec<Kept<'_>> = self.cells.iter().map(kept).collect();
-        let text = serde_json::to_string_pretty(&cells)? + "\n";
+        let text = self.machine.json(&self.cells)?;
         Ok(replace(&self.folder.join("stress.json"), |file| {
             file.write_all(text.as_bytes())
         })?)
@@ -130,28 +117,14 @@ fn line(cell: &Cell) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stress::Outcome;
 
     #[test]
     fn what_was_added_is_on_disk_before_the_end() {
         let folder = std::env::temp_dir().join(format!("riprap-stress-{}", std::process::id()));
         let mut sink = Sink::begin(&folder, Machine::host()).unwrap();
         for steps in 1..=2 {
-            sink.add(Cell {
-                map: "a".into(),
-                panel: String::new(),
-                y: "1".into(),
-                x: "2".into(),
-                outcome: Outcome::Ended,
-                value: None,
-                quantity: "q".into(),
-                steps,
-                warned: String::new(),
-                agrees: None,
-                seconds: 0.0,
-                detail: String::new(),
-            })
-            .unwrap();
+            let cell = Cell::new("a", "", "1".into(), "2".into(), "q");
+            sink.add(Cell { steps, ..cell }).unwrap();
             let table = std::fs::read_to_string(folder.join("stress.csv")).unwrap();
             assert_eq!(table.lines().count(), 1 + steps as usize);
             let list = std::fs::read_to_string(folder.join("stress.json")).unwrap();

@@ -3,7 +3,7 @@
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::{
     Stand,
-    rock::{G, Rock, cuboid, joint, setup},
+    rock::{G, Rock, cuboid, floor, joint, setup},
 };
 use glam::DVec3;
 use riprap::rock::{
@@ -31,8 +31,7 @@ const FALL: f64 = 0.05;
 const ENERGY: f64 = 0.01;
 
 fn blocks(stiffness: f64) -> anyhow::Result<Setup> {
-    let floor = Block::new("floor", cuboid(10.0, 10.0, 1.0)?, DVec3::Z * -0.5).fixed();
-    let mut list = vec![floor];
+    let mut list = vec![floor(10.0)?];
     for n in 0..3 {
         let k = f64::from(n);
         // Not quite above each other, so that corners and edges carry too.
@@ -75,11 +74,8 @@ fn measure(stiffness: f64, step: f64, usual: Option<f64>, time: f64) -> anyhow::
     let mut setup = blocks(stiffness)?;
     setup.time_step = Some(step);
     let mut rock = Rock::new(setup, "")?;
-    let start = rock.blocks.ledger();
     let ended = rock.run(time);
-    let end = rock.blocks.ledger();
-    let scale = 3.0 * rock.blocks.mass(1) * G * FALL;
-    let error = (end.balance() - start.balance()).abs() / scale;
+    let error = rock.energy_error() / (3.0 * rock.blocks.mass(1) * G * FALL);
     let (outcome, detail) = match ended {
         Ok(()) if error <= ENERGY => (Outcome::Ended, String::new()),
         // NaN is no small error.
@@ -98,20 +94,18 @@ fn measure(stiffness: f64, step: f64, usual: Option<f64>, time: f64) -> anyhow::
         (Some(usual), _) if step > usual => format!("beyond the usual, {usual:.1e} s"),
         _ => String::new(),
     };
+    let (y, x) = (format!("{stiffness:e}"), format!("{step:e}"));
+    let quantity = "error of the energy / that of the fall";
     Ok(Cell {
-        map: MAP.name.into(),
-        panel: String::new(),
-        y: format!("{stiffness:e}"),
-        x: format!("{step:e}"),
         // A step that the library takes must not end in wrong motion; that it is too long for the contacts as they
         // are, or that blocks sink too deep, it says when that is so.
         agrees: Some(outcome != Outcome::Unphysical),
         value: outcome.is_good().then_some(error),
         outcome,
-        quantity: "error of the energy / that of the fall".into(),
         steps: rock.blocks.steps(),
         warned,
         seconds: begin.elapsed().as_secs_f64(),
         detail,
+        ..Cell::new(MAP.name, "", y, x, quantity)
     })
 }

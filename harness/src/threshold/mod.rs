@@ -11,7 +11,7 @@ mod trial;
 pub use bracket::Bracket;
 pub use key::Key;
 pub use report::Report;
-pub use trial::{Criterion, Motion, Trial};
+pub use trial::{Motion, Trial};
 
 use crate::run::SceneRun;
 use anyhow::{Context, Result, bail};
@@ -79,111 +79,59 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
     })?;
     // What is wrong with the file as it is has a line there.
     Scene::from_file(&args.scene)?;
-    let keys = args.key.iter().map(|key| Key::parse(key));
-    let search = Search {
-        args,
-        keys: keys.collect::<riprap::Result<_>>()?,
-        table: toml::from_str(&text).map_err(|e| Error::file(&args.scene, e))?,
-        stop,
-        folder: folder(args),
+    let keys: Vec<Key> = args
+        .key
+        .iter()
+        .map(|key| Key::parse(key))
+        .collect::<riprap::Result<_>>()?;
+    let table: toml::Table = toml::from_str(&text).map_err(|e| Error::file(&args.scene, e))?;
+    let open = |value: f64| -> riprap::Result<SceneRun> {
+        let mut table = table.clone();
+        for key in &keys {
+            key.set(&mut table, value)?;
+        }
+        let dir = args.scene.parent().unwrap_or(Path::new(""));
+        let place = format!("{} with {value}", args.scene.display());
+        let scene = Scene::from_toml(&table.to_string(), dir, &place)?;
+        SceneRun::open(&scene, &args.scene, args.adapter.as_deref())
     };
-    std::fs::create_dir_all(&search.folder).map_err(|error| {
-        let message = format!("cannot make this folder: {error}; choose another one with `--out`");
-        Error::file(&search.folder, message)
-    })?;
-    search.go()
-}
-
-/// Where the tables go.
-fn folder(args: &Args) -> PathBuf {
-    args.out.clone().unwrap_or_else(|| {
+    let folder = args.out.clone().unwrap_or_else(|| {
         let stem = args.scene.file_stem().unwrap_or("scene".as_ref());
         let mut name = stem.to_os_string();
         name.push("_threshold");
         Path::new("out").join(name)
-    })
-}
-
-struct Search<'a> {
-    args: &'a Args,
-    keys: Vec<Key>,
-    /// The scene as it is written.
-    table: toml::Table,
-    stop: &'a AtomicBool,
-    folder: PathBuf,
-}
-
-impl Search<'_> {
-    fn go(&self) -> Result<Report> {
-        let args = self.args;
-        let mut bracket = Bracket::new(args.from, args.to, args.tolerance)?;
-        let mut report = Report::new(args);
-        if let Some(time) = args.settle {
-            self.settle(time)?;
-        }
-        while let Some(value) = bracket.next() {
-            let Some(trial) = self.trial(value)? else {
-                break;
-            };
-            eprintln!("{trial}");
-            let moved = trial.moved.is_some();
-            let told = trial.to_string();
-            report.take(trial);
-            report.write(&self.folder)?;
-            if let Err(wrong) = bracket.take(value, moved) {
-                bail!(Error::argument(
-                    args.key.join(", "),
-                    format!("{wrong} ({told})")
-                ));
-            }
-        }
-        report.end(bracket.found(), bracket.is_narrow());
-        report.write(&self.folder)?;
-        Ok(report)
+    });
+    std::fs::create_dir_all(&folder).map_err(|error| {
+        let message = format!("cannot make this folder: {error}; choose another one with `--out`");
+        Error::file(&folder, message)
+    })?;
+    let mut bracket = Bracket::new(args.from, args.to, args.tolerance)?;
+    let mut report = Report::new(args);
+    let settled = args
+        .settle
+        .map(|time| (time, folder.join("settled.riprap")));
+    if let Some((time, path)) = &settled {
+        trial::settle(open(args.from)?, *time, path)
+            .with_context(|| format!("while the blocks settled at {}", args.from))?;
     }
-
-    /// The scene with the value.
-    fn scene(&self, value: f64) -> riprap::Result<Scene> {
-        let mut table = self.table.clone();
-        for key in &self.keys {
-            key.set(&mut table, value)?;
-        }
-        let dir = self.args.scene.parent().unwrap_or(Path::new(""));
-        let place = format!("{} with {value}", self.args.scene.display());
-        Scene::from_toml(&table.to_string(), dir, &place)
-    }
-
-    fn settled(&self) -> PathBuf {
-        self.folder.join("settled.riprap")
-    }
-
-    /// Writes the state in which the trials begin.
-    fn settle(&self, time: f64) -> Result<()> {
-        let scene = self.scene(self.args.from)?;
-        let (file, adapter) = (&self.args.scene, self.args.adapter.as_deref());
-        let run = SceneRun::open(&scene, file, adapter)?;
-        trial::settle(run, time, &self.settled())
-            .with_context(|| format!("while the blocks settled at {}", self.args.from))
-    }
-
-    /// One trial; none if it was stopped.
-    fn trial(&self, value: f64) -> Result<Option<Trial>> {
-        let scene = self.scene(value)?;
-        let args = self.args;
-        let (file, adapter) = (&args.scene, args.adapter.as_deref());
-        let criterion = match args.speed {
-            Some(speed) => Criterion::Speed(speed),
-            None => Criterion::Distance(args.distance),
+    let settled = settled.as_ref().map(|(_, path)| path.as_path());
+    while let Some(value) = bracket.next() {
+        let trial = trial::run(open(value)?, value, args, settled, stop)
+            .with_context(|| format!("in the trial with the value {value}"))?;
+        let Some(trial) = trial else {
+            break;
         };
-        let asked = trial::Asked {
-            value,
-            criterion,
-            block: args.block.as_deref(),
-            steps: args.steps,
-            settled: args.settle.map(|_| self.settled()),
-            stop: self.stop,
-        };
-        trial::run(SceneRun::open(&scene, file, adapter)?, &asked)
-            .with_context(|| format!("in the trial with the value {value}"))
+        eprintln!("{trial}");
+        let moved = trial.moved.is_some();
+        let told = trial.to_string();
+        report.trials.push(trial);
+        report.write(&folder)?;
+        if let Err(wrong) = bracket.take(value, moved) {
+            let message = format!("{wrong} ({told})");
+            bail!(Error::argument(args.key.join(", "), message));
+        }
     }
+    report.end(bracket.found(), bracket.is_narrow());
+    report.write(&folder)?;
+    Ok(report)
 }

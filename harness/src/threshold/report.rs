@@ -68,11 +68,6 @@ impl Report {
         });
     }
 
-    /// Adds a trial.
-    pub fn take(&mut self, trial: Trial) {
-        self.trials.push(trial);
-    }
-
     /// Writes both files into `folder`.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! One run of the scene, until a block moves.
 
+use super::Args;
 use crate::run::{Batch, SceneRun};
 use anyhow::Result;
 use glam::DVec3;
@@ -7,7 +8,7 @@ use riprap::{Error, rock};
 use serde::Serialize;
 use std::{
     fmt,
-    path::{Path, PathBuf},
+    path::Path,
     sync::atomic::{AtomicBool, Ordering},
     time::Instant,
 };
@@ -22,27 +23,20 @@ pub(super) const BEGUN: f64 = 0.1;
 
 /// What motion is.
 #[derive(Clone, Copy, Debug)]
-pub enum Criterion {
+enum Criterion {
     /// The centroid is so far from where it was, m; 1 % of the size without a number.
     Distance(Option<f64>),
     /// The centroid is so fast, m/s.
     Speed(f64),
 }
 
-/// What a trial is to do.
-pub struct Asked<'a> {
-    /// The value that it tries.
-    pub value: f64,
-    /// What motion is.
-    pub criterion: Criterion,
-    /// The block that counts, or every free one.
-    pub block: Option<&'a str>,
-    /// Its steps, or those of the scene.
-    pub steps: Option<u64>,
-    /// The state that it begins with.
-    pub settled: Option<PathBuf>,
-    /// Set when it is to end.
-    pub stop: &'a AtomicBool,
+impl Criterion {
+    fn of(args: &Args) -> Self {
+        match args.speed {
+            Some(speed) => Self::Speed(speed),
+            None => Self::Distance(args.distance),
+        }
+    }
 }
 
 /// How a block moves.
@@ -116,10 +110,17 @@ fn advance(run: &mut SceneRun, batch: &mut Batch, steps: u64) -> riprap::Result<
     Ok(())
 }
 
-/// Runs a trial; none if it was stopped.
-pub fn run(mut run: SceneRun, asked: &Asked<'_>) -> Result<Option<Trial>> {
+/// Runs a trial of `value`, from the state in the file `settled` if there is one; none if it was stopped.
+pub fn run(
+    mut run: SceneRun,
+    value: f64,
+    args: &Args,
+    settled: Option<&Path>,
+    stop: &AtomicBool,
+) -> Result<Option<Trial>> {
     let begun = Instant::now();
-    if let Some(path) = &asked.settled {
+    let criterion = Criterion::of(args);
+    if let Some(path) = settled {
         run.restore(path).map_err(|error| match error {
             Error::Argument { what, message } => Error::Argument {
                 what,
@@ -131,26 +132,26 @@ pub fn run(mut run: SceneRun, asked: &Asked<'_>) -> Result<Option<Trial>> {
             other => other,
         })?;
     }
-    let watched = Watched::new(&run, asked)?;
+    let watched = Watched::new(&run, args.block.as_deref())?;
     let first = run.step();
     let own = run.scene().run.count(run.time_step());
-    let last = first + asked.steps.unwrap_or(own).max(1);
+    let last = first + args.steps.unwrap_or(own).max(1);
     let look = ((last - first) / LOOKS).max(1);
     let mut batch = Batch::new();
     let (mut moved, mut closest) = (None, None);
     while moved.is_none() && run.step() < last {
-        if asked.stop.load(Ordering::Relaxed) {
+        if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
         let at = run.step() - first;
         let next = first + (at / look + 1) * look;
         let steps = batch.steps().min(next.min(last) - run.step());
         advance(&mut run, &mut batch, steps)?;
-        (closest, moved) = watched.look(&run, asked.criterion);
+        (closest, moved) = watched.look(&run, criterion);
     }
-    let goes_on = |motion: &Motion| motion.goes_on(asked.criterion);
+    let goes_on = |motion: &Motion| motion.goes_on(criterion);
     Ok(Some(Trial {
-        value: asked.value,
+        value,
         under_way: moved.is_none() && closest.as_ref().is_some_and(goes_on),
         moved,
         closest,
@@ -168,16 +169,14 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(run: &SceneRun, asked: &Asked<'_>) -> riprap::Result<Self> {
+    fn new(run: &SceneRun, wanted: Option<&str>) -> riprap::Result<Self> {
         let Some(rock) = run.rock() else {
             let message = "it has no blocks; add [[blocks]] or [[rock_masses]]";
             return Err(Error::scene("scene", message));
         };
         let free = |block: &rock::Block| block.motion == rock::Motion::Free;
-        let counts = |block: &rock::Block| match asked.block {
-            Some(name) => block.name == name && free(block),
-            None => free(block),
-        };
+        let counts =
+            |block: &rock::Block| free(block) && wanted.is_none_or(|name| block.name == name);
         let poses = rock.blocks.poses();
         let blocks: Vec<_> = rock.setup.blocks.iter().enumerate().collect();
         let watched: Vec<_> = blocks

@@ -2,9 +2,10 @@
 
 use super::{
     Outcome, Stand,
+    fields::changed,
     golden::{noise_and_shear, suga, with_own_velocity},
 };
-use riprap::lattice::{C, Collision, Populations, Setup, Storage};
+use riprap::lattice::{C, Collision, Populations, Storage};
 
 const CELLS: [u32; 3] = [16, 16, 16];
 const STEPS: u64 = 10_000;
@@ -14,19 +15,12 @@ const LIMIT: f64 = 1e-6;
 /// Runs the case.
 pub fn run(stand: &Stand) -> Outcome {
     let hermite = stand.setup(CELLS, 0.05 / 3.0);
-    let with = |change: &dyn Fn(&mut Setup)| {
-        let mut setup = hermite.clone();
-        change(&mut setup);
-        setup
-    };
-    let mut suga = suga(CELLS);
-    suga.lanes = hermite.lanes;
     let setups = [
         hermite.clone(),
-        suga,
-        with(&|s| s.collision = Collision::Bgk),
-        with(&|s| s.wale = Some(0.5)),
-        with(&|s| (s.storage, s.lanes) = (Storage::F16, 4)),
+        changed(&suga(CELLS), |s| s.lanes = hermite.lanes),
+        changed(&hermite, |s| s.collision = Collision::Bgk),
+        changed(&hermite, |s| s.wale = Some(0.5)),
+        changed(&hermite, |s| (s.storage, s.lanes) = (Storage::F16, 4)),
     ];
     let mut records = Vec::new();
     for setup in setups {

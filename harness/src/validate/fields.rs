@@ -1,10 +1,13 @@
 //! Fields on cell centres: made from formulas, compared with them, interpolated.
 
-use riprap::lattice::{C, State};
+use kit::twin::noise::hash32;
+use riprap::lattice::{Setup, State};
 
-/// Weight of direction `q` of the lattice (Qian, d'Humières & Lallemand 1992).
-pub fn weight(q: usize) -> f64 {
-    [8.0 / 27.0, 2.0 / 27.0, 1.0 / 54.0, 1.0 / 216.0][C[q].iter().filter(|c| **c != 0).count()]
+/// A setup with a change.
+pub fn changed(setup: &Setup, change: impl FnOnce(&mut Setup)) -> Setup {
+    let mut setup = setup.clone();
+    change(&mut setup);
+    setup
 }
 
 /// Centres of the cells, lattice units, x fastest.
@@ -66,15 +69,6 @@ pub fn largest_change(a: &State, b: &State) -> f64 {
 /// A number in [−1, 1) that looks random, from an integer hash.
 pub fn noise(n: u32) -> f64 {
     f64::from(hash32(n)) / f64::from(1u32 << 31) - 1.0
-}
-
-/// Integer hash with xor-shifts and two odd factors.
-pub fn hash32(mut n: u32) -> u32 {
-    n ^= n >> 16;
-    n = n.wrapping_mul(0x7feb_352d);
-    n ^= n >> 15;
-    n = n.wrapping_mul(0x846c_a68b);
-    n ^ (n >> 16)
 }
 
 /// Value at `x` of the cubic through the four nodes around it (Lagrange); nodes ascend.

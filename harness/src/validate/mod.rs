@@ -10,7 +10,6 @@ pub mod fields;
 pub mod method;
 pub mod record;
 pub mod stand;
-pub mod stopwatch;
 pub mod tank;
 
 pub(crate) mod cavity;
@@ -39,7 +38,6 @@ pub use stand::{Flow, Stand};
 
 use crate::{bench::Machine, print};
 use anyhow::Context;
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// Compares flows with exact solutions, published tables and float64 references.
@@ -243,30 +241,13 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
     }
     if let Some(path) = &args.json {
         let machine = Machine::of(&stand.device.adapter_info());
-        let kept: Vec<_> = records
-            .iter()
-            .map(|record| Kept {
-                record,
-                machine: &machine,
-            })
-            .collect();
-        let text = serde_json::to_string_pretty(&kept)?;
-        std::fs::write(path, text + "\n")
+        std::fs::write(path, machine.json(&records)?)
             .with_context(|| format!("cannot write {}", path.display()))?;
     }
     let failed = records.iter().filter(|record| !record.passed).count();
     let judged = records.iter().filter(|r| r.limit.is_some()).count();
     println!("{} of {judged} checks passed", judged - failed);
     Ok(failed == 0)
-}
-
-/// A record as it is kept: with where and when it was found.
-#[derive(Serialize)]
-struct Kept<'a> {
-    #[serde(flatten)]
-    record: &'a Record,
-    #[serde(flatten)]
-    machine: &'a Machine,
 }
 
 /// The record of a case that could not finish.

@@ -2,9 +2,10 @@
 
 use super::{
     Outcome, Stand,
-    fields::weight,
+    fields::changed,
     golden::{noise_and_shear, suga, with_own_velocity},
 };
+use kit::twin::lattice::W;
 use riprap::lattice::{Collision, Equilibrium, Force, Populations, Rates, Setup};
 
 const CELLS: [u32; 3] = [24, 10, 8];
@@ -16,50 +17,29 @@ const STEPS: u64 = 50;
 /// Runs the case.
 pub fn run(stand: &Stand) -> Outcome {
     let base = Setup::periodic(CELLS, (1.0 / 1.9 - 0.5) / 3.0);
-    let changed = |change: &dyn Fn(&mut Setup)| {
-        let mut setup = base.clone();
-        change(&mut setup);
-        setup
-    };
-    let bgk = changed(&|s| s.collision = Collision::Bgk);
+    let bgk = changed(&base, |s| s.collision = Collision::Bgk);
     let equal = |collision| {
-        let mut setup = base.clone();
-        setup.collision = collision;
-        setup.rates = Rates::equal(1.0 / setup.tau());
-        setup
+        changed(&base, |s| {
+            (s.collision, s.rates) = (collision, Rates::equal(1.0 / s.tau()));
+        })
     };
-    let mut suga_second = equal(Collision::Suga);
-    suga_second.equilibrium = Equilibrium::SecondOrder;
-    let mut bgk_second = bgk.clone();
-    bgk_second.equilibrium = Equilibrium::SecondOrder;
-    let no_force = Force::Constant([0.0; 3]);
-    let mut suga_wale = suga(CELLS);
-    suga_wale.wale = Some(0.0);
+    let second = |setup: &Setup| changed(setup, |s| s.equilibrium = Equilibrium::SecondOrder);
+    let null_wale = |setup: &Setup| changed(setup, |s| s.wale = Some(0.0));
+    let null_force = changed(&base, |s| s.force = Force::Constant([0.0; 3]));
+    let listed = changed(&base, |s| s.solid = vec![false; 24 * 10 * 8]);
+    let four = changed(&base, |s| s.lanes = 4);
+    let [hermite, suga_equal] = [Collision::Hermite, Collision::Suga].map(equal);
+    let suga = suga(CELLS);
+    let wale = "WALE with C_w = 0 - laminar";
     let pairs = [
-        (
-            "WALE with C_w = 0 - laminar",
-            changed(&|s| s.wale = Some(0.0)),
-            base.clone(),
-        ),
-        ("WALE with C_w = 0 - laminar", suga_wale, suga(CELLS)),
-        (
-            "F = 0 - no force",
-            changed(&|s| s.force = no_force.clone()),
-            base.clone(),
-        ),
-        ("equal rates - BGK", equal(Collision::Hermite), bgk.clone()),
-        ("equal rates - BGK", equal(Collision::Suga), bgk),
-        ("equal rates - BGK", suga_second, bgk_second),
-        (
-            "listed bricks - all bricks",
-            changed(&|s| s.solid = vec![false; 24 * 10 * 8]),
-            base.clone(),
-        ),
-        (
-            "four lanes - one lane",
-            changed(&|s| s.lanes = 4),
-            base.clone(),
-        ),
+        (wale, null_wale(&base), base.clone()),
+        (wale, null_wale(&suga), suga),
+        ("F = 0 - no force", null_force, base.clone()),
+        ("equal rates - BGK", hermite, bgk.clone()),
+        ("equal rates - BGK", suga_equal.clone(), bgk.clone()),
+        ("equal rates - BGK", second(&suga_equal), second(&bgk)),
+        ("listed bricks - all bricks", listed, base.clone()),
+        ("four lanes - one lane", four, base.clone()),
     ];
     let mut records = Vec::new();
     for (name, setup, simpler) in pairs {
@@ -84,11 +64,10 @@ fn end(stand: &Stand, setup: Setup, steps: u64) -> anyhow::Result<(super::Trial,
 /// step: beyond that the flagged kernel is the plain one.
 fn flagged(stand: &Stand, base: &Setup, lanes: u32) -> anyhow::Result<super::Record> {
     let steps = 3;
-    let mut setup = base.clone();
-    setup.lanes = lanes;
-    let mut with_cell = setup.clone();
-    with_cell.solid = vec![false; 24 * 10 * 8];
-    with_cell.solid[0] = true;
+    let setup = changed(base, |s| s.lanes = lanes);
+    let with_cell = changed(&setup, |s| {
+        s.solid = (0..24 * 10 * 8).map(|n| n == 0).collect()
+    });
     let (trial, a) = end(stand, with_cell, steps)?;
     let (_, b) = end(stand, setup, steps)?;
     let reached = |x: usize| x.min(24 - x) as u64 <= steps + 1;
@@ -102,6 +81,6 @@ fn difference(a: &Populations, b: &Populations, counts: impl Fn(usize) -> bool) 
     let pairs = a.values.iter().zip(&b.values).enumerate();
     pairs
         .filter(|(at, _)| counts(at % n))
-        .map(|(at, (a, b))| f64::from((a - b).abs()) / weight(at / n))
+        .map(|(at, (a, b))| f64::from((a - b).abs()) / W[at / n])
         .fold(0.0, f64::max)
 }

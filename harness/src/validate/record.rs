@@ -1,6 +1,6 @@
 //! What a case found: one number with its reference, its error, its limit and its cost.
 
-use super::stopwatch::Spent;
+use kit::clock::Spent;
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, Storage};
 use serde::Serialize;
 use std::time::Instant;
@@ -138,18 +138,28 @@ impl Record {
     }
 }
 
-/// A setup in one line: cells, relaxation time, and what differs from the defaults.
-pub fn describe(setup: &Setup) -> String {
-    let [x, y, z] = setup.cells;
-    let collision = match setup.collision {
+/// Name of a collision operator, as scenes have it.
+pub fn collision(collision: Collision) -> &'static str {
+    match collision {
         Collision::Bgk => "bgk",
         Collision::Hermite => "hermite",
         Collision::Suga => "suga",
-    };
-    let equilibrium = match setup.equilibrium {
+    }
+}
+
+/// Name of an equilibrium in records.
+pub fn equilibrium(equilibrium: Equilibrium) -> &'static str {
+    match equilibrium {
         Equilibrium::Product => "product",
         Equilibrium::SecondOrder => "order 2",
-    };
+    }
+}
+
+/// A setup in one line: cells, relaxation time, and what differs from the defaults.
+pub fn describe(setup: &Setup) -> String {
+    let [x, y, z] = setup.cells;
+    let collision = collision(setup.collision);
+    let equilibrium = equilibrium(setup.equilibrium);
     let mut text = format!("{x}x{y}x{z} τ {:.5} {collision} {equilibrium}", setup.tau());
     if let Some(constant) = setup.wale {
         text += &format!(" wale {constant}");

@@ -44,36 +44,23 @@ pub fn run(stand: &Stand) -> Outcome {
         let count = a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len());
         records.push(trial.at_most(quantity, count as f64, 0.0));
     };
-    same(
-        "second run: bits that differ",
-        &trial,
-        &whole(everything())?.1,
-    );
+    let (_, second) = whole(everything())?;
+    same("second run: bits that differ", &trial, &second);
 
     let mut flow = stand.flow(everything(), &start, true)?;
     flow.advance(BREAK)?;
     let saved = flow.populations()?;
     let mut flow = stand.resumed(everything(), &saved)?;
     flow.advance(STEPS - BREAK)?;
-    same(
-        "restart: bits that differ",
-        &flow.trial(),
-        &flow.populations()?,
-    );
+    let end = flow.populations()?;
+    same("restart: bits that differ", &flow.trial(), &end);
 
     for brick in [[4, 4, 4], [64, 1, 1], [1, 8, 8]] {
-        let mut setup = everything();
-        setup.brick = brick;
-        let (trial, end) = whole(setup)?;
-        same(
-            &format!("bricks of {brick:?}: bits that differ"),
-            &trial,
-            &end,
-        );
+        let (trial, end) = whole(fields::changed(&everything(), |s| s.brick = brick))?;
+        let quantity = format!("bricks of {brick:?}: bits that differ");
+        same(&quantity, &trial, &end);
     }
-    let mut setup = everything();
-    setup.bindings = Some(3);
-    let (trial, end) = whole(setup)?;
+    let (trial, end) = whole(fields::changed(&everything(), |s| s.bindings = Some(3)))?;
     same("three bindings: bits that differ", &trial, &end);
     Ok(records)
 }

@@ -1,6 +1,6 @@
 //! Every combination of slots is valid WGSL, and what a setup does not use is not bound.
 
-use super::{Outcome, Record, Stand, Trial};
+use super::{Outcome, Stand, Trial, fields::changed, record::describe};
 use anyhow::Context;
 use riprap::{
     gpu::kernel,
@@ -27,7 +27,7 @@ pub fn run(_: &Stand) -> Outcome {
                 let program = collide_stream(&setup, bindings, kind);
                 let shader = program
                     .link()
-                    .with_context(|| format!("{} {kind:?}", super::record::describe(&setup)))?;
+                    .with_context(|| format!("{} {kind:?}", describe(&setup)))?;
                 let found = kernel::bindings(&shader, "collide_stream")?;
                 let mut found: Vec<_> = found.into_iter().map(|b| b.name).collect();
                 found.sort();
@@ -38,20 +38,13 @@ pub fn run(_: &Stand) -> Outcome {
             }
         }
     }
-    let trial = Trial {
-        setup: wrong
-            .first()
-            .map_or("collide_stream, all slots".into(), |w| {
-                format!("first: {w}")
-            }),
-        seconds: begin.elapsed().as_secs_f64(),
-        ..Trial::default()
+    let what = match wrong.first() {
+        Some(first) => format!("first: {first}"),
+        None => "collide_stream, all slots".into(),
     };
+    let trial = Trial::since(begin, what, 0, 0);
     Ok(vec![
-        Record {
-            seconds: trial.seconds,
-            ..trial.report("combinations that naga validates", f64::from(linked))
-        },
+        trial.report("combinations that naga validates", f64::from(linked)),
         trial.at_most("combinations with other bindings", wrong.len() as f64, 0.0),
     ])
 }
@@ -59,16 +52,8 @@ pub fn run(_: &Stand) -> Outcome {
 fn setups() -> Vec<Setup> {
     let mut all = vec![Setup::periodic([16; 3], 0.01)];
     let mut vary = |choices: &[&dyn Fn(&mut Setup)]| {
-        all = all
-            .iter()
-            .flat_map(|setup| {
-                choices.iter().map(|choice| {
-                    let mut setup = setup.clone();
-                    choice(&mut setup);
-                    setup
-                })
-            })
-            .collect();
+        let each = |setup| choices.iter().map(move |choice| changed(setup, choice));
+        all = all.iter().flat_map(each).collect();
     };
     vary(&[
         &|s| s.collision = Collision::Bgk,
@@ -112,12 +97,8 @@ fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
         (matches!(kind, BrickKind::Flagged | BrickKind::Psm), "flags"),
         (kind == BrickKind::Psm, "psm_planes"),
     ];
-    names.extend(
-        optional
-            .into_iter()
-            .filter(|(used, _)| *used)
-            .map(|(_, name)| name.to_owned()),
-    );
+    let used = optional.into_iter().filter(|(used, _)| *used);
+    names.extend(used.map(|(_, name)| name.to_owned()));
     names.sort();
     names
 }

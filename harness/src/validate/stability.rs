@@ -1,6 +1,7 @@
 //! What must not blow up: noise in fluid at rest, and vortices at the lowest viscosity.
 
 use super::{Outcome, Stand, fields};
+use kit::twin::lattice::W;
 use riprap::lattice::{C, Collision, Equilibrium, Populations, Setup};
 use std::f64::consts::TAU;
 
@@ -41,7 +42,7 @@ pub fn quiescent(stand: &Stand) -> Outcome {
 fn noise(cells: [u32; 3]) -> Populations {
     let count: u32 = cells.iter().product();
     let value = |n: u32| {
-        let w = fields::weight((n / count) as usize);
+        let w = W[(n / count) as usize];
         (1e-6 * w * fields::noise(n)) as f32
     };
     Populations {

@@ -1,24 +1,20 @@
 //! The device of a validation, and a flow that runs on it.
 
-use super::{
-    record::{Trial, describe},
-    stopwatch::{Spent, Stopwatch, WARM_UP},
-};
+use super::record::{Trial, describe};
 use crate::{gpu, picture::Chart};
 use anyhow::Context;
+use kit::clock::{PATIENCE, Spent, Stopwatch};
 use riprap::{
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
     wgpu,
 };
-use std::{
-    path::PathBuf,
-    time::{Duration, Instant},
-};
+use std::{path::PathBuf, time::Instant};
 
-/// Longest silence of a device that is not taken for a hang.
-const PATIENCE: Duration = Duration::from_secs(300);
 /// Cell updates in one submission: under a second on a CPU, several milliseconds on a GPU.
-const SUBMISSION: u64 = 20_000_000;
+pub const SUBMISSION: u64 = 20_000_000;
+/// Steps at the start of a run that are not timed: drivers compile at the first dispatch, boundaries begin with the
+/// second step, and even and odd ones have kernels of their own.
+pub const WARM_UP: u64 = 4;
 
 /// Where the cases run.
 #[derive(Debug)]
@@ -196,7 +192,7 @@ impl Flow<'_> {
             queue.submit([encoder.finish()]);
             fault = self.fault()?;
             if warm {
-                watch.stop(&mut self.stepping);
+                self.stepping += watch.spent();
             }
         }
         self.seconds += begin.elapsed().as_secs_f64();

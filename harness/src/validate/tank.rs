@@ -6,8 +6,9 @@
 use super::{
     Stand, Trial,
     record::describe,
-    stopwatch::{Spent, Stopwatch, WARM_UP},
+    stand::{SUBMISSION, WARM_UP},
 };
+use kit::clock::{Spent, Stopwatch};
 use riprap::{
     coupling::FluidLoad,
     formula::Formula,
@@ -20,9 +21,6 @@ use riprap::{
     units::Units,
 };
 use std::{path::Path, time::Instant};
-
-/// Cell updates in one submission: under a second on a CPU, several milliseconds on a GPU.
-const SUBMISSION: u64 = 20_000_000;
 
 /// A periodic tank without gravity, blocks or flow.
 pub fn scene(cells: [u32; 3], tau: f64) -> anyhow::Result<Scene> {
@@ -223,7 +221,7 @@ impl<'a> Tank<'a> {
         let done = self.simulation.advance(steps);
         self.stand.drive("a validation case", done)??;
         if warm {
-            watch.stop(&mut self.stepping);
+            self.stepping += watch.spent();
         }
         Ok(())
     }

@@ -37,9 +37,9 @@ fn rows() -> Vec<Value> {
         items: vec![60, 120],
         rounds: 1,
     };
-    let (rows, _) = rock::measure(&plan, None, &Machine::host()).unwrap();
-    let json = serde_json::to_value(rows).unwrap();
-    json.as_array().unwrap().clone()
+    let (rows, _) = rock::measure(&plan, None).unwrap();
+    let text = Machine::host().json(rows).unwrap();
+    serde_json::from_str(&text).unwrap()
 }
 
 #[test]

@@ -1,21 +1,20 @@
 //! The rock part: cutting, contacts, the search for pairs, the step of all blocks.
 
-mod contact;
-mod core;
-mod cut;
-mod few;
+mod pile;
 mod row;
-mod search;
-mod split;
-mod step;
-mod targets;
+mod small;
 
 pub use kit::exponent::exponent;
 pub use row::Row;
 
-use super::{Bench, report::Machine, targets::Target};
-use core::Core;
-use riprap::Result;
+use super::{
+    Bench,
+    target::{Target, show},
+};
+use cpu_time::ThreadTime;
+use kit::clock::Spent;
+use riprap::{Error, Result};
+use std::time::Instant;
 
 /// How much is measured.
 #[derive(Clone, Debug)]
@@ -46,15 +45,47 @@ impl Plan {
     }
 }
 
+/// A thread of its own, on which parallel loops run one after the other.
+struct Core(rayon::ThreadPool);
+
+impl Core {
+    fn new() -> Result<Self> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.map(Self)
+            .map_err(|e| Error::argument("threads", e.to_string()))
+    }
+
+    /// What `work` takes on the core.
+    fn time(&self, work: impl FnOnce() -> Result<()> + Send) -> Result<Spent> {
+        self.0.install(|| {
+            let (wall, cpu) = (Instant::now(), ThreadTime::now());
+            work()?;
+            Ok(Spent {
+                wall: wall.elapsed().as_secs_f64(),
+                cpu: cpu.elapsed().as_secs_f64(),
+            })
+        })
+    }
+}
+
+/// What a call takes in the fastest of some rounds, each of which has so many calls.
+fn fastest(rounds: usize, calls: usize, mut call: impl FnMut() -> Result<Spent>) -> Result<Spent> {
+    let mut least = Spent::MOST;
+    for _ in 0..rounds {
+        let mut spent = Spent::default();
+        for _ in 0..calls {
+            spent += call()?;
+        }
+        least = least.lower(spent.scaled(1.0 / calls as f64));
+    }
+    Ok(least)
+}
+
 /// Measures all of the plan and prints a table as it goes; without a device, the host's part.
 ///
 /// # Errors
 /// If the device fails, or a step.
-pub fn measure(
-    plan: &Plan,
-    device: Option<&Bench<'_>>,
-    machine: &Machine,
-) -> Result<(Vec<Row>, Vec<Target>)> {
+pub fn measure(plan: &Plan, device: Option<&Bench<'_>>) -> Result<(Vec<Row>, Vec<Target>)> {
     println!(
         "\nrock: the fastest of {} samples\n{}",
         plan.rounds,
@@ -62,10 +93,68 @@ pub fn measure(
     );
     let core = Core::new()?;
     let mut rows = Vec::new();
-    cut::measure(plan, machine, &mut rows)?;
-    search::measure(plan, &core, device, machine, &mut rows)?;
-    few::measure(plan, &core, machine, &mut rows)?;
-    step::measure(plan, &core, machine, &mut rows)?;
-    let targets = targets::print(&rows);
+    small::cut(plan, &mut rows)?;
+    small::broadphase(plan, &core, device, &mut rows)?;
+    small::few_blocks(plan, &core, &mut rows)?;
+    pile::measure(plan, &core, &mut rows)?;
+    let targets = show("rock", targets(&rows));
     Ok((rows, targets))
+}
+
+/// The aims of which there are rows.
+fn targets(rows: &[Row]) -> [Option<Target>; 10] {
+    let of = |kernel, variant| {
+        let all = rows.iter().filter(move |row| row.kernel == kernel);
+        all.filter(move |row| row.variant == variant)
+    };
+    let contacts = of("contact", pile::WARM).map(|row| row.contacts_a_second);
+    let pairs = of("contact", pile::COLD).map(|row| row.pairs_a_second);
+    let programs = of("step", pile::ONE_CORE).filter_map(|row| row.share_of_programs);
+    let mut cut = of("cut", small::CUBE).filter(|row| row.count >= 100_000);
+    let ratio = of("step", small::AMONG_FIVE).filter_map(|row| row.ratio);
+    // That over all counts.
+    let exponent = |says, kernel, variant| {
+        let last = of(kernel, variant).next_back();
+        Target::at_most(says, last.and_then(|row| row.exponent), 1.1)
+    };
+    [
+        Target::at_least("warm ≥ 200 000 contacts/s", contacts.reduce(f64::min), 2e5),
+        Target::at_least("cold ≥ 15 000 pairs/s", pairs.reduce(f64::min), 1.5e4),
+        Target::at_most(
+            "LP for ≤ 3 % of the pairs",
+            programs.map(|share| 100.0 * share).reduce(f64::max),
+            3.0,
+        ),
+        exponent("exponent of the step ≤ 1.1", "step", pile::ONE_CORE),
+        exponent(
+            "exponent of the host's broadphase, sizes 1:1 ≤ 1.1",
+            "broadphase",
+            "host, sizes 1:1",
+        ),
+        exponent(
+            "exponent of the host's broadphase, sizes 1:100 ≤ 1.1",
+            "broadphase",
+            "host, sizes 1:100",
+        ),
+        exponent(
+            "exponent of the device's broadphase, sizes 1:1 ≤ 1.1",
+            "broadphase",
+            "device, sizes 1:1",
+        ),
+        exponent(
+            "exponent of the device's broadphase, sizes 1:100 ≤ 1.1",
+            "broadphase",
+            "device, sizes 1:100",
+        ),
+        Target::at_most(
+            "10⁵ blocks cut in ≤ 10 s",
+            cut.next().map(|row| 1e-3 * row.ms),
+            10.0,
+        ),
+        Target::at_most(
+            "five fixed blocks cost ≤ 1.2 of one",
+            ratio.reduce(f64::max),
+            1.2,
+        ),
+    ]
 }

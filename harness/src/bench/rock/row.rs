@@ -1,8 +1,7 @@
 //! A result of the rock part, in the table and in the file.
 
-use super::{core::Cost, split::Split};
-use crate::bench::report::Machine;
-use kit::exponent::exponent;
+use super::pile::Split;
+use kit::{clock::Spent, exponent::exponent};
 use serde::Serialize;
 use std::fmt;
 
@@ -39,24 +38,6 @@ pub struct Row {
     pub ratio: Option<f64>,
     /// Where the time of a step goes.
     pub split: Option<Split>,
-    /// Where and when.
-    #[serde(flatten)]
-    pub machine: Machine,
-}
-
-/// What a call does.
-#[derive(Clone, Debug)]
-pub struct Done {
-    /// Kernel.
-    pub kernel: &'static str,
-    /// Variant.
-    pub variant: String,
-    /// Boxes or free blocks.
-    pub count: usize,
-    /// Pairs.
-    pub pairs: usize,
-    /// Contacts.
-    pub contacts: usize,
 }
 
 /// Which time is the cost.
@@ -69,47 +50,48 @@ pub enum Basis {
 }
 
 impl Row {
-    /// What was done, at what cost.
-    pub fn new(machine: &Machine, done: Done, cost: Cost, basis: Basis) -> Self {
+    /// What a call on so many boxes or blocks takes.
+    pub fn new(
+        kernel: &'static str,
+        variant: impl Into<String>,
+        count: usize,
+        spent: Spent,
+        basis: Basis,
+    ) -> Self {
         let seconds = match basis {
-            Basis::Cpu => cost.cpu,
-            Basis::Wall => cost.wall,
+            Basis::Cpu => spent.cpu,
+            Basis::Wall => spent.wall,
         };
         Self {
-            kernel: done.kernel,
-            variant: done.variant,
-            count: done.count,
-            pairs: done.pairs,
-            contacts: done.contacts,
-            ms_cpu: 1e3 * cost.cpu,
-            ms_wall: 1e3 * cost.wall,
+            kernel,
+            variant: variant.into(),
+            count,
+            pairs: 0,
+            contacts: 0,
+            ms_cpu: 1e3 * spent.cpu,
+            ms_wall: 1e3 * spent.wall,
             ms: 1e3 * seconds,
-            contacts_a_second: done.contacts as f64 / seconds,
-            pairs_a_second: done.pairs as f64 / seconds,
+            contacts_a_second: 0.0,
+            pairs_a_second: 0.0,
             share_of_programs: None,
             exponent: None,
             largest_speed: None,
             ratio: None,
             split: None,
-            machine: machine.clone(),
         }
     }
 
-    fn is_like(&self, other: &Self) -> bool {
-        self.kernel == other.kernel && self.variant == other.variant
+    /// Prints the row and puts it after the others, with its rates and the exponent up to it.
+    pub fn push(mut self, rows: &mut Vec<Self>) {
+        let alike = |other: &&Self| other.kernel == self.kernel && other.variant == self.variant;
+        let all = rows.iter().filter(alike).chain([&self]);
+        let points: Vec<_> = all.map(|row| (row.count as f64, row.ms)).collect();
+        self.exponent = exponent(&points);
+        self.contacts_a_second = 1e3 * self.contacts as f64 / self.ms;
+        self.pairs_a_second = 1e3 * self.pairs as f64 / self.ms;
+        println!("{self}");
+        rows.push(self);
     }
-}
-
-/// Prints a row and puts it after the others, with the exponent up to it.
-pub fn push(rows: &mut Vec<Row>, mut row: Row) {
-    let all = rows.iter().filter(|other| other.is_like(&row));
-    let points: Vec<_> = all
-        .chain([&row])
-        .map(|row| (row.count as f64, row.ms))
-        .collect();
-    row.exponent = exponent(&points);
-    println!("{row}");
-    rows.push(row);
 }
 
 /// Heads of the columns of a row.

@@ -1,21 +1,16 @@
-//! Steps of several worlds in turns.
+//! Steps of several worlds in turns, so that a busy minute strikes all of them alike.
 
-use super::world::World;
-use crate::{bench::report::Machine, gpu};
-use cpu_time::ProcessTime;
-use riprap::{simulation::Simulation, wgpu};
-use std::time::{Duration, Instant};
-
-/// A hanging driver is given up after this.
-const PATIENCE: Duration = Duration::from_secs(300);
+use super::{super::median, World};
+use crate::{bench::Bench, gpu};
+use kit::clock::{Clock, PATIENCE};
+use riprap::simulation::Simulation;
+use std::time::Instant;
 
 /// How turns are taken.
 pub struct Turns {
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-    /// Cores of a software adapter: CPU time over them is what counts there.
-    cores: Option<f64>,
+    pub clock: Clock,
     pub rounds: usize,
+    /// How long a turn should be, s.
     long: f64,
 }
 
@@ -35,39 +30,21 @@ impl Times {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
 impl Turns {
-    pub fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        machine: &Machine,
-        rounds: usize,
-        long: f64,
-    ) -> Self {
+    pub fn new(bench: &Bench<'_>, rounds: usize, long: f64) -> Self {
         Self {
-            device: device.clone(),
-            queue: queue.clone(),
-            cores: machine.software.then_some(machine.cores as f64),
+            clock: bench.clock(),
             rounds,
             long,
         }
     }
 
-    /// Seconds of `work`.
+    /// Seconds of `work`, as speeds are made from.
     ///
     /// # Errors
     /// Those of `work`.
     pub fn time(&self, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<f64> {
-        let (cpu, wall) = (ProcessTime::now(), Instant::now());
-        work()?;
-        Ok(match self.cores {
-            Some(cores) => cpu.elapsed().as_secs_f64() / cores,
-            None => wall.elapsed().as_secs_f64(),
-        })
+        Ok(self.clock.basis(self.clock.time(work)?))
     }
 
     /// Makes the worlds and steps them in turns.
@@ -75,10 +52,11 @@ impl Turns {
     /// # Errors
     /// If the device fails.
     pub fn measure(&self, worlds: &mut [World]) -> anyhow::Result<Times> {
+        let (device, queue) = (&self.clock.device, &self.clock.queue);
         let mut steps = Vec::new();
         for world in worlds.iter_mut() {
-            let made = Simulation::new(&self.device, &self.queue, &world.scene);
-            let made = gpu::drive(&self.device, PATIENCE, "the kernels", made)??;
+            let made = Simulation::new(device, queue, &world.scene);
+            let made = gpu::drive(device, PATIENCE, "the kernels", made)??;
             world.simulation = Some(made);
             // The first ones compile, and blocks find their tiles.
             self.steps(world, 4)?;
@@ -102,20 +80,8 @@ impl Turns {
     fn steps(&self, world: &mut World, steps: u64) -> anyhow::Result<()> {
         if let Some(simulation) = &mut world.simulation {
             let done = simulation.advance(steps);
-            gpu::drive(&self.device, PATIENCE, "blocks in a fluid", done)??;
+            gpu::drive(&self.clock.device, PATIENCE, "blocks in a fluid", done)??;
         }
-        Ok(())
-    }
-
-    /// Waits until the device has done what was submitted.
-    ///
-    /// # Errors
-    /// If it does not.
-    pub fn wait(&self) -> anyhow::Result<()> {
-        self.device.poll(wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(PATIENCE),
-        })?;
         Ok(())
     }
 }

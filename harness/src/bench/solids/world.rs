@@ -152,17 +152,16 @@ impl World {
 
     /// Cells of the bricks that blocks reach.
     pub fn touched_cells(&self) -> f64 {
-        let Some(simulation) = &self.simulation else {
+        let simulation = self.simulation.as_ref();
+        let Some(coupled) = simulation.and_then(Simulation::coupled) else {
             return 0.0;
         };
-        let Some(grid) = simulation.lattice().map(Lattice::grid) else {
-            return 0.0;
-        };
-        let all: u32 = grid.bricks().iter().product();
-        let bricks = simulation
-            .coupled()
-            .map_or(0, |c| c.solid_cells().bricks().len());
-        grid.cell_count() as f64 * bricks as f64 / f64::from(all)
+        let grid = simulation.and_then(Simulation::lattice).map(Lattice::grid);
+        grid.map_or(0.0, |grid| {
+            let all: u32 = grid.bricks().iter().product();
+            let bricks = coupled.solid_cells().bricks().len();
+            grid.cell_count() as f64 * bricks as f64 / f64::from(all)
+        })
     }
 
     /// Contacts, and sub-steps of the blocks a step.

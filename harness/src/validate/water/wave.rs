@@ -2,10 +2,10 @@
 
 use crate::validate::{
     Outcome, Stand, Trial,
-    stopwatch::{Spent, Stopwatch},
     tank::{self, GRAVITY},
 };
 use glam::DVec3;
+use kit::clock::{Spent, Stopwatch};
 use riprap::{
     geometry::Pose,
     scene::{
@@ -113,7 +113,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
         let now = stand.drive("reading particles", water.water(device, queue))??;
         // Drivers compile at the first look.
         if look > 0 {
-            watch.stop(&mut stepping);
+            stepping += watch.spent();
             timed += water.steps() - steps;
         }
         steps = water.steps();

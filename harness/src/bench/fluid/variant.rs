@@ -1,6 +1,5 @@
 //! The forms of the kernel that are measured, and which of them run side by side.
 
-use super::report::Machine;
 use riprap::{
     lattice::{Collision, Equilibrium, Face, Force, Grid, Memory, Setup, Storage, memory},
     wgpu,
@@ -72,13 +71,13 @@ fn walls() -> [[Face; 2]; 3] {
 /// The groups on a grid; a variant that the adapter cannot hold is named and left out.
 pub fn groups(
     grid: u32,
-    machine: &Machine,
+    software: bool,
     quick: bool,
     budget: u64,
     device: &wgpu::Device,
 ) -> Vec<Group> {
     // The layout that the adapter likes best first, then the one that is there to compare.
-    let layouts = match machine.software {
+    let layouts = match software {
         true => [
             (Storage::F32, 4),
             (Storage::F16, 4),
@@ -105,7 +104,7 @@ pub fn groups(
         let make = |name, change: Change| {
             let mut setup = Setup::periodic([grid; 3], 0.01);
             (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
-            if machine.software {
+            if software {
                 setup.suit_cpu(device.features());
             }
             change(&mut setup);

@@ -1,0 +1,284 @@
+//! A result of the fluid part, in the table and in the file, and where the time of a step goes: to the bytes that it must
+//! move, to their places, to arithmetic, to the rest (Williams, Waterman & Patterson 2009, Commun. ACM 52:65).
+
+use super::variant::Variant;
+use crate::bench::work::Work;
+use kit::clock::Turn;
+use riprap::lattice::{Lattice, Storage, bytes_a_cell, bytes_a_step};
+use serde::Serialize;
+use std::fmt;
+
+/// What one variant does on one grid.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Name of the variant.
+    pub variant: &'static str,
+    /// Cells an axis.
+    pub grid: u32,
+    /// Storage of the populations.
+    pub storage: &'static str,
+    /// Cells an invocation.
+    pub lanes: u32,
+    /// Storage bindings of the populations.
+    pub bindings: u32,
+    /// Elements of a brick an axis.
+    pub brick: [u32; 3],
+    /// Milliseconds a step by the clock on the wall.
+    pub ms_wall: f64,
+    /// Milliseconds a step between GPU timestamps.
+    pub ms_device: Option<f64>,
+    /// Milliseconds of CPU time a step, all threads together.
+    pub ms_cpu: f64,
+    /// Million cells a second: cells × steps × cores / CPU seconds on a software adapter, by GPU
+    /// time, or wall time without timestamps, elsewhere.
+    pub mlups: f64,
+    /// Million cells a second by the clock on the wall.
+    pub mlups_wall: f64,
+    /// Bytes that a step moves for a cell away from walls.
+    pub bytes_a_cell: u64,
+    /// Bytes that a step moves in all.
+    pub bytes_a_step: u64,
+    /// Counted bytes a second, on the time that `mlups` has.
+    pub bandwidth: f64,
+    /// Bytes that the fastest copy reads and writes a second, in the same rounds.
+    pub copy_bandwidth: f64,
+    /// `bandwidth` over `copy_bandwidth`.
+    pub share_of_copy: f64,
+    /// Time of streaming without collision in the same layout, over the time of this.
+    pub ratio_to_stream_only: f64,
+    /// Floating-point operations of a step over its cells, counted from the code of its kernels.
+    pub flops_a_cell: f64,
+    /// Such operations a second.
+    pub flops: f64,
+    /// Those of a kernel that does nothing else, in the same rounds.
+    pub arithmetic_ceiling: f64,
+    /// Where the time goes, as parts of it.
+    pub parts: Parts,
+}
+
+/// What the machine can do, from the same rounds as the steps that are compared with it.
+#[derive(Clone, Copy, Debug)]
+pub struct Ceilings {
+    /// Bytes that the fastest copy reads and writes a second.
+    pub copy_bandwidth: f64,
+    /// Seconds of a step that only streams, in the same layout.
+    pub stream_only: f64,
+    /// Bytes that it moves.
+    pub stream_bytes: u64,
+    /// Floating-point operations a second, where nothing else is done.
+    pub arithmetic: f64,
+}
+
+/// What a step moves and computes.
+#[derive(Clone, Copy, Debug)]
+pub struct StepWork {
+    /// Bytes.
+    pub bytes: u64,
+    /// Floating-point operations, counted from its kernels; those of cells outside of the domain too, which few bricks
+    /// have.
+    pub flops: u64,
+}
+
+impl StepWork {
+    /// Of a step of a lattice.
+    pub fn of(lattice: &Lattice) -> Self {
+        let kernels = lattice.kernels(false).map(|(kernel, groups)| {
+            let work = Work::of(kernel.linked(), kernel.entry());
+            work.flops * u64::from(kernel.invocations()) * u64::from(groups)
+        });
+        Self {
+            bytes: bytes_a_step(lattice.setup(), lattice.grid(), lattice.geometry()),
+            flops: kernels.sum(),
+        }
+    }
+}
+
+impl Row {
+    /// A row from the time of a step and what it moves and computes.
+    pub fn new(
+        variant: &Variant,
+        grid: u32,
+        step: &Turn,
+        work: StepWork,
+        ceilings: Ceilings,
+    ) -> Self {
+        let cells = f64::from(grid).powi(3);
+        let bandwidth = work.bytes as f64 / step.basis;
+        Self {
+            variant: variant.name,
+            grid,
+            storage: storage(variant.setup.storage),
+            lanes: variant.setup.lanes,
+            bindings: variant.memory.bindings,
+            brick: variant.setup.brick,
+            ms_wall: 1e3 * step.spent.wall,
+            ms_device: step.device.map(|s| 1e3 * s),
+            ms_cpu: 1e3 * step.spent.cpu,
+            mlups: cells / step.basis / 1e6,
+            mlups_wall: cells / step.spent.wall / 1e6,
+            bytes_a_cell: bytes_a_cell(&variant.setup),
+            bytes_a_step: work.bytes,
+            bandwidth,
+            copy_bandwidth: ceilings.copy_bandwidth,
+            share_of_copy: bandwidth / ceilings.copy_bandwidth,
+            ratio_to_stream_only: ceilings.stream_only / step.basis,
+            flops_a_cell: work.flops as f64 / cells,
+            flops: work.flops as f64 / step.basis,
+            arithmetic_ceiling: ceilings.arithmetic,
+            parts: Parts::of(step.basis, work, ceilings),
+        }
+    }
+}
+
+/// Name of a storage in the files.
+pub fn storage(storage: Storage) -> &'static str {
+    match storage {
+        Storage::F32 => "f32",
+        Storage::F16 => "f16",
+    }
+}
+
+/// Heads of the columns of a row.
+pub const HEAD: &str = "variant                        store  lanes bindings |  ms wall   ms GPU   ms CPU | \
+    MLUPS  B/cell   GB/s  of copy  of streaming";
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let device = self.ms_device.map_or("-".into(), |ms| format!("{ms:.3}"));
+        write!(
+            f,
+            "{:<30} {:>5} {:>6} {:>8} | {:>8.3} {device:>8} {:>8.3} | {:>6.1} {:>7} {:>6.1} {:>7.0}% {:>12.0}%",
+            self.variant,
+            self.storage,
+            self.lanes,
+            self.bindings,
+            self.ms_wall,
+            self.ms_cpu,
+            self.mlups,
+            self.bytes_a_cell,
+            self.bandwidth / 1e9,
+            100.0 * self.share_of_copy,
+            100.0 * self.ratio_to_stream_only
+        )
+    }
+}
+
+/// Parts of the time of a step; a device that does two of them at once has parts that add up to more than it all.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Parts {
+    /// What the fastest copy takes for the same bytes.
+    pub copy: f64,
+    /// What streaming alone takes beyond that: words that lie apart, and finding them.
+    pub places: f64,
+    /// What the operations take at the arithmetic ceiling.
+    pub arithmetic: f64,
+    /// What nothing of that explains: conversions, selections and integers, registers that do not suffice, launches.
+    pub rest: f64,
+}
+
+impl Parts {
+    /// Of a step of `seconds`.
+    pub fn of(seconds: f64, work: StepWork, ceilings: Ceilings) -> Self {
+        let copied = |bytes: u64| bytes as f64 / ceilings.copy_bandwidth;
+        let places = (ceilings.stream_only - copied(ceilings.stream_bytes)).max(0.0);
+        let arithmetic = work.flops as f64 / ceilings.arithmetic;
+        let [copy, places, arithmetic] =
+            [copied(work.bytes), places, arithmetic].map(|part| part / seconds);
+        Self {
+            copy,
+            places,
+            arithmetic,
+            rest: (1.0 - copy - places - arithmetic).max(0.0),
+        }
+    }
+
+    /// What takes the greatest part.
+    pub fn limit(&self) -> &'static str {
+        let all = [
+            (self.copy, "bandwidth"),
+            (self.places, "places of words"),
+            (self.arithmetic, "arithmetic"),
+            (self.rest, "other instructions"),
+        ];
+        let most = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map_or("", |(_, name)| name)
+    }
+}
+
+/// Prints where the time of the steps on a grid goes.
+pub fn explain(grid: u32, rows: &[Row]) {
+    let mut some = rows.iter().filter(|row| row.grid == grid).peekable();
+    let Some(first) = some.peek() else { return };
+    println!(
+        "\nwhere the time goes, of {:.1} GB/s copied and {:.1} Gflop/s computed at most\n\
+         variant                        store  lanes |  B/cell flop/cell | copy places arithmetic rest | limited by",
+        first.copy_bandwidth / 1e9,
+        first.arithmetic_ceiling / 1e9
+    );
+    for row in some {
+        let Parts {
+            copy,
+            places,
+            arithmetic,
+            rest,
+        } = row.parts;
+        println!(
+            "{:<30} {:>5} {:>6} | {:>7} {:>9.0} | {:>3.0}% {:>5.0}% {:>9.0}% {:>3.0}% | {}",
+            row.variant,
+            row.storage,
+            row.lanes,
+            row.bytes_a_cell,
+            row.flops_a_cell,
+            100.0 * copy,
+            100.0 * places,
+            100.0 * arithmetic,
+            100.0 * rest,
+            row.parts.limit()
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kit::arithmetic::{FLOPS, program};
+
+    #[test]
+    fn the_ceiling_has_the_operations_that_are_counted() {
+        let linked = program().link().unwrap();
+        let work = Work::of(&linked, "multiply_add");
+        // A turn of the loop, and seven sums of four components at the end.
+        assert_eq!((work.flops, work.loops), (FLOPS + 28, 1));
+    }
+
+    const WORK: StepWork = StepWork {
+        bytes: 2_000_000_000,
+        flops: 1_000_000_000,
+    };
+    const CEILINGS: Ceilings = Ceilings {
+        copy_bandwidth: 1e10,
+        stream_only: 0.5,
+        stream_bytes: 1_000_000_000,
+        arithmetic: 1e10,
+    };
+
+    #[test]
+    fn parts_are_of_the_whole_step() {
+        let parts = Parts::of(1.0, WORK, CEILINGS);
+        let found = [parts.copy, parts.places, parts.arithmetic, parts.rest];
+        for (found, expected) in found.into_iter().zip([0.2, 0.4, 0.1, 0.3]) {
+            assert!((found - expected).abs() < 1e-12, "{parts:?}");
+        }
+        assert_eq!(parts.limit(), "places of words");
+    }
+
+    #[test]
+    fn a_device_that_does_all_at_once_has_no_rest() {
+        assert_eq!(Parts::of(0.21, WORK, CEILINGS).rest, 0.0);
+        let fast = Ceilings {
+            stream_only: 0.2,
+            ..CEILINGS
+        };
+        assert_eq!(Parts::of(0.21, WORK, fast).limit(), "bandwidth");
+    }
+}

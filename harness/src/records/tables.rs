@@ -8,14 +8,15 @@
 //! ```
 //!
 //! `validate GLOB...` has the limits of each case, `values GLOB...` all its values, `bench PART` one line for each row of the
-//! benchmark, `targets PART` its targets, and `headline` those of [`HEADLINES`]. What stands between the comments is replaced.
+//! benchmark, `targets PART` its targets, and `headline` those of the front page; `tables.toml` has
+//! the columns and the headlines. What stands between the comments is replaced.
 
 use super::index::Index;
 use crate::validate::{self, Case};
 use anyhow::{Context, bail};
 use serde::Deserialize;
 use serde_json::{Map, Value};
-use std::fmt::Write;
+use std::{collections::BTreeMap, fmt::Write};
 
 const BEGIN: &str = "<!-- records: ";
 const END: &str = "<!-- end of records -->";
@@ -51,28 +52,28 @@ pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
 }
 
 /// A table of a document, under its heads.
+#[derive(Default)]
 struct Table {
-    heads: Vec<&'static str>,
+    heads: Vec<String>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    fn new(heads: &[&'static str]) -> Self {
+    fn new(heads: &[&str]) -> Self {
         Self {
-            heads: heads.to_vec(),
+            heads: heads.iter().map(|head| (*head).into()).collect(),
             rows: Vec::new(),
         }
     }
 
     fn markdown(&self) -> String {
-        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-        let heads = self.heads.iter().map(|head| (*head).to_owned()).collect();
-        let mut text = line(heads) + &"|---".repeat(self.heads.len()) + "|\n";
-        for row in &self.rows {
-            let escaped = row.iter().map(|cell| cell.replace('|', "\\|"));
-            text += &line(escaped.collect());
-        }
-        text
+        let line = |cells: &Vec<String>| {
+            let escaped: Vec<_> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            format!("| {} |\n", escaped.join(" | "))
+        };
+        let rule = "|---".repeat(self.heads.len()) + "|\n";
+        let rows: String = self.rows.iter().map(line).collect();
+        line(&self.heads) + &rule + &rows
     }
 }
 
@@ -222,51 +223,34 @@ fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-/// Columns of a part of the benchmark: the key of the record, and the head.
-fn columns(part: &str) -> anyhow::Result<&'static [(&'static str, &'static str)]> {
-    Ok(match part {
-        "fluid" => &[
-            ("variant", "kernel"),
-            ("grid", "cells an axis"),
-            ("storage", "storage"),
-            ("lanes", "cells an invocation"),
-            ("mlups", "MLUPS"),
-            ("ratio_to_stream_only", "of streaming alone"),
-            ("bytes_a_cell", "bytes a cell"),
-            ("share_of_copy", "share of the copy bandwidth"),
-        ],
-        "rock" => &[
-            ("kernel", "part"),
-            ("variant", "variant"),
-            ("count", "blocks"),
-            ("ms", "ms"),
-            ("contacts_a_second", "contacts/s"),
-            ("pairs_a_second", "pairs/s"),
-            ("exponent", "exponent"),
-        ],
-        "water" => &[
-            ("neighbours", "neighbours from"),
-            ("particles", "particles"),
-            ("around", "neighbours a particle"),
-            ("step", "s a step"),
-            ("particles_a_second", "particles/s"),
-            ("pairs_a_second", "pairs/s"),
-        ],
-        "solids" | "unused" => &[
-            ("name", "quantity"),
-            ("setup", "setup"),
-            ("value", "value"),
-            ("unit", "unit"),
-        ],
-        "all" => &[
-            ("kind", "kernel"),
-            ("grid", "cells an axis"),
-            ("storage", "storage"),
-            ("mlups", "MLUPS"),
-            ("left_out", "left out because"),
-        ],
-        _ => bail!("bench has no part {part}; there are fluid, rock, water, solids, unused, all"),
-    })
+/// What tables show: `tables.toml`.
+#[derive(Deserialize)]
+struct Contents {
+    /// Columns of the parts of the benchmark: the key of the record, and the head.
+    columns: BTreeMap<String, Vec<[String; 2]>>,
+    headlines: Vec<Headline>,
+    speeds: Vec<Speed>,
+}
+
+/// A result on the front page: what it is, the case, and how its quantities begin.
+#[derive(Deserialize)]
+struct Headline {
+    about: String,
+    case: String,
+    quantity: String,
+}
+
+/// A speed of the fluid on the front page, and the least MLUPS that it should reach.
+#[derive(Deserialize)]
+struct Speed {
+    kernel: String,
+    storage: String,
+    grid: u64,
+    limit: f64,
+}
+
+fn contents() -> anyhow::Result<Contents> {
+    Ok(toml::from_str(include_str!("tables.toml"))?)
 }
 
 /// A row of a record of `riprap bench`.
@@ -289,13 +273,18 @@ fn word(row: &BenchRow, key: &str) -> String {
 }
 
 fn bench(index: &Index, part: &str) -> anyhow::Result<Table> {
-    let columns = [columns(part)?, &[("commit", "commit")]].concat();
-    let heads: Vec<_> = columns.iter().map(|(_, head)| *head).collect();
-    let mut table = Table::new(&heads);
+    let mut parts = contents()?.columns;
+    let Some(mut columns) = parts.remove(part) else {
+        let parts: Vec<_> = parts.into_keys().collect();
+        bail!("bench has no part {part}; there are {}", parts.join(", "));
+    };
+    columns.push(["commit".into(), "commit".into()]);
+    let mut table = Table::default();
     for row in bench_rows(index, part, false)? {
-        let cells = columns.iter().map(|(key, _)| word(&row, key));
+        let cells = columns.iter().map(|[key, _]| word(&row, key));
         table.rows.push(cells.collect());
     }
+    table.heads = columns.into_iter().map(|[_, head]| head).collect();
     Ok(table)
 }
 
@@ -316,90 +305,40 @@ fn targets(index: &Index, part: &str) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-/// What the front page shows: what it is, the case, and how its quantities begin.
-const HEADLINES: &[(&str, &str, &str)] = &[
-    (
-        "Taylor–Green vortices: order of convergence",
-        "taylor-green/convergence",
-        "order",
-    ),
-    (
-        "Taylor–Green vortices: viscosity over nominal",
-        "taylor-green/convergence",
-        "viscosity",
-    ),
-    (
-        "lid-driven cavity at Re 1000: error of the velocity",
-        "cavity/re1000",
-        "rms error",
-    ),
-    (
-        "drag of a sphere array over that of Zick & Homsy, D = 9.9 cells",
-        "solids/array",
-        "K / K(Z&H), D = 9.9, τ = 0.6,",
-    ),
-    (
-        "buoyancy in a closed box over Archimedes'",
-        "solids/buoyancy",
-        "buoyancy",
-    ),
-    (
-        "speed of a settling sphere over that of ten Cate et al. (2002), E1 on 18 cells",
-        "solids/settling-whole",
-        "largest velocity / measured, E1, D = 18",
-    ),
-    (
-        "the same, E4 on 18 cells",
-        "solids/settling-whole",
-        "largest velocity / measured, E4, D = 18",
-    ),
-    (
-        "drag of a cube on a bed: 12 against 24 cells",
-        "solids/incline-flow",
-        "difference of the drag",
-    ),
-    ("block on an incline after 1 s, m", "rock/incline", ""),
-    (
-        "critical step of a deformable block, 1 × 2 × 3 m, s",
-        "dda/critical-step",
-        "Δt_c of 1x2x3",
-    ),
-    (
-        "SPH, still tank of 20 particles: pressure at the bottom, Pa",
-        "water/still",
-        "p at the bottom",
-    ),
-    (
-        "dam break (Martin & Moyce 1952): dZ/dT of the front",
-        "water/dam-break",
-        "dZ/dT",
-    ),
-];
-
-/// Speeds of the fluid that the front page shows: the kernel, its storage, cells an axis, and the least MLUPS that it should reach.
-const SPEEDS: &[(&str, &str, u64, f64)] = &[("mrt", "f32", 64, 40.0), ("mrt", "f32", 128, 40.0)];
-
 fn headline(index: &Index) -> anyhow::Result<Table> {
     let mut table = Table::new(&["quantity", "result", "error", "limit"]);
-    for (about, case, begin) in HEADLINES {
+    let contents = contents()?;
+    for Headline {
+        about,
+        case,
+        quantity,
+    } in contents.headlines
+    {
         let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
-        let shown = |row: &&Measured| row.quantity.starts_with(begin) && row.limit.is_some();
-        let cells = |row: &Measured| vec![(*about).into(), row.judged(), row.error(), row.limit()];
-        table.rows.extend(rows.iter().find(shown).map(cells));
+        let shown = |row: &&Measured| row.quantity.starts_with(&quantity) && row.limit.is_some();
+        let found = rows.iter().find(shown);
+        let cells = |row: &Measured| vec![about, row.judged(), row.error(), row.limit()];
+        table.rows.extend(found.map(cells));
     }
     let rows = bench_rows(index, "fluid", false)?;
-    for (kernel, storage, grid, limit) in SPEEDS {
+    for Speed {
+        kernel,
+        storage,
+        grid,
+        limit,
+    } in contents.speeds
+    {
         let found = rows.iter().find(|row| {
-            word(row, "variant") == *kernel
-                && word(row, "storage") == *storage
-                && row.get("grid").and_then(Value::as_u64) == Some(*grid)
+            word(row, "variant") == kernel
+                && word(row, "storage") == storage
+                && row.get("grid").and_then(Value::as_u64) == Some(grid)
         });
         let Some(mlups) = found.and_then(|row| row.get("mlups")?.as_f64()) else {
             continue;
         };
         table.rows.push(vec![
             format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS"),
-            number(mlups) + if mlups >= *limit { "" } else { MISSED },
+            number(mlups) + if mlups >= limit { "" } else { MISSED },
             "–".into(),
             format!("at least {limit}"),
         ]);

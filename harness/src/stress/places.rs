@@ -3,6 +3,7 @@
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::{Stand, tank::Tank};
 use riprap::scene::Scene;
+use serde::Deserialize;
 use std::path::Path;
 
 /// The map.
@@ -16,179 +17,44 @@ pub const MAP: Map = Map {
     run,
 };
 
-/// A scene, and what an error of it has to name if it ends with one.
-struct Place {
-    name: &'static str,
-    /// Conditions on the faces, and gravity.
-    around: &'static str,
-    blocks: &'static str,
-    named: &'static [&'static str],
+/// The places there are.
+#[derive(Deserialize)]
+struct Places {
+    /// What all scenes share.
+    scene: toml::Table,
+    /// Conditions on the faces, by their names.
+    faces: toml::Table,
+    places: Vec<Place>,
 }
 
-const DUCT: &str = r#"
-x_min = { kind = "velocity", velocity = [0.05, 0, 0] }
-x_max = { kind = "pressure" }
-y_min = { kind = "wall" }
-y_max = { kind = "free_slip" }
-"#;
-const FIRM: &str = r#"
-x_min = { kind = "velocity", velocity = [0.05, 0, 0] }
-x_max = { kind = "pressure", reflecting = true }
-"#;
-/// Nothing comes in below 6.
-const ABOVE: &str = r#"
-x_min = { kind = "velocity", velocity = ["0.05*min(1, max(0, y - 6))", 0, 0] }
-x_max = { kind = "pressure" }
-y_min = { kind = "wall" }
-y_max = { kind = "free_slip" }
-"#;
-const PERIODIC: &str = "";
+/// Blocks, and what an error of their scene has to name if it ends with one.
+#[derive(Deserialize)]
+struct Place {
+    name: String,
+    faces: String,
+    named: Vec<String>,
+    blocks: toml::Value,
+}
 
-const PLACES: &[Place] = &[
-    Place {
-        name: "two blocks touch",
-        around: PERIODIC,
-        blocks: r#"{ name = "a", kind = "box", size = [5, 5, 5], position = [12, 8, 8], velocity = [0.02, 0, 0] },
-                   { name = "b", kind = "box", size = [5, 5, 5], position = [17, 8, 8] }"#,
-        named: &["a", "b"],
-    },
-    Place {
-        name: "two blocks overlap",
-        around: PERIODIC,
-        blocks: r#"{ name = "first", kind = "box", size = [5, 5, 5], position = [12, 8, 8] },
-                   { name = "second", kind = "box", size = [5, 5, 5], position = [16, 8, 8] }"#,
-        named: &["first", "second", "relax"],
-    },
-    Place {
-        name: "leaves, pressure face",
-        around: DUCT,
-        blocks: r#"{ name = "out", kind = "box", size = [5, 5, 5], position = [28, 8, 8], velocity = [0.05, 0, 0] }"#,
-        named: &["out", "x_max"],
-    },
-    Place {
-        name: "leaves, reflecting face",
-        around: FIRM,
-        blocks: r#"{ name = "out", kind = "box", size = [5, 5, 5], position = [28, 8, 8], velocity = [0.05, 0, 0] }"#,
-        named: &["out", "x_max"],
-    },
-    Place {
-        name: "fixed across the outlet",
-        around: DUCT,
-        blocks: r#"{ name = "pier", kind = "box", size = [6, 6, 6], position = [31, 8, 8], motion = "fixed" }"#,
-        named: &["pier", "x_max"],
-    },
-    Place {
-        name: "at a wall",
-        around: DUCT,
-        blocks: r#"{ name = "low", kind = "box", size = [5, 5, 5], position = [12, 2.5, 8] }"#,
-        named: &["low", "wall_y_min"],
-    },
-    Place {
-        name: "pressed against a wall",
-        around: DUCT,
-        blocks: r#"{ name = "low", kind = "box", size = [5, 5, 5], position = [12, 3, 8],
-                   acceleration = [0, -1e-3, 0] }"#,
-        named: &["low", "wall_y_min"],
-    },
-    Place {
-        name: "starts in a wall",
-        around: DUCT,
-        blocks: r#"{ name = "deep", kind = "box", size = [5, 5, 5], position = [12, 1.5, 8] }"#,
-        named: &["deep", "wall_y_min"],
-    },
-    Place {
-        name: "across a periodic border",
-        around: PERIODIC,
-        blocks: r#"{ name = "edge", kind = "box", size = [5, 5, 5], position = [31.5, 8, 8], velocity = [0.05, 0, 0] }"#,
-        named: &["edge"],
-    },
-    Place {
-        name: "across three periodic borders",
-        around: PERIODIC,
-        blocks: r#"{ name = "corner", kind = "sphere", radius = 3, position = [0.2, 0.1, 15.9],
-                   velocity = [-0.03, -0.03, 0.03] }"#,
-        named: &["corner"],
-    },
-    Place {
-        name: "meet across a periodic border",
-        around: PERIODIC,
-        blocks: r#"{ name = "left", kind = "box", size = [5, 5, 5], position = [3, 8, 8], velocity = [-0.04, 0, 0] },
-                   { name = "right", kind = "box", size = [5, 5, 5], position = [29, 8, 8], velocity = [0.04, 0, 0] }"#,
-        named: &["left", "right"],
-    },
-    Place {
-        name: "fixed across the inlet",
-        around: DUCT,
-        blocks: r#"{ name = "pier", kind = "box", size = [6, 6, 6], position = [1, 8, 8], motion = "fixed" }"#,
-        named: &["pier", "x_min", "cell"],
-    },
-    Place {
-        name: "closes the inlet",
-        around: DUCT,
-        blocks: r#"{ name = "plug", kind = "box", size = [6, 16, 16], position = [1, 8, 8], motion = "fixed" }"#,
-        named: &["plug", "x_min", "cell"],
-    },
-    Place {
-        name: "free across the inlet",
-        around: DUCT,
-        blocks: r#"{ name = "boulder", kind = "box", size = [5, 5, 5], position = [1, 8, 8] }"#,
-        named: &["boulder", "x_min", "cell"],
-    },
-    Place {
-        name: "driven into the inlet",
-        around: DUCT,
-        blocks: r#"{ name = "ram", kind = "box", size = [5, 5, 5], position = [8, 8, 8], motion = "driven",
-                   velocity = [-0.03, 0, 0] }"#,
-        named: &["ram", "x_min", "cell"],
-    },
-    Place {
-        name: "across the inlet, no flow there",
-        around: ABOVE,
-        blocks: r#"{ name = "bed", kind = "box", size = [48, 5, 20], position = [16, 2.5, 8], motion = "fixed" }"#,
-        named: &["bed", "x_min", "cell"],
-    },
-];
+fn places() -> anyhow::Result<Places> {
+    Ok(toml::from_str(include_str!("places.toml"))?)
+}
 
 fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     let steps = if stand.full { 5000 } else { 300 };
-    for place in PLACES {
-        sink.add(measure(stand, place, steps)?)?;
+    let all = places()?;
+    for place in &all.places {
+        sink.add(measure(stand, place, &all, steps)?)?;
     }
     Ok(())
 }
 
 impl Place {
-    fn text(&self) -> String {
-        format!(
-            r#"
-            blocks = [{}]
-            [domain]
-            size = [32, 16, 16]
-            cell = 1
-            [fluid]
-            density = 1
-            viscosity = 0.02
-            [numerics]
-            time_step = 1
-            velocity_scale = 0.06
-            [initial]
-            velocity = [0.05, 0, 0]
-            [rock]
-            gravity = [0, 0, 0]
-            [run]
-            steps = 1
-            [boundaries]
-            {}
-            [[materials]]
-            name = "rock"
-            density = 2.65
-            normal_stiffness = 0.5
-            friction = 30
-            damping = 0.3
-            "#,
-            self.blocks.replace('\n', " "),
-            self.around
-        )
+    fn scene(&self, shared: &Places) -> riprap::Result<Scene> {
+        let mut table = shared.scene.clone();
+        table.insert("boundaries".into(), shared.faces[&self.faces].clone());
+        table.insert("blocks".into(), self.blocks.clone());
+        Scene::from_toml(&table.to_string(), Path::new("."), "stress")
     }
 
     /// Whether an error says where.
@@ -200,12 +66,11 @@ impl Place {
     }
 }
 
-fn measure(stand: &Stand, place: &Place, steps: u64) -> anyhow::Result<Cell> {
-    let (y, x) = (place.name.into(), "outcome".into());
+fn measure(stand: &Stand, place: &Place, all: &Places, steps: u64) -> anyhow::Result<Cell> {
+    let (y, x) = (place.name.clone(), "outcome".into());
     let cell = Cell::new(MAP.name, "", y, x, "steps until the error");
     let mut cell = cell.run(|cell| {
-        let scene = Scene::from_toml(&place.text(), Path::new("."), "stress")?;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(stand, &place.scene(all)?)?;
         cell.warned = super::warned(tank.simulation.advice());
         while tank.simulation.step() < steps {
             let done = tank.advance(50);
@@ -229,8 +94,9 @@ mod tests {
 
     #[test]
     fn all_places_are_scenes() {
-        for place in PLACES {
-            let scene = Scene::from_toml(&place.text(), Path::new("."), "stress");
+        let all = places().unwrap();
+        for place in &all.places {
+            let scene = place.scene(&all);
             assert!(scene.is_ok(), "{}: {}", place.name, scene.unwrap_err());
         }
     }
@@ -241,7 +107,7 @@ mod tests {
             let mut cell = Cell::new("a", "", String::new(), String::new(), "");
             cell.end(Err(Error::scene("domain", message).into()))
                 .unwrap();
-            PLACES[1].judge(&mut cell);
+            places().unwrap().places[1].judge(&mut cell);
             cell.outcome
         };
         assert_eq!(judged("first is wrong"), Outcome::Unclear("Scene".into()));

@@ -23,14 +23,37 @@ mod outlet;
 pub(crate) mod plane_walls;
 mod repeatability;
 pub(crate) mod rock;
-mod shear_wave;
 mod slots;
-pub(crate) mod solids;
 mod stability;
-mod turbulent_channel;
-mod wake;
 mod wale;
-pub(crate) mod water;
+
+/// Blocks in a fluid.
+pub(crate) mod solids {
+    pub mod array;
+    pub mod buoyancy;
+    pub mod conservation;
+    pub mod crossing;
+    pub mod cylinder;
+    pub mod incline_flow;
+    pub mod lubrication;
+    pub mod obstacle;
+    pub mod plates;
+    pub mod release;
+    pub mod rotation;
+    pub mod settling;
+}
+
+/// Free water by particles.
+pub(crate) mod water {
+    pub mod buoyancy;
+    pub mod dam;
+    pub mod film;
+    pub mod maker;
+    pub mod pushed;
+    pub mod schemes;
+    pub mod still;
+    pub mod wave;
+}
 
 pub use method::Method;
 pub use record::{Record, Trial};
@@ -106,26 +129,26 @@ pub const CASES: &[Case] = &[
     short("kernels/conservation", "mass and momentum of a periodic box over 10⁴ steps", conservation::run),
     short("taylor-green/convergence", "order of convergence and viscosity of Taylor–Green vortices", decay::taylor_green),
     short("abc-flow/convergence", "order of convergence and viscosity of the ABC flow", decay::abc_flow),
-    short("shear-wave/galilean", "a shear wave carried along an axis decays as one at rest", shear_wave::run),
+    short("shear-wave/galilean", "a shear wave carried along an axis decays as one at rest", decay::shear_wave),
     short("walls/couette", "Couette flow between walls", plane_walls::couette),
     short("walls/poiseuille", "Poiseuille flow driven by a force", plane_walls::poiseuille),
     short("walls/film", "film with a slip top, driven by a force", plane_walls::film),
     short("channel/velocity-pressure", "channel from a velocity inlet to a held pressure", open_channel::velocity_pressure),
     short("channel/velocity-outflow", "channel from a velocity inlet to an outlet that lets vortices leave", open_channel::velocity_outflow),
     short("channel/pressure-pressure", "channel between two held pressures", open_channel::pressure_pressure),
-    short("wake/pressure", "vortices behind a square cylinder cross a face of held pressure", wake::pressure),
-    short("wake/outflow", "vortices behind a square cylinder cross an outlet that lets them leave", wake::outflow),
+    short("wake/pressure", "vortices behind a square cylinder cross a face of held pressure", outlet::wake_pressure),
+    short("wake/outflow", "vortices behind a square cylinder cross an outlet that lets them leave", outlet::wake_outflow),
     short("cavity/re100", "lid-driven cavity at Re 100 (Ghia, Ghia & Shin 1982)", cavity::re100),
     long("cavity/re1000", "lid-driven cavity at Re 1000 (Ghia, Ghia & Shin 1982)", cavity::re1000),
     short("wale/pure-shear", "WALE has no eddy viscosity in pure shear", wale::pure_shear),
     short("wale/near-wall", "WALE's eddy viscosity grows as y³ at a wall", wale::near_wall),
     short("wale/solid-rotation", "WALE's eddy viscosity in solid rotation", wale::solid_rotation),
-    long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", turbulent_channel::run),
+    long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),
     short("stability/taylor-green", "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps", stability::taylor_green),
-    short("solids/volume", "solid fractions of cells add up to the volume of the block", solids::volume::run),
+    short("solids/volume", "solid fractions of cells add up to the volume of the block", solids::conservation::volume),
     short("solids/plates", "flow between two plates that are blocks", solids::plates::run),
     short("solids/array", "drag of a simple cubic array of spheres (Zick & Homsy 1982)", solids::array::drag),
     long("solids/array-offset", "drag of the array with the spheres shifted in their cells", solids::array::offset),
@@ -136,8 +159,8 @@ pub const CASES: &[Case] = &[
     short("solids/buoyancy", "buoyancy of a block at rest in a closed tank", solids::buoyancy::archimedes),
     short("solids/neutral", "a cube as heavy as water stays where it is", solids::buoyancy::neutral),
     short("solids/crossing", "a cube crosses the grid in fluid that moves with it and in fluid at rest", solids::crossing::run),
-    short("solids/spike", "swing of a cube's drag as its faces cross cells", solids::spike::run),
-    short("solids/momentum", "momentum and mass of fluid and blocks in a periodic box", solids::momentum::run),
+    short("solids/spike", "swing of a cube's drag as its faces cross cells", solids::crossing::swing),
+    short("solids/momentum", "momentum and mass of fluid and blocks in a periodic box", solids::conservation::momentum),
     short("solids/lubrication", "force on a block driven towards a wall, against lubrication theory", solids::lubrication::run),
     short("solids/landing", "time in which a block sinks onto a wall, against lubrication theory", solids::lubrication::landing),
     short("solids/settling", "a sphere settles in oil, coarse (ten Cate et al. 2002)", solids::settling::short),
@@ -170,9 +193,9 @@ pub const CASES: &[Case] = &[
     short("water/floating", "draft of floating boxes", water::buoyancy::floating),
     short("water/standing-wave", "period and damping of a standing wave", water::wave::run),
     short("water/dam-break", "front of a dam break (Martin & Moyce 1952)", water::dam::run),
-    short("water/wave-maker", "height of waves of a piston (Dean & Dalrymple 1991)", water::maker::run),
+    short("water/wave-maker", "height of waves of a piston (Dean & Dalrymple 1991)", water::maker::piston),
     short("water/pushed", "pressure on the end walls of a tank that is pushed (Westergaard 1933)", water::pushed::run),
-    long("water/solitary", "solitary wave of a falling box (Monaghan & Kos 2000)", water::solitary::run),
+    long("water/solitary", "solitary wave of a falling box (Monaghan & Kos 2000)", water::maker::solitary),
     long("water/schemes", "the scheme of Geraili Mikola & Sitar (2014) against the default", water::schemes::run),
 ];
 

@@ -16,7 +16,7 @@
 
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{
-    Outcome, Record, Stand, Trial,
+    Outcome, Record, Stand, Trial, fields,
     tank::{Tank, block},
 };
 use riprap::scene::{Block, BlockShape, Boundary, Field, Motion, Probe, ProbePlace, Scene};
@@ -85,8 +85,15 @@ pub fn run(stand: &Stand) -> Outcome {
         };
         let quantity = "difference of the drag histories, r.m.s.";
         records.push(trial.at_most(quantity, difference, 5e-2));
+        // Where the line of least squares through the grids meets no cells.
+        let [x, y] = [0, 1].map(|axis| {
+            let sum: f64 = starts.iter().map(|start: &[f64; 2]| start[axis]).sum();
+            sum / starts.len() as f64
+        });
+        let points: Vec<_> = starts.iter().map(|start| (start[0], start[1])).collect();
+        let without_cells = y - fields::slope(&points) * x;
         let quantity = "drag at the start, by a line through the grids where cells end, N";
-        records.push(trial.relative(quantity, without_cells(&starts), push, 5e-2));
+        records.push(trial.relative(quantity, without_cells, push, 5e-2));
     }
     let chart = Chart::profile(
         "Drag on a cube held in water that starts down a slope of 30°",
@@ -96,15 +103,6 @@ pub fn run(stand: &Stand) -> Outcome {
     );
     stand.draw("solids_incline_flow", &chart)?;
     Ok(records)
-}
-
-/// Where the line of least squares through these points meets zero.
-fn without_cells(points: &[[f64; 2]]) -> f64 {
-    let count = points.len() as f64;
-    let [x, y] = [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / count);
-    let rise: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-    let run: f64 = points.iter().map(|p| (p[0] - x).powi(2)).sum();
-    y - rise / run * x
 }
 
 /// A block under the water, followed by a probe so that its loads are summed. What is below it must not rub on what its

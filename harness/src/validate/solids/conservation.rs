@@ -1,8 +1,8 @@
-//! Momentum of fluid and blocks in a periodic box, and the mass of the fluid.
+//! What blocks in a fluid conserve: momentum, mass, and their volume.
 
 use crate::validate::{
     Outcome, Stand,
-    tank::{self, Tank, block, numbers},
+    tank::{self, Tank, block, numbers, turn},
 };
 use glam::DVec3;
 use riprap::scene::{BlockShape, Motion};
@@ -10,8 +10,9 @@ use riprap::scene::{BlockShape, Motion};
 const DENSITY: f64 = 2.5;
 const STEPS: u64 = 300;
 
-/// A sphere, a cube and a tetrahedron that a stream takes along.
-pub fn run(stand: &Stand) -> Outcome {
+/// Momentum of fluid and blocks in a periodic box, and the mass of the fluid: a sphere, a cube and a tetrahedron that a
+/// stream takes along.
+pub fn momentum(stand: &Stand) -> Outcome {
     let shapes = [
         (BlockShape::Sphere { radius: 4.0 }, [8.3, 8.0, 7.6]),
         (BlockShape::Box { size: [7.0; 3] }, [24.0, 23.5, 8.2]),
@@ -75,4 +76,71 @@ impl Ledger {
         let all = |ledger: &Self| ledger.fluid + ledger.blocks.iter().sum::<DVec3>();
         all(self) - all(other)
     }
+}
+
+/// Largest extent of each block, cells.
+const ACROSS: f64 = 16.0;
+/// From a block to the next one: the diagonal of the cube and a cell on each side.
+const SPACING: u32 = 30;
+/// Turns of each shape.
+const TURNS: u32 = 4;
+const FULL_TURNS: u32 = 16;
+
+/// The solid fractions of the cells of a block add up to its volume: cubes, tetrahedra and icosahedra, turned and shifted against the grid.
+pub fn volume(stand: &Stand) -> Outcome {
+    let tetrahedron = ACROSS;
+    // Twice the radius of the sphere around it.
+    let icosahedron = ACROSS / (10.0 + 2.0 * 5f64.sqrt()).sqrt() * 2.0;
+    let shapes = [
+        (
+            "cubes",
+            BlockShape::Box { size: [ACROSS; 3] },
+            ACROSS.powi(3),
+        ),
+        (
+            "tetrahedra",
+            BlockShape::Tetrahedron { edge: tetrahedron },
+            tetrahedron.powi(3) / (6.0 * 2f64.sqrt()),
+        ),
+        (
+            "icosahedra",
+            BlockShape::Icosahedron { edge: icosahedron },
+            icosahedron.powi(3) * 5.0 / 12.0 * (3.0 + 5f64.sqrt()),
+        ),
+    ];
+    let turns = if stand.full { FULL_TURNS } else { TURNS };
+    let mut scene = tank::scene(
+        [shapes.len() as u32 * SPACING, turns * SPACING, SPACING],
+        1.0,
+    )?;
+    for row in 0..turns {
+        for (column, (_, shape, _)) in (0..).zip(&shapes) {
+            let number = f64::from(shapes.len() as u32 * row + column);
+            let place = |n: u32, step: f64| {
+                f64::from(n * SPACING) + 0.5 * f64::from(SPACING) + (step * number).fract()
+            };
+            let at = [place(column, 0.819), place(row, 0.671), place(0, 0.55)];
+            let mut made = block(shape.clone(), at, Motion::Driven);
+            made.rotation = turn(row);
+            scene.blocks.push(made);
+        }
+    }
+    let mut tank = Tank::fill(stand, &scene)?;
+    tank.advance(1)?;
+    let trial = tank.trial(&format!("{turns} turns"));
+    let mut records = Vec::new();
+    for (column, (name, _, volume)) in shapes.iter().enumerate() {
+        let error = |row: usize| {
+            let load = tank.load(shapes.len() * row + column).flow;
+            ((load.entrained + load.missing) / volume - 1.0).abs()
+        };
+        let worst = (0..turns as usize).map(error).fold(0.0, largest);
+        records.push(trial.at_most(format!("Σε / volume − 1, {name}"), worst, 1e-4));
+    }
+    Ok(records)
+}
+
+/// The larger one; what is not a number stays.
+fn largest(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }

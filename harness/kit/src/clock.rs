@@ -1,4 +1,4 @@
-//! What a piece of work takes: by the clock on the wall, of the CPU, and between timestamps of a GPU.
+//! What a piece of work takes: by the clock on the wall, of the CPU, and between timestamps of a GPU; and how a cost grows.
 
 use super::gpu;
 use super::subject::Subject;
@@ -178,4 +178,16 @@ impl Clock {
 /// Cores that this process may use.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The exponent p of cost ∝ countᵖ by least squares on the logarithms of (count, cost); none without two
+/// counts.
+pub fn exponent(points: &[(f64, f64)]) -> Option<f64> {
+    let n = points.len() as f64;
+    let logs = || points.iter().map(|(count, cost)| (count.ln(), cost.ln()));
+    let x = logs().map(|p| p.0).sum::<f64>() / n;
+    let y = logs().map(|p| p.1).sum::<f64>() / n;
+    let spread: f64 = logs().map(|p| (p.0 - x).powi(2)).sum();
+    let covariance: f64 = logs().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    (spread > 0.0).then(|| covariance / spread)
 }

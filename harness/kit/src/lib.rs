@@ -6,7 +6,6 @@ pub mod broadphase;
 pub mod clock;
 pub mod contact;
 pub mod copy;
-pub mod exponent;
 pub mod flow;
 pub mod gpu;
 pub mod pile;
@@ -16,7 +15,5 @@ pub mod stream_only;
 pub mod subject;
 pub mod tank;
 pub mod twin;
-mod workbench;
 
-pub use rig::Rig;
-pub use workbench::{POISON, Workbench};
+pub use rig::{POISON, Rig, Workbench};

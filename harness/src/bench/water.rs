@@ -2,8 +2,7 @@
 
 use super::{Bench, copy_bandwidth};
 use kit::{
-    clock::{Clock, PATIENCE},
-    exponent::exponent,
+    clock::{Clock, PATIENCE, exponent},
     gpu,
     tank::Tank,
 };

@@ -1,10 +1,7 @@
 //! Piles at rest: their contacts with the caches of the step before and for the first time, the step of all of their
 //! blocks, and where its time goes.
 
-use super::{
-    Core, Plan, fastest,
-    row::{Basis, Row},
-};
+use super::{Basis, Core, Plan, Row, fastest};
 use glam::{DQuat, DVec3};
 use kit::{
     clock::{Spent, Stopwatch},

@@ -1,9 +1,6 @@
 //! Rows of single kernels: cutting a rock mass, finding pairs, and the step of a block among few others.
 
-use super::{
-    Bench, Core, Plan, fastest,
-    row::{Basis, Row},
-};
+use super::{Basis, Bench, Core, Plan, Row, fastest};
 use glam::DVec3;
 use kit::{
     broadphase::scattered,

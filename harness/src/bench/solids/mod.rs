@@ -1,17 +1,15 @@
 //! What solids in the fluid cost: cells that are partly solid, blocks that move, contacts, solid fractions.
 
-mod turns;
 mod world;
 
-pub use turns::Turns;
-pub use world::{World, crowd};
+pub use world::{Turns, World, crowd};
 
 use super::{
     Bench,
     target::{Target, show},
 };
 use glam::{DQuat, DVec3};
-use kit::exponent::exponent;
+use kit::clock::exponent;
 use riprap::{
     geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator},

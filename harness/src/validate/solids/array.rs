@@ -133,22 +133,11 @@ pub struct Drag {
 }
 
 impl Drag {
-    fn judged(&self, array: &Array, limit: f64) -> Record {
-        self.trial.relative(name(array), self.ratio, 1.0, limit)
+    fn record(&self, array: &Array, limit: Option<f64>) -> Record {
+        let (diameter, tau, method) = (array.diameter(), array.tau, array.method.name);
+        let quantity = format!("K / K(Z&H), D = {diameter:.1}, τ = {tau}, {method}");
+        self.trial.relative(quantity, self.ratio, 1.0, limit)
     }
-
-    fn told(&self, array: &Array) -> Record {
-        self.trial.relative(name(array), self.ratio, 1.0, None)
-    }
-}
-
-fn name(array: &Array) -> String {
-    format!(
-        "K / K(Z&H), D = {:.1}, τ = {}, {}",
-        array.diameter(),
-        array.tau,
-        array.method.name
-    )
 }
 
 /// Spheres of 10 cells; with `--full` finer ones, a lower viscosity and other places in the grid.
@@ -165,7 +154,7 @@ pub fn drag(stand: &Stand) -> Outcome {
     for (edge, tau, limit) in runs {
         let array = Array::new(USUAL, edge, tau);
         let drag = array.measure(stand)?;
-        records.push(drag.judged(&array, limit));
+        records.push(drag.record(&array, Some(limit)));
         let quantity = "force on the sphere / push on the fluid − 1";
         records.push(drag.trial.at_most(quantity, drag.balance.abs(), 1e-3));
     }
@@ -202,7 +191,7 @@ pub fn comparison(stand: &Stand) -> Outcome {
     }
     let mut records = Vec::new();
     for array in arrays {
-        records.push(array.measure(stand)?.told(&array));
+        records.push(array.measure(stand)?.record(&array, None));
     }
     Ok(records)
 }
@@ -228,7 +217,7 @@ pub fn map(stand: &Stand) -> Outcome {
             }
             let array = Array::new(USUAL, edge, tau);
             let drag = array.measure(stand)?;
-            records.push(drag.told(&array));
+            records.push(drag.record(&array, None));
             let error = 100.0 * (drag.ratio - 1.0);
             points.push([tau, error]);
             let steps = drag.trial.steps as f64;

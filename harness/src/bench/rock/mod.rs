@@ -1,7 +1,7 @@
 //! The rock part: cutting, contacts, the search for pairs, the step of all blocks.
 
+mod kernels;
 mod pile;
-mod small;
 
 pub use kit::clock::exponent;
 
@@ -207,9 +207,9 @@ pub fn measure(plan: &Plan, device: Option<&Bench<'_>>) -> Result<(Vec<Row>, Vec
     println!("\nrock: the fastest of {} samples\n{}", plan.rounds, HEAD);
     let core = Core::new()?;
     let mut rows = Vec::new();
-    small::cut(plan, &mut rows)?;
-    small::broadphase(plan, &core, device, &mut rows)?;
-    small::few_blocks(plan, &core, &mut rows)?;
+    kernels::cut(plan, &mut rows)?;
+    kernels::broadphase(plan, &core, device, &mut rows)?;
+    kernels::few_blocks(plan, &core, &mut rows)?;
     pile::measure(plan, &core, &mut rows)?;
     let targets = show("rock", targets(&rows));
     Ok((rows, targets))
@@ -224,8 +224,8 @@ fn targets(rows: &[Row]) -> [Option<Target>; 10] {
     let contacts = of("contact", pile::WARM).map(|row| row.contacts_a_second);
     let pairs = of("contact", pile::COLD).map(|row| row.pairs_a_second);
     let programs = of("step", pile::ONE_CORE).filter_map(|row| row.share_of_programs);
-    let mut cut = of("cut", small::CUBE).filter(|row| row.count >= 100_000);
-    let ratio = of("step", small::AMONG_FIVE).filter_map(|row| row.ratio);
+    let mut cut = of("cut", kernels::CUBE).filter(|row| row.count >= 100_000);
+    let ratio = of("step", kernels::AMONG_FIVE).filter_map(|row| row.ratio);
     // That over all counts.
     let exponent = |says, kernel, variant| {
         let last = of(kernel, variant).next_back();

@@ -144,6 +144,9 @@ impl Stand {
 }
 
 /// A lattice that runs, with the time that it took.
+///
+/// Its methods return an error if the device is lost or silent, and those that run steps if the flow leaves the range of
+/// the method.
 #[derive(Debug)]
 pub struct Flow<'a> {
     stand: &'a Stand,
@@ -167,9 +170,6 @@ impl Flow<'_> {
     }
 
     /// Runs steps until they are done or the guard finds a fault.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn try_advance(&mut self, steps: u64) -> anyhow::Result<Option<Fault>> {
         let begin = Instant::now();
         let cells = self.lattice.grid().cell_count() as u64;
@@ -230,9 +230,6 @@ impl Flow<'_> {
     }
 
     /// Density and velocity, lattice units.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn state(&mut self) -> anyhow::Result<State> {
         let begin = Instant::now();
         let (observer, lattice, stand) = self.observer()?;
@@ -243,9 +240,6 @@ impl Flow<'_> {
     }
 
     /// A field that follows from the velocity gradient, lattice units.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn derived(&mut self, quantity: Derived) -> anyhow::Result<Vec<f32>> {
         let (observer, lattice, stand) = self.observer()?;
         let future = observer.derived(&stand.device, &stand.queue, lattice, quantity);
@@ -253,9 +247,6 @@ impl Flow<'_> {
     }
 
     /// Sums over the fluid, lattice units.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn sums(&mut self) -> anyhow::Result<Sums> {
         let (observer, lattice, stand) = self.observer()?;
         let future = observer.sums(&stand.device, &stand.queue, lattice);
@@ -263,9 +254,6 @@ impl Flow<'_> {
     }
 
     /// The populations in canonical order.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn populations(&mut self) -> anyhow::Result<Populations> {
         let stand = self.stand;
         let future = self.lattice.populations(&stand.device, &stand.queue);

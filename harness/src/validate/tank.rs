@@ -144,6 +144,9 @@ pub fn choose(scene: &mut Scene, scheme: Scheme) {
 }
 
 /// A scene that runs, with the time that it took.
+///
+/// Its methods return an error if the device is lost or silent, and those that run steps if the flow leaves the range of
+/// the method.
 #[derive(Debug)]
 pub struct Tank<'a> {
     stand: &'a Stand,
@@ -242,9 +245,6 @@ impl<'a> Tank<'a> {
     }
 
     /// Largest y⁺ half a cell from a block.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn y_plus(&mut self) -> anyhow::Result<Option<f64>> {
         let looked = self.simulation.wall_units();
         let found = self.stand.drive("reading cells beside blocks", looked)??;
@@ -252,9 +252,6 @@ impl<'a> Tank<'a> {
     }
 
     /// Sums over the fluid, that inside blocks too.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn totals(&mut self) -> anyhow::Result<Totals> {
         let totals = self.simulation.totals();
         Ok(self.stand.drive("reading sums", totals)??)
@@ -270,9 +267,6 @@ impl<'a> Tank<'a> {
     }
 
     /// The free water as it is.
-    ///
-    /// # Errors
-    /// If the device is lost or silent.
     pub fn water(&mut self) -> anyhow::Result<Water> {
         let water = self.simulation.water();
         Ok(self.stand.drive("reading particles", water)??)

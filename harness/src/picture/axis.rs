@@ -114,16 +114,8 @@ impl Axis {
         let [low, high] = self.range.map(|end| end / unit);
         let decade = ((high - low) / most.max(1) as f64).log10().floor() as i32;
         // The finest step whose ticks are few enough; the last one is ten times what is needed.
-        for (power, lead) in [1.0, 2.0, 5.0]
-            .map(|lead| (decade, lead))
-            .into_iter()
-            .chain([
-                (decade + 1, 1.0),
-                (decade + 1, 2.0),
-                (decade + 1, 5.0),
-                (decade + 2, 1.0),
-            ])
-        {
+        let powers = decade..=decade + 2;
+        for (power, lead) in powers.flat_map(|power| [1.0, 2.0, 5.0].map(|lead| (power, lead))) {
             let step = lead * 10_f64.powi(power);
             // Rounding must not take the tick at an end away.
             let begin = (low / step - 1e-6).ceil() as i64;

@@ -3,6 +3,7 @@
 
 use anyhow::{Context, Result, anyhow, bail};
 use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, register_font};
@@ -124,6 +125,21 @@ impl<'a> Canvas<'a> {
             }
         }
         Ok(())
+    }
+
+    /// A dashed line through `points`, with dashes and gaps of the given lengths.
+    pub fn dashed(
+        &mut self,
+        points: &[[f64; 2]],
+        width: f64,
+        lengths: [f64; 2],
+        colour: RGBColor,
+    ) -> Result<()> {
+        let [stroke, dash, gap] = [width, lengths[0], lengths[1]]
+            .map(|length| (length * f64::from(OVERSAMPLING)).round() as u32);
+        let places: Vec<(i32, i32)> = points.iter().copied().map(pixel).collect();
+        let style = colour.stroke_width(stroke);
+        self.draw(&DashedPathElement::new(places, dash, gap, style))
     }
 
     /// A filled disc.

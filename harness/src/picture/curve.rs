@@ -64,11 +64,7 @@ impl Mark {
         let colour = CURVES[number % CURVES.len()];
         match self {
             Self::Line | Self::LinePoints => canvas.line(places, STROKE, colour)?,
-            Self::Dashed => {
-                for dash in dashes(places) {
-                    canvas.line(&dash, STROKE, colour)?;
-                }
-            }
+            Self::Dashed => canvas.dashed(places, STROKE, DASH, colour)?,
             Self::Points => {}
         }
         if matches!(self, Self::Points | Self::LinePoints) {
@@ -139,36 +135,4 @@ fn legend_rows(curves: &[Curve], width: f64) -> Result<Vec<Vec<(usize, f64)>>> {
         used += wants + 3.0 * GAP;
     }
     Ok(rows)
-}
-
-/// The drawn parts of a dashed line along `places`.
-fn dashes(places: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    let mut dashes = Vec::new();
-    let mut dash: Vec<[f64; 2]> = places.first().copied().into_iter().collect();
-    let mut drawn = true;
-    let mut left = DASH[0];
-    for pair in places.windows(2) {
-        let mut from = pair[0];
-        loop {
-            let rest = (pair[1][0] - from[0]).hypot(pair[1][1] - from[1]);
-            if rest < left {
-                left -= rest;
-                break;
-            }
-            from = [0, 1].map(|axis| from[axis] + (pair[1][axis] - from[axis]) * left / rest);
-            if drawn {
-                dash.push(from);
-                dashes.push(std::mem::take(&mut dash));
-            } else {
-                dash.push(from);
-            }
-            drawn = !drawn;
-            left = DASH[usize::from(!drawn)];
-        }
-        if drawn {
-            dash.push(pair[1]);
-        }
-    }
-    dashes.push(dash);
-    dashes
 }

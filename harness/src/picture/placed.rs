@@ -3,8 +3,8 @@
 use super::section::Plane;
 use glam::{DMat3, DVec2, DVec3};
 use riprap::geometry::Form;
+use riprap::output::Image;
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// Corners of the polygon that a sphere's cut is drawn as: off the circle by r(1 − cos π/96), less than half a
 /// pixel for all that fit a picture.
@@ -98,12 +98,31 @@ impl Placed<'_> {
     }
 }
 
-/// Which of `cells` cells of size `spacing` from `origin` on have their centres between `low` and `high`, m.
-pub fn centres(origin: f64, spacing: f64, cells: usize, [low, high]: [f64; 2]) -> Range<usize> {
-    let place = |end: f64| (end - origin) / spacing - 0.5;
-    let begin = place(low).ceil().max(0.0) as usize;
-    let end = place(high).floor().min(cells as f64 - 1.0) + 1.0;
-    begin..end.max(0.0) as usize
+/// Which cells of `image` have their centres in one of `blocks`.
+pub fn cells_in(image: &Image, blocks: &[Placed<'_>]) -> Vec<bool> {
+    let mut inside = vec![false; image.cell_count()];
+    for block in blocks {
+        let [low, high] = block.bounds();
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let place = |end: f64| (end - image.origin[axis]) / image.spacing - 0.5;
+            let begin = place(low[axis]).ceil().max(0.0) as usize;
+            let end = place(high[axis])
+                .floor()
+                .min(image.cells[axis] as f64 - 1.0)
+                + 1.0;
+            begin..end.max(0.0) as usize
+        });
+        for k in z {
+            for j in y.clone() {
+                for i in x.clone() {
+                    let centre = DVec3::new(i as f64, j as f64, k as f64) + 0.5;
+                    let centre = DVec3::from(image.origin) + image.spacing * centre;
+                    inside[image.cell_index(i, j, k)] |= block.holds(centre);
+                }
+            }
+        }
+    }
+    inside
 }
 
 /// Corners of a convex polygon in their order around it; `None` if they enclose nothing.

@@ -1,8 +1,7 @@
 //! A plane cut out of an image.
 
-use super::placed::{Placed, centres};
+use super::placed::{Placed, cells_in};
 use anyhow::{Context, Result, bail};
-use glam::DVec3;
 use riprap::output::{Array, Image};
 
 /// A plane normal to an axis.
@@ -55,8 +54,9 @@ pub struct Section {
     pub solid: Vec<bool>,
     /// Cells whose centres lie in blocks, of which there are none before [`Self::leave_out`].
     pub in_blocks: Vec<bool>,
-    /// Velocity in the plane, m/s, if the image has an array `velocity`.
-    pub velocity: Option<Vec<[f64; 2]>>,
+    plane: Plane,
+    /// The layer of cells that the plane passes through; its array `solid` is what is no fluid.
+    layer: Image,
 }
 
 impl Section {
@@ -69,10 +69,39 @@ impl Section {
         let [a, b] = plane.others();
         let layer = layer(image, plane)?;
         let shown = array(image, quantity)?;
-        let solid = image.array("solid");
-        let moving = image
-            .array("velocity")
-            .filter(|array| array.values.len() == 3 * image.cell_count());
+        let cells = (0..image.cells[b]).flat_map(|v| (0..image.cells[a]).map(move |u| [u, v]));
+        let cells: Vec<usize> = cells
+            .map(|[u, v]| {
+                let mut place = [layer; 3];
+                (place[a], place[b]) = (u, v);
+                image.cell_index(place[0], place[1], place[2])
+            })
+            .collect();
+        let tuple = |cell: &usize| &shown.values[shown.components * cell..][..shown.components];
+        let value = |cell: &usize| match quantity {
+            Quantity::Scalar(_) => f64::from(tuple(cell)[0]),
+            Quantity::Magnitude(_) => {
+                let squares = tuple(cell).iter().map(|&x| f64::from(x).powi(2));
+                squares.sum::<f64>().sqrt()
+            }
+        };
+        let mut thin = Image {
+            origin: image.origin,
+            spacing: image.spacing,
+            cells: image.cells,
+            arrays: Vec::new(),
+        };
+        thin.cells[plane.normal] = 1;
+        thin.origin[plane.normal] += layer as f64 * image.spacing;
+        let flow = image.array("velocity");
+        if let Some(flow) = flow.filter(|flow| flow.values.len() == 3 * image.cell_count()) {
+            let vectors = cells.iter().map(|cell| &flow.values[3 * cell..][..3]);
+            thin.arrays.push(Array {
+                name: "velocity".into(),
+                components: 3,
+                values: vectors.flatten().copied().collect(),
+            });
+        }
         let mut section = Self {
             axes: [AXES[a], AXES[b]],
             normal: AXES[plane.normal],
@@ -80,34 +109,25 @@ impl Section {
             origin: [image.origin[a], image.origin[b]],
             spacing: image.spacing,
             cells: [image.cells[a], image.cells[b]],
-            values: Vec::new(),
-            solid: Vec::new(),
-            in_blocks: vec![false; image.cells[a] * image.cells[b]],
-            velocity: moving.map(|_| Vec::new()),
+            values: cells.iter().map(value).collect(),
+            solid: cells.iter().map(|cell| image.is_solid(*cell)).collect(),
+            in_blocks: vec![false; cells.len()],
+            plane,
+            layer: thin,
         };
-        for v in 0..image.cells[b] {
-            for u in 0..image.cells[a] {
-                let mut place = [layer; 3];
-                (place[a], place[b]) = (u, v);
-                let cell = image.cell_index(place[0], place[1], place[2]);
-                let tuple = &shown.values[shown.components * cell..][..shown.components];
-                section.values.push(match quantity {
-                    Quantity::Scalar(_) => f64::from(tuple[0]),
-                    Quantity::Magnitude(_) => tuple
-                        .iter()
-                        .map(|&x| f64::from(x).powi(2))
-                        .sum::<f64>()
-                        .sqrt(),
-                });
-                section.solid.push(
-                    solid.is_some_and(|solid| solid.values.get(cell).is_some_and(|&s| s != 0.0)),
-                );
-                if let (Some(kept), Some(moving)) = (&mut section.velocity, moving) {
-                    kept.push([a, b].map(|axis| f64::from(moving.values[3 * cell + axis])));
-                }
-            }
-        }
+        section.mark_solid();
         Ok(section)
+    }
+
+    /// Keeps the velocity of what is no fluid out of that beside it.
+    fn mark_solid(&mut self) {
+        self.layer.arrays.retain(|array| array.name != "solid");
+        let solid = (0..self.values.len()).map(|cell| f32::from(!self.is_fluid(cell)));
+        self.layer.arrays.push(Array {
+            name: "solid".into(),
+            components: 1,
+            values: solid.collect(),
+        });
     }
 
     /// The quantity in the fluid's cells.
@@ -130,31 +150,11 @@ impl Section {
         Some(u? + self.cells[0] * v?)
     }
 
-    /// Takes the cells whose centres lie in `blocks` out of the fluid; `plane` is the one that was cut by. What such a
-    /// cell shows outside of its block is what the fluid beside it has: the mean of its neighbours, and without any it
-    /// is not a number.
-    pub fn leave_out(&mut self, blocks: &[Placed<'_>], plane: Plane) {
-        let [a, b] = plane.others();
-        for block in blocks {
-            let [low, high] = block.bounds();
-            if !(low[plane.normal]..=high[plane.normal]).contains(&plane.position) {
-                continue;
-            }
-            let [us, vs] = [(0, a), (1, b)].map(|(along, axis)| {
-                let ends = [low[axis], high[axis]];
-                centres(self.origin[along], self.spacing, self.cells[along], ends)
-            });
-            for v in vs {
-                for u in us.clone() {
-                    let mut centre = DVec3::splat(plane.position);
-                    (centre[a], centre[b]) = (
-                        self.origin[0] + self.spacing * (u as f64 + 0.5),
-                        self.origin[1] + self.spacing * (v as f64 + 0.5),
-                    );
-                    self.in_blocks[u + self.cells[0] * v] |= block.holds(centre);
-                }
-            }
-        }
+    /// Takes the cells whose centres lie in `blocks` out of the fluid. What such a cell shows outside of its block is what
+    /// the fluid beside it has: the mean of its neighbours, and without any it is not a number.
+    pub fn leave_out(&mut self, blocks: &[Placed<'_>]) {
+        self.in_blocks = cells_in(&self.layer, blocks);
+        self.mark_solid();
         for cell in (0..self.values.len()).filter(|cell| self.in_blocks[*cell]) {
             let around = self.around(cell).filter(|other| self.is_fluid(*other));
             let (sum, count) = around.fold((0.0, 0.0), |(sum, count), other| {
@@ -180,30 +180,14 @@ impl Section {
     /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in
     /// another cell, outside, or without velocity.
     pub fn velocity_at(&self, point: [f64; 2]) -> Option<[f64; 2]> {
-        let velocity = self.velocity.as_ref()?;
         if !self.is_fluid(self.cell(point)?) {
             return None;
         }
-        let mut lower = [0; 2];
-        let mut part = [0.0; 2];
-        for axis in 0..2 {
-            let place = (point[axis] - self.origin[axis]) / self.spacing - 0.5;
-            let place = place.clamp(0.0, (self.cells[axis] - 1) as f64);
-            lower[axis] = place as usize;
-            part[axis] = place - lower[axis] as f64;
-        }
-        let mut sum = [0.0; 2];
-        let mut total = 0.0;
-        for (u, v) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let weight = [1.0 - part[0], part[0]][u] * [1.0 - part[1], part[1]][v];
-            let cell = lower[0] + u + self.cells[0] * (lower[1] + v);
-            // A weight of zero also keeps out the cell beyond the last one.
-            if weight > 0.0 && self.is_fluid(cell) {
-                sum = [0, 1].map(|axis| sum[axis] + weight * velocity[cell][axis]);
-                total += weight;
-            }
-        }
-        (total > 0.0).then(|| sum.map(|sum| sum / total))
+        let [a, b] = self.plane.others();
+        let mut place = [self.plane.position; 3];
+        (place[a], place[b]) = (point[0], point[1]);
+        let velocity = self.layer.sample("velocity", place)?;
+        Some([velocity[a], velocity[b]])
     }
 }
 

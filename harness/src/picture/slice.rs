@@ -56,7 +56,7 @@ impl Slice<'_> {
     /// Draws the slice of `image` into a PNG file.
     pub fn draw(&self, image: &Image, path: &Path) -> Result<()> {
         let mut section = Section::new(image, self.plane, self.quantity)?;
-        section.leave_out(self.blocks, self.plane);
+        section.leave_out(self.blocks);
         let length = matches!(self.quantity, Quantity::Magnitude(_));
         let bar = ColourBar::fitting(self.label, self.unit, self.range, section.fluid(), length)?;
         let (mut canvas, map) = self.layout(&section, &bar)?;

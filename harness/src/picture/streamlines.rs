@@ -21,22 +21,17 @@ const STILL: f64 = 1e-5;
 /// Lines along the velocity in `section`, `separation` (m) apart, each a list of points (m)
 /// downstream; none where the section has no velocity.
 pub fn streamlines(section: &Section, separation: f64) -> Vec<Vec<[f64; 2]>> {
-    let Some(velocity) = &section.velocity else {
-        return Vec::new();
-    };
-    let speed = |cell: usize| velocity[cell][0].hypot(velocity[cell][1]);
-    let fluid = |cell: &usize| section.is_fluid(*cell) && speed(*cell).is_finite();
-    let cells = 0..velocity.len();
-    let Some(fastest) = cells
-        .clone()
-        .filter(fluid)
-        .max_by(|a, b| speed(*a).total_cmp(&speed(*b)))
-    else {
+    let cells = 0..section.values.len();
+    let speeds = cells.clone().filter_map(|cell| {
+        let [u, v] = section.velocity_at(centre(section, cell))?;
+        Some((cell, u.hypot(v))).filter(|(_, speed)| speed.is_finite())
+    });
+    let Some((fastest, speed)) = speeds.max_by(|a, b| a.1.total_cmp(&b.1)) else {
         return Vec::new();
     };
     let mut tracer = Tracer {
         section,
-        still: STILL * speed(fastest),
+        still: STILL * speed,
         separation,
         taken: Taken::new(separation),
         lines: Vec::new(),

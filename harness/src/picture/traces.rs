@@ -1,7 +1,7 @@
 //! Lines along a flow in space.
 
 use super::field_lines::{Field, Taken};
-use super::placed::{Placed, centres};
+use super::placed::{Placed, cells_in};
 use glam::DVec3;
 use riprap::output::Image;
 
@@ -86,12 +86,9 @@ impl<'a> Flow<'a> {
         if velocity.values.len() != 3 * image.cell_count() {
             return None;
         }
-        let solid = |cell| image.is_solid(cell);
-        let mut left_out: Vec<bool> = (0..image.cell_count()).map(solid).collect();
-        for block in blocks {
-            for (cell, centre) in cells_around(image, block.bounds()) {
-                left_out[cell] |= block.holds(centre);
-            }
+        let mut left_out = cells_in(image, blocks);
+        for (cell, out) in left_out.iter_mut().enumerate() {
+            *out |= image.is_solid(cell);
         }
         let vectors = velocity.values.chunks_exact(3).zip(&left_out);
         let speeds = vectors.filter(|(_, out)| !**out).map(|(u, _)| length(u));
@@ -129,24 +126,6 @@ impl<'a> Flow<'a> {
         let speed = velocity.length();
         (speed > self.still).then(|| (velocity / speed).to_array())
     }
-}
-
-/// Cells whose centres lie in a box (m), and these.
-fn cells_around(image: &Image, [low, high]: [DVec3; 2]) -> impl Iterator<Item = (usize, DVec3)> {
-    let [x, y, z] = [0, 1, 2].map(|axis| {
-        let ends = [low[axis], high[axis]];
-        centres(image.origin[axis], image.spacing, image.cells[axis], ends)
-    });
-    z.flat_map(move |k| {
-        let x = x.clone();
-        y.clone()
-            .flat_map(move |j| x.clone().map(move |i| [i, j, k]))
-    })
-    .map(|cell| {
-        let centre = DVec3::from_array(cell.map(|n| n as f64 + 0.5));
-        let centre = DVec3::from(image.origin) + image.spacing * centre;
-        (image.cell_index(cell[0], cell[1], cell[2]), centre)
-    })
 }
 
 fn length(vector: &[f32]) -> f64 {

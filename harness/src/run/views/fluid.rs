@@ -70,7 +70,7 @@ impl Fluid {
                 };
                 let mut section = Section::new(&image, plane, shown.quantity())?;
                 // Solids stand before their cells as blocks do.
-                section.leave_out(&placed(run, poses), plane);
+                section.leave_out(&placed(run, poses));
                 let range = match slice.field {
                     SliceField::Speed => slice.range.or(self.speeds),
                     _ => slice.range,

@@ -54,47 +54,26 @@ fn cells_are_drawn_as_equal_rectangles_of_their_own_colour_with_y_upwards() {
             .map(|(index, _)| [index % width, index / width])
             .collect()
     };
-    let extent = |places: &[[usize; 2]]| {
-        [0, 1].map(|axis| {
-            let along = places.iter().map(|place| place[axis]);
-            let low = along.clone().min().expect("some pixels");
-            [low, along.max().expect("some pixels")]
-        })
+    // 0 and 2 are below 4 and 6; the colour bar shows their colours in few lines.
+    let size = |value: f64| place(colour(value)).len() as f64;
+    let mean = |value: f64, axis: usize| {
+        let places = place(colour(value));
+        places.iter().map(|place| place[axis] as f64).sum::<f64>() / places.len() as f64
     };
-    // 1 and 5 lie above each other, in colours that the colour bar shows in a line or two only.
-    let [low, high] = [1.0, 5.0].map(|value| place(colour(value)));
-    let column = extent(&low)[0];
-    let inside = |places: Vec<[usize; 2]>| -> Vec<[usize; 2]> {
-        let right = column[0] + 10;
-        places
-            .into_iter()
-            .filter(|place| place[0] < right.max(column[1].min(700)))
-            .collect()
-    };
-    let (low, high) = (extent(&inside(low)), extent(&inside(high)));
-    assert_eq!(low[0], high[0], "both in one column");
-    assert!(high[1][1] < low[1][0], "the upper row is above");
-    let heights = [low, high].map(|[_, [top, bottom]]| bottom - top);
-    let size = low[0][1] - low[0][0];
-    for height in heights {
-        // The border's line covers a pixel of the outer edge, an edge between cells another.
-        assert!(
-            height.abs_diff(size) <= 2,
-            "cells are square: {height} against {size}"
-        );
+    let edge = size(1.0).sqrt();
+    for [low, high] in [[0.0, 4.0], [1.0, 5.0], [2.0, 6.0]] {
+        for value in [low, high] {
+            // The border's line covers a pixel of the outer edges.
+            assert!((size(value).sqrt() - edge).abs() < 4.0, "equal squares");
+        }
+        let across = mean(high, 0) - mean(low, 0);
+        assert!(across.abs() < 4.0, "both in one column: {across}");
+        let up = mean(low, 1) - mean(high, 1);
+        assert!((up - edge).abs() < 4.0, "the upper row is above: {up}");
     }
-    // Text in ink on white passes through any grey, so only the map's own rows are looked at.
-    let rows = high[1][0]..=low[1][1];
-    let beside = low[0][1]..=low[0][1] + 2 * size + 4;
-    let mut grey = place([120, 120, 120]);
-    grey.retain(|place| beside.contains(&place[0]) && rows.contains(&place[1]));
-    let [[left, right], [top, bottom]] = extent(&grey);
-    let solid = [right - left, bottom - top];
-    assert!(
-        solid[0].abs_diff(size) <= 2 && solid[1].abs_diff(2 * size) <= 4,
-        "two solid cells in grey, {solid:?} for a cell of {size}"
-    );
-    assert!(grey.len() >= solid[0] * solid[1], "without holes");
+    // Text in ink on white passes through any grey.
+    let grey = place([120, 120, 120]).len() as f64 / (2.0 * edge * edge);
+    assert!((grey - 1.0).abs() < 0.02, "two solid cells in grey: {grey}");
 }
 
 #[test]

@@ -68,10 +68,9 @@ pub struct Traces {
 }
 
 impl Traces {
-    pub(super) fn bar(&self) -> anyhow::Result<ColourBar> {
-        let Colours { label, unit, range } = &self.colours;
+    pub(super) fn bar(&self) -> Result<ColourBar> {
         let speeds = self.lines.iter().flat_map(|trace| &trace.speeds);
-        ColourBar::fitting(label, unit, *range, speeds.copied(), true)
+        (self.colours).bar("traces", speeds.copied(), Palette::Sequential, true)
     }
 
     fn check(&self) -> std::result::Result<(), String> {
@@ -128,8 +127,8 @@ pub enum Background {
     Sky,
 }
 
-/// What the bodies' values are.
-#[derive(Clone, Debug, PartialEq)]
+/// What the values of bodies, planes, lines or balls are.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Colours {
     /// Name of the quantity.
     pub label: String,
@@ -140,32 +139,32 @@ pub struct Colours {
     pub range: Option<[f64; 2]>,
 }
 
-impl Drawing<'_> {
-    /// The palette and the values at its ends.
+impl Colours {
+    /// The colours of values in the part `name` of a drawing, by `palette` where they are not around zero; those of a
+    /// `length` begin at zero.
     ///
     /// # Errors
     /// If the range given is not two numbers, the lower first.
-    pub fn palette(&self) -> Result<(Palette, [f64; 2])> {
-        match self.colours.as_ref().and_then(|colours| colours.range) {
-            Some([low, high]) if !(low.is_finite() && high.is_finite() && low < high) => {
-                Err(Error::argument(
-                    "colours.range",
-                    format!("from {low} to {high}: give two numbers, the lower first"),
-                ))
-            }
-            Some([low, high]) if low == -high => Ok((Palette::Diverging, [low, high])),
-            Some(range) => Ok((Palette::FromPale, range)),
-            None => {
-                let free = self.instances.iter().filter(|body| !body.fixed);
-                let range = crate::picture::extremes(free.filter_map(|body| body.value));
-                Ok(match Palette::fitting(range) {
-                    (Palette::Sequential, range) => (Palette::FromPale, range),
-                    other => other,
-                })
-            }
+    pub(super) fn bar(
+        &self,
+        name: &str,
+        values: impl Iterator<Item = f64>,
+        palette: Palette,
+        length: bool,
+    ) -> Result<ColourBar> {
+        let bar = ColourBar::fitting(&self.label, &self.unit, self.range, values, length);
+        let mut bar = bar.map_err(|error| {
+            let key = format!("{name}.colours.range");
+            Error::argument(key.trim_start_matches('.'), error.to_string())
+        })?;
+        if bar.palette == Palette::Sequential {
+            bar.palette = palette;
         }
+        Ok(bar)
     }
+}
 
+impl Drawing<'_> {
     /// That everything can be drawn.
     pub(super) fn check(&self) -> Result<()> {
         for (index, body) in self.instances.iter().enumerate() {

@@ -6,6 +6,7 @@ use crate::picture::Palette;
 use crate::picture::colour_bar::ColourBar;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
+use riprap::Result;
 
 /// Balls of one size, each with a colour.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,14 +38,9 @@ pub struct Dot {
 }
 
 impl Drops {
-    pub(super) fn bar(&self) -> anyhow::Result<ColourBar> {
-        let Colours { label, unit, range } = &self.colours;
+    pub(super) fn bar(&self) -> Result<ColourBar> {
         let values = self.drops.iter().map(|drop| drop.value);
-        let mut bar = ColourBar::fitting(label, unit, *range, values, true)?;
-        if bar.palette == Palette::Sequential {
-            bar.palette = Palette::FromBlue;
-        }
-        Ok(bar)
+        self.colours.bar("drops", values, Palette::FromBlue, true)
     }
 
     pub(super) fn check(&self) -> std::result::Result<(), String> {

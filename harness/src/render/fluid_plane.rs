@@ -2,9 +2,9 @@
 
 use super::drawing::{Colours, check_finite};
 use crate::picture::colour_bar::ColourBar;
-use crate::picture::{Plane, Section};
-use anyhow::Result;
+use crate::picture::{Palette, Plane, Section};
 use glam::DVec3;
+use riprap::Result;
 
 /// A quantity on the cells that a plane passes through. Its colours are exactly those of the colour bar: neither light
 /// nor shadow falls on it.
@@ -63,13 +63,13 @@ impl FluidPlane {
         [corner, corner + along, corner + along + up, corner + up]
     }
 
-    pub(super) fn bar(&self) -> Result<ColourBar> {
-        let Colours { label, unit, range } = &self.colours;
+    pub(super) fn bar(&self, index: usize) -> Result<ColourBar> {
         let values = self.values.iter().map(|value| f64::from(*value));
-        ColourBar::fitting(label, unit, *range, values, false)
+        let name = format!("planes[{index}]");
+        self.colours.bar(&name, values, Palette::Sequential, false)
     }
 
-    pub(super) fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> std::result::Result<(), String> {
         if self.plane.normal > 2 {
             let axis = self.plane.normal;
             return Err(format!(

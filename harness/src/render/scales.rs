@@ -1,10 +1,11 @@
 //! The colour scales of a drawing.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Traces};
+use super::drops::Drops;
+use crate::picture::Palette;
 use crate::picture::colour_bar::ColourBar;
-use crate::picture::{Axis, Scale};
 use plotters::style::RGBColor;
-use riprap::{Error, Result};
+use riprap::Result;
 
 /// What the colours of a drawing mean.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,24 +25,18 @@ pub struct Scales {
 impl Scales {
     /// Those of `drawing`.
     pub fn of(drawing: &Drawing<'_>) -> Result<Self> {
-        let (palette, range) = drawing.palette()?;
-        let (label, unit) = match &drawing.colours {
-            Some(colours) => (colours.label.as_str(), colours.unit.as_str()),
-            None => ("", ""),
-        };
+        let colours = drawing.colours.clone().unwrap_or_default();
+        let free = drawing.instances.iter().filter(|body| !body.fixed);
+        let values = free.filter_map(|body| body.value);
         let planes = drawing.planes.iter().enumerate();
-        let planes = planes.map(|(index, plane)| named(&format!("planes[{index}]"), plane.bar()));
-        let traces = drawing.traces.as_ref().map(|traces| traces.bar());
-        let drops = drawing.drops.as_ref().map(|drops| drops.bar());
         Ok(Self {
-            bodies: ColourBar {
-                axis: Axis::new(label, unit, range, Scale::Linear),
-                palette,
-            },
+            bodies: colours.bar("", values, Palette::FromPale, false)?,
             told: drawing.colours.is_some(),
-            planes: planes.collect::<Result<_>>()?,
-            traces: traces.map(|bar| named("traces", bar)).transpose()?,
-            drops: drops.map(|bar| named("drops", bar)).transpose()?,
+            planes: planes
+                .map(|(index, plane)| plane.bar(index))
+                .collect::<Result<_>>()?,
+            traces: drawing.traces.as_ref().map(Traces::bar).transpose()?,
+            drops: drawing.drops.as_ref().map(Drops::bar).transpose()?,
         })
     }
 
@@ -76,11 +71,6 @@ impl Scales {
             .as_ref()
             .map_or([0; 3], |bar| channels(bar.colour(speed)))
     }
-}
-
-/// What is wrong with the colours of something, in the words of the other faults of drawings.
-fn named(name: &str, bar: anyhow::Result<ColourBar>) -> Result<ColourBar> {
-    bar.map_err(|error| Error::argument(format!("{name}.colours.range"), error.to_string()))
 }
 
 fn channels(RGBColor(r, g, b): RGBColor) -> [u8; 3] {

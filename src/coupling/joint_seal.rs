@@ -2,9 +2,8 @@
 
 use super::{
     joint_faces::{NeighbourPart, Poses, add_pressure, covered_polygon, neighbour_parts},
-    joint_rim::{RimEdge, RimParams, find_rim},
+    joint_rim::{Contiguity, RimEdge, RimParams, RimPressure, RimSample, find_rim, propagate},
     kernel_deficit::KernelDeficit,
-    rim_pressure::{Contiguity, RimPressure, RimSample, propagate},
 };
 use crate::{
     geometry::{Form, Load, Pose, Shape, outer},

@@ -6,8 +6,8 @@
 //! first, so that their loads are read while the other bricks run.
 //!
 //! Joints that the fluid does not resolve carry uplift. In a lattice, `uplift` fits the pressure in closed joints to the wet
-//! faces at their rims. In SPH water, `joint_seal` does so: `joint_rim` samples the rims, `rim_pressure` fits the pressure
-//! field and propagates it to blocks without a rim, and `kernel_deficit` is the part of the pressure that the particles
+//! faces at their rims. In SPH water, `joint_seal` does so: `joint_rim` samples the rims, fits the pressure field to
+//! them and propagates it to blocks without a rim, and `kernel_deficit` is the part of the pressure that the particles
 //! miss. `joint_faces` serves both fluids: neighbours over a face, and the area that they cover.
 //!
 //! For blocks of another program the parts serve alone: [`Ambient`] has the buoyancy of a block and the weight of the fluid that moves
@@ -31,41 +31,30 @@
 
 mod added_mass;
 mod advice;
-mod async_readback;
-mod block_cells;
 mod coupled;
 mod exchange;
 mod fluid_load;
 mod gaps;
-mod inlets;
 mod joint_faces;
 mod joint_rim;
 mod joint_seal;
 mod kernel_deficit;
 mod lattice_coupling;
-mod load_average;
-mod lubrication;
-mod particle_advice;
-mod rim_pressure;
 mod rock;
-mod start;
 mod state;
 mod uplift;
 
 pub use added_mass::{AddedMass, InteriorInertia, MassProperties};
-pub use async_readback::{AsyncReadback, Copied};
-pub use block_cells::BlockCell;
+pub use advice::particle_advice;
 pub(crate) use coupled::couple;
-pub use coupled::{Coupled, Exchanges};
+pub use coupled::{BlockCell, Coupled, Exchanges};
 pub(crate) use exchange::longest_exchange;
 pub use exchange::{ExchangeInterval, Fluid, run};
-pub use fluid_load::{Ambient, FluidLoad};
+pub use fluid_load::{Ambient, FluidLoad, LoadAverage};
 pub use gaps::Gap;
-pub(crate) use gaps::gaps;
 pub(crate) use joint_seal::JointSeal;
 pub(crate) use lattice_coupling::LatticeCoupling;
-pub use load_average::LoadAverage;
-pub use particle_advice::particle_advice;
+pub use lattice_coupling::{AsyncReadback, Copied};
 pub use rock::{CouplingParams, InteriorFluid, Rock};
 pub use state::{CouplingState, RockState};
 pub use uplift::JointLoad;

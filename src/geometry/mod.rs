@@ -19,42 +19,29 @@
 //! ```
 
 mod cell;
-mod closed;
-mod compass;
-mod compound;
 mod convex_parts;
-mod from_half_spaces;
-mod from_mesh;
-mod from_vertices;
-mod half_space;
+mod hull;
 mod joint_set;
 mod mesh;
 #[cfg(feature = "mesh")]
 mod mesh_file;
 mod moments;
-mod overlap;
 mod placed;
-mod polygons;
 mod polyhedron;
 mod pose;
-mod random;
 #[cfg(feature = "rock")]
 mod rock_mass;
-mod settle;
 mod shape;
-mod solids;
 mod winding;
 
-pub use compass::Compass;
-pub use half_space::HalfSpace;
-pub use joint_set::{JointSet, Persistence, Scatter};
+pub(crate) use joint_set::uniform;
+pub use joint_set::{Compass, JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
 pub use placed::Placed;
 pub(crate) use placed::clip;
-pub use polyhedron::Polyhedron;
+pub use polyhedron::{HalfSpace, Polyhedron};
 pub use pose::{Load, Pose, skew};
 pub(crate) use pose::{axial, inner, outer};
-pub(crate) use random::uniform;
 #[cfg(feature = "rock")]
 pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
 pub use shape::{Form, Part, Shape};

@@ -5,9 +5,9 @@
 //! of each other, and so all are cut at once, whatever the number of threads.
 
 use super::cell::{Cell, ON};
-use super::from_half_spaces::{cell_of, unit};
 use super::joint_set::Joints;
 use super::polyhedron::SLIVER;
+use super::polyhedron::{cell_of, unit};
 use super::{Compass, HalfSpace, JointSet, Polyhedron};
 use crate::{Error, Result};
 use glam::DVec3;

@@ -1,8 +1,12 @@
-//! The shape of a block: one convex part, or a rigid compound of several.
+//! The shape of a block: one convex part, or a rigid compound of several that do not overlap.
 
-use super::Polyhedron;
-use super::solids::positive;
-use crate::Result;
+use super::{
+    Polyhedron,
+    cell::{Cell, Clip, Facet, ON},
+    moments::outer,
+    polyhedron::positive,
+};
+use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
@@ -108,5 +112,149 @@ impl Shape {
 impl From<Polyhedron> for Shape {
     fn from(polyhedron: Polyhedron) -> Self {
         Self::single(Form::Convex(polyhedron))
+    }
+}
+
+impl Shape {
+    /// The rigid compound of `parts`, their offsets in any common frame (m), and its centroid (m) in
+    /// that frame, which becomes the origin. Volume and inertia are the sums over the parts, which must
+    /// not overlap, or their mass would count twice.
+    ///
+    /// # Errors
+    /// If there is no part, an offset is not finite, a sphere has no radius, or two parts overlap.
+    pub fn compound(parts: Vec<Part>) -> Result<(Self, DVec3)> {
+        if parts.is_empty() {
+            let message = "a compound needs a part; give at least one";
+            return Err(Error::argument("parts", message));
+        }
+        if let Some(bad) = parts.iter().position(|p| !p.offset.is_finite()) {
+            return Err(Error::argument(
+                format!("parts[{bad}].offset"),
+                format!("{} is not finite; give numbers in m", parts[bad].offset),
+            ));
+        }
+        for (index, part) in parts.iter().enumerate() {
+            if let Form::Sphere { radius } = part.form {
+                positive(&format!("parts[{index}].radius"), radius)?;
+            }
+            if let Some(other) = parts[..index].iter().position(|p| p.overlaps(part)) {
+                let message = format!(
+                    "it overlaps parts[{other}], and mass would count twice there; move or cut one \
+                     of them, or give the outline of both as a mesh"
+                );
+                return Err(Error::argument(format!("parts[{index}]"), message));
+            }
+        }
+        let volume: f64 = parts.iter().map(|p| p.form.volume()).sum();
+        let first: DVec3 = parts.iter().map(|p| p.offset * p.form.volume()).sum();
+        let centroid = first / volume;
+        let inertia = parts.iter().fold(DMat3::ZERO, |sum, part| {
+            let r = part.offset - centroid;
+            let steiner = DMat3::IDENTITY * r.length_squared() - outer(r);
+            sum + part.form.inertia() + steiner * part.form.volume()
+        });
+        Ok((Self::of(parts, centroid, volume, inertia), centroid))
+    }
+
+    /// Parts moved to their common centroid, whose mass properties are known.
+    pub(super) fn of(parts: Vec<Part>, centroid: DVec3, volume: f64, inertia: DMat3) -> Self {
+        let moved = parts.into_iter().map(|part| Part {
+            offset: part.offset - centroid,
+            ..part
+        });
+        let parts: Vec<Part> = moved.collect();
+        Self {
+            radius: parts.iter().map(Part::reach).fold(0.0, f64::max),
+            parts,
+            volume,
+            inertia,
+        }
+    }
+}
+
+impl Part {
+    /// Largest distance of a point from the centroid of the shape, m.
+    fn reach(&self) -> f64 {
+        match &self.form {
+            Form::Convex(polyhedron) => {
+                let places = polyhedron.vertices().iter().map(|v| *v + self.offset);
+                let square = places.map(|p| p.length_squared());
+                square.fold(0.0, f64::max).sqrt()
+            }
+            Form::Sphere { radius } => self.offset.length() + radius,
+        }
+    }
+}
+
+/// Share of the smaller part that may be common to two: what rounding of their places makes of parts
+/// that touch.
+const COMMON: f64 = 1e-6;
+
+impl Part {
+    /// Whether the mass of the two would count twice somewhere.
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
+        let apart = self.offset.distance(other.offset);
+        if apart >= self.form.radius() + other.form.radius() {
+            return false;
+        }
+        match (&self.form, &other.form) {
+            (Form::Convex(a), Form::Convex(b)) => {
+                let common = common_volume(a, self.offset, b, other.offset);
+                common > COMMON * a.volume().min(b.volume())
+            }
+            (Form::Sphere { radius: a }, Form::Sphere { radius: b }) => {
+                a + b - apart > COMMON * a.min(*b)
+            }
+            (Form::Sphere { radius }, Form::Convex(p)) => {
+                p.distance(self.offset - other.offset) < (1.0 - COMMON) * radius
+            }
+            (Form::Convex(p), Form::Sphere { radius }) => {
+                p.distance(other.offset - self.offset) < (1.0 - COMMON) * radius
+            }
+        }
+    }
+}
+
+/// Volume of what is in both, m³.
+fn common_volume(a: &Polyhedron, at_a: DVec3, b: &Polyhedron, at_b: DVec3) -> f64 {
+    let facets = a.faces().iter().zip(a.loops()).map(|(face, ring)| Facet {
+        plane: *face,
+        source: 0,
+        ring: ring.clone(),
+    });
+    let mut cell = Cell::new(a.vertices().to_vec(), facets.collect());
+    let on = ON * a.radius();
+    for face in b.faces() {
+        if cell.clip(face.seen_from(at_a - at_b), 0, on) == Clip::Nothing {
+            return 0.0;
+        }
+    }
+    cell.moments(DVec3::ZERO).volume
+}
+
+impl Polyhedron {
+    /// Distance of a point, m from the centroid; 0 inside.
+    pub(crate) fn distance(&self, point: DVec3) -> f64 {
+        let at = |v: u32| self.vertices()[v as usize];
+        if self.faces().iter().all(|f| f.height(point) <= 0.0) {
+            return 0.0;
+        }
+        let edges = self.edges().iter().map(|[a, b]| {
+            let (a, along) = (at(*a), at(*b) - at(*a));
+            let t = (point - a).dot(along) / along.length_squared();
+            (a + along * t.clamp(0.0, 1.0)).distance(point)
+        });
+        // Of a face that the point is straight above.
+        let faces = self.faces().iter().zip(self.loops());
+        let faces = faces.filter_map(|(face, ring)| {
+            let height = face.height(point);
+            let mut sides = ring.iter().zip(ring.iter().cycle().skip(1));
+            let above = sides.all(|(a, b)| {
+                let inwards = face.normal.cross(at(*b) - at(*a));
+                inwards.dot(point - at(*a)) >= 0.0
+            });
+            (height > 0.0 && above).then_some(height)
+        });
+        edges.chain(faces).fold(f64::INFINITY, f64::min)
     }
 }

@@ -21,28 +21,15 @@
 //! # Ok::<(), riprap::Error>(())
 //! ```
 
-mod appended;
 mod csv;
 mod image;
 mod pvd;
-mod quantities;
 mod replace;
-mod sample;
-mod surface;
-mod table;
-mod vti;
-mod vtp;
-mod vtu;
-mod xml;
+mod vtk;
 
-pub use csv::Csv;
-pub use image::{Array, Image};
+pub use csv::{Csv, Table};
+pub use image::{Array, Image, VelocityQuantities};
 pub use pvd::Pvd;
-pub use quantities::VelocityQuantities;
 pub(crate) use replace::failure;
 pub use replace::replace;
-pub use surface::{Surface, write_surface};
-pub use table::Table;
-pub use vti::write_vti;
-pub use vtp::{Cloud, write_vtp};
-pub use vtu::{Polyhedra, write_vtu};
+pub use vtk::{Cloud, Polyhedra, Surface, write_surface, write_vti, write_vtp, write_vtu};

@@ -1,7 +1,7 @@
 //! PVD: the list of a run's images over time, the file to open in ParaView.
 
 use super::replace::{failure, replace};
-use super::xml::{attribute, escape};
+use super::vtk::{attribute, escape};
 use crate::{Error, Result};
 use std::fs;
 use std::io::ErrorKind;

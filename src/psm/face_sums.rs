@@ -3,9 +3,8 @@
 use super::{
     FACE_LOAD, FaceJob, Plan, Tile,
     kernels::{Growing, Kernels, made},
-    plan::SKIN,
     program,
-    tiles::{Outline, imaged},
+    tiles::{Outline, SKIN, imaged},
 };
 use crate::{Result, gpu::kernel::Kernel, lattice::Lattice};
 use glam::DVec3;

@@ -62,8 +62,6 @@ mod frame;
 mod kernels;
 mod load;
 mod near_cells;
-mod outline;
-mod plan;
 mod program;
 mod solid_cells;
 mod tables;
@@ -72,6 +70,7 @@ mod tiles;
 pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
+pub(crate) use near_cells::{near_cells, outline};
 #[doc(hidden)]
 pub use program::{
     Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, Walk, combine_parts, constants, reduce_blocks,
@@ -83,9 +82,6 @@ pub use tables::{
     FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
     Tile, WRENCH,
 };
-
-pub(crate) use near_cells::near_cells;
-pub(crate) use outline::outline;
 pub(crate) use tiles::imaged;
 
-use plan::Plan;
+use tiles::Plan;

@@ -5,7 +5,7 @@ use super::{
     face_sums::FaceSums,
     frame::MAX_DISTANCE,
     kernels::Kernels,
-    outline::{outline, rows},
+    near_cells::{outline, rows},
     tiles::{Outline, Tiling},
 };
 use crate::{

@@ -3,16 +3,14 @@
 use super::{
     Body, ContactPoint, EnergyLedger, Setup, Sleep,
     body::{self, MidStep, State},
-    candidate_pairs::{CandidatePair, SkinReference, usual_skin},
+    candidate_pairs::{CandidatePair, PlacedParts, SkinReference, usual_skin},
     check,
     contact_list::{ContactList, ContactSum},
     deforming::{DeformingBlocks, pose},
     energy::{BodyStates, WorkSums},
     films::Films,
-    narrowphase::Joints,
+    narrowphase::{Joints, ResolverPool},
     period::Periods,
-    placed_parts::PlacedParts,
-    resolver_pool::ResolverPool,
     step::{StepTimes, is_time},
     time_step,
 };

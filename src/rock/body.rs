@@ -1,16 +1,15 @@
-//! One block: its constants ([`Body`]), its state ([`State`]), and its motion in a step.
+//! One block: its constants ([`Body`]), its state ([`State`]), the forces applied to it, and its motion in a step.
 
 use super::{
-    Block, Motion, Setup,
-    applied_forces::{self, AppliedForces},
+    Block, Motion, PointLoad, Setup, Sleep,
     contact_list::ContactSum,
     deforming::{DeformingBlocks, RIGID, StepParams},
     films::FilmImpulse,
 };
 use crate::{
     formula::Formula,
-    geometry::{Pose, Shape},
-    rock::integrate::{self, Principal},
+    geometry::{Pose, Shape, outer},
+    rock::integrate::{self, Principal, Wrench},
 };
 use glam::{DMat3, DQuat, DVec3};
 use std::{ops::Range, sync::Arc};
@@ -72,7 +71,7 @@ impl Body {
         let Drive::Formulas(formulas) = &self.drive else {
             return [DVec3::ZERO; 2];
         };
-        formulas.each_ref().map(|v| applied_forces::value(v, t))
+        formulas.each_ref().map(|v| formula_values(v, t))
     }
 
     /// The formula of a driven block that is not finite at the time `t` (s), if one is.
@@ -344,4 +343,92 @@ fn start(body: &Body, block: &Block) -> State {
         Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
     }
     state
+}
+
+/// Point loads and the acceleration of one block, in addition to gravity, contacts and loads.
+#[derive(Clone, Debug)]
+pub(super) struct AppliedForces {
+    point_loads: Vec<PointLoad>,
+    acceleration: Option<[Formula; 3]>,
+}
+
+impl AppliedForces {
+    /// Of a block, if there is something.
+    pub fn of(block: &Block) -> Option<Box<Self>> {
+        let some = !block.point_loads.is_empty() || block.acceleration.is_some();
+        some.then(|| {
+            Box::new(Self {
+                point_loads: block.point_loads.clone(),
+                acceleration: block.acceleration.clone(),
+            })
+        })
+    }
+
+    /// Force and moment about the centroid at the time `t` (s) on the block of `mass` (kg) and
+    /// `deformation`.
+    pub fn wrench(&self, deformation: DMat3, mass: f64, t: f64) -> Wrench {
+        let mut wrench = Wrench {
+            force: self
+                .acceleration
+                .as_ref()
+                .map_or(DVec3::ZERO, |a| mass * formula_values(a, t)),
+            moment: DMat3::ZERO,
+        };
+        for load in &self.point_loads {
+            let force = formula_values(&load.force, t);
+            wrench.force += force;
+            wrench.moment += outer(force, deformation * load.point);
+        }
+        wrench
+    }
+}
+
+/// The value of three formulas of t (s).
+pub(super) fn formula_values(formulas: &[Formula; 3], t: f64) -> DVec3 {
+    DVec3::from_array(formulas.each_ref().map(|f| f.eval_at([0.0; 3], t)))
+}
+
+impl State {
+    /// Speed of its fastest point, m/s.
+    pub fn fastest(&self, radius: f64) -> f64 {
+        self.velocity.length() + self.spin.length() * radius
+    }
+
+    fn pulls(&self) -> [DVec3; 2] {
+        [self.force + self.load, self.torque + self.load_torque]
+    }
+
+    /// Wakes a sleeper whose forces have changed. It has been at rest up to now, so that the rest of the
+    /// step moves it as it would have moved a block that was awake.
+    pub fn wake(&mut self, body: &Body, sleep: &Sleep, gravity: DVec3) {
+        let [force, torque] = self.pulls();
+        let [slept, slept_torque] = self.slept;
+        let weight = body.mass * gravity.length();
+        let scale = if weight > 0.0 { weight } else { slept.length() };
+        let changed = (force - slept).length() > sleep.change * scale
+            || (torque - slept_torque).length() > sleep.change * scale * body.radius;
+        if self.asleep && changed {
+            self.asleep = false;
+            self.slow = 0.0;
+        }
+    }
+
+    /// Falls asleep at the end of a step of `dt` (s), if it has been slow for long enough.
+    pub fn update_sleep(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
+        if self.asleep {
+            return;
+        }
+        if self.fastest(body.radius) >= sleep.speed {
+            self.slow = 0.0;
+            return;
+        }
+        self.slow += dt;
+        if self.slow >= sleep.after {
+            self.asleep = true;
+            self.slept = self.pulls();
+            self.velocity = DVec3::ZERO;
+            self.momentum = DVec3::ZERO;
+            self.spin = DVec3::ZERO;
+        }
+    }
 }

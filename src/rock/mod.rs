@@ -36,10 +36,8 @@ pub mod contact;
 pub mod integrate;
 pub mod law;
 
-mod applied_forces;
 mod blocks;
 mod body;
-mod bonds;
 mod candidate_pairs;
 mod check;
 mod contact_list;
@@ -48,16 +46,11 @@ mod energy;
 mod films;
 mod narrowphase;
 mod period;
-mod placed_parts;
 mod relax;
-mod resolver_pool;
 mod setup;
-mod sleep;
 mod snapshot;
 mod step;
-mod stress;
 mod time_step;
-mod tunnelling;
 
 pub use blocks::Blocks;
 pub use contact_list::ContactPoint;

@@ -1,26 +1,27 @@
-//! The forces of all contacts: in parallel over the pairs, in the order of the pairs.
+//! The forces of all contacts and bonds: in parallel over the pairs, in the order of the pairs.
 
 use super::{
     Body,
     body::MidStep,
-    bonds::unbonded,
-    candidate_pairs::CandidatePair,
+    candidate_pairs::{CandidatePair, PlacedParts},
     contact_list::{CHUNK, Chunk, Contact, ContactList, DISTANCES_PER_LIMIT, NO_CONTACT},
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     period::Periods,
-    placed_parts::PlacedParts,
-    resolver_pool::ResolverPool,
 };
 use crate::{
     Error, Result,
     rock::{
-        contact::{Bond, ContactGeometry, Resolver, ThinGap, Verdict},
+        contact::{Bond, ContactGeometry, Counts, Options, Placed, Resolver, ThinGap, Verdict},
         law::{self, History, Joint},
     },
 };
 use glam::DVec3;
 use rayon::prelude::*;
+use std::{
+    fmt,
+    sync::{Mutex, PoisonError},
+};
 
 /// Share of the square of a block's width that one of the four corners of its face carries: see
 /// [`Setup::corner_area`](super::Setup::corner_area).
@@ -336,4 +337,118 @@ impl Narrowphase<'_> {
 /// A block in a message.
 pub(super) fn label(index: usize, name: &str) -> String {
     format!("blocks[{index}] ({name})")
+}
+
+impl Narrowphase<'_> {
+    /// The contact of a bond at the present poses of its parts; none where it breaks.
+    pub(super) fn bonded_contact(
+        &self,
+        ids: PairIds,
+        [first, second]: [&Placed; 2],
+        bond: &Bond,
+        before: Option<&Contact>,
+    ) -> Option<Contact> {
+        let PairIds {
+            parts,
+            blocks,
+            image_shift,
+        } = ids;
+        let now = bond.state(first, second);
+        let joint = self.joint(blocks);
+        let section = law::Section {
+            normal: now.normal,
+            overlap: now.overlap,
+            area: bond.area,
+            elastic_area: bond.area,
+            rolls: false,
+            opening: now.overlap - now.smallest_overlap(bond),
+        };
+        let fresh = History {
+            bonded: true,
+            ..History::default()
+        };
+        let history = before.map_or(fresh, |contact| contact.force.history);
+        let motion = self.motion(blocks, now.point, image_shift);
+        let force = law::force(joint, &section, &motion, &history);
+        force.history.bonded.then(|| Contact {
+            parts,
+            blocks,
+            image_shift,
+            point: now.point,
+            pressure_centre: now.point,
+            normal: now.normal,
+            overlap: now.overlap,
+            area: bond.area,
+            section: bond.area,
+            width: bond.width(),
+            limit: 0.1 * first.smallest_distance.min(second.smallest_distance),
+            force: law::Force {
+                bending: joint.normal_stiffness * now.moment(bond),
+                ..force
+            },
+            bond: *bond,
+            stored: before.map_or(0.0, |contact| contact.stored),
+            power: before.map_or(0.0, |contact| contact.power),
+        })
+    }
+}
+
+/// History of a contact without a bond.
+pub(super) fn unbonded(contact: &Contact) -> History {
+    History {
+        bonded: false,
+        slip: 0.0,
+        ..contact.force.history
+    }
+}
+
+/// One resolver a thread.
+pub(super) struct ResolverPool {
+    options: Options,
+    one_a_thread: Vec<Mutex<Resolver>>,
+}
+
+impl fmt::Debug for ResolverPool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Resolvers")
+            .field("options", &self.options)
+            .field("threads", &self.one_a_thread.len())
+            .finish()
+    }
+}
+
+impl ResolverPool {
+    pub fn new(options: Options) -> Self {
+        Self {
+            options,
+            one_a_thread: Vec::new(),
+        }
+    }
+
+    /// What all of them have done.
+    pub fn counts(&self) -> Counts {
+        let mut sum = Counts::default();
+        for resolver in &self.one_a_thread {
+            let resolver = resolver.lock().unwrap_or_else(PoisonError::into_inner);
+            sum += resolver.counts();
+        }
+        sum
+    }
+
+    /// Makes as many as there are `threads`.
+    pub fn prepare(&mut self, threads: usize) {
+        let options = self.options;
+        let new = || Mutex::new(Resolver::new(options));
+        while self.one_a_thread.len() < threads {
+            self.one_a_thread.push(new());
+        }
+    }
+
+    /// Lends this thread's to `work`.
+    pub fn with<T>(&self, work: impl FnOnce(&mut Resolver) -> T) -> T {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let resolver = &self.one_a_thread[thread % self.one_a_thread.len()];
+        // A resolver holds nothing from one pair to the next: one that a panic left is as good.
+        work(&mut resolver.lock().unwrap_or_else(PoisonError::into_inner))
+    }
 }

@@ -1,12 +1,13 @@
-//! What a simulation shows, in SI.
+//! What a fluid shows, in SI, and its totals.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
     Error, Result,
     coupling::{Coupled, Rock},
     lattice::Derived,
-    output::{Array, Image},
+    output::{Array, Cloud, Image},
     scene::Field,
+    sph::Water,
 };
 
 /// Sums over the fluid, SI.
@@ -180,4 +181,33 @@ fn interleave([x, y, z]: &[Vec<f32>; 3], scale: f32) -> Vec<f32> {
     let each = x.iter().zip(y).zip(z);
     each.flat_map(|((x, y), z)| [x * scale, y * scale, z * scale])
         .collect()
+}
+
+/// The particles of `water` as points with their ids and `fields`: velocity (m/s), pressure (Pa) and density (kg/m³).
+/// Particles carry no other field.
+pub fn point_cloud(water: &Water, fields: &[Field]) -> Cloud {
+    let scalar = |values: &[f64]| values.iter().map(|v| *v as f32).collect();
+    let array = |field: &Field| {
+        let values: Vec<f32> = match field {
+            Field::Velocity => water.velocities.iter().flat_map(|v| v.to_array()).collect(),
+            Field::Pressure => scalar(&water.pressures),
+            Field::Density => scalar(&water.densities),
+            _ => return None,
+        };
+        Some(Array {
+            name: field.name().into(),
+            components: field.components(),
+            values,
+        })
+    };
+    let mut arrays: Vec<Array> = fields.iter().filter_map(array).collect();
+    arrays.push(Array {
+        name: "id".into(),
+        components: 1,
+        values: water.ids.iter().map(|id| *id as f32).collect(),
+    });
+    Cloud {
+        points: water.positions.iter().map(|x| x.to_array()).collect(),
+        arrays,
+    }
 }

@@ -3,30 +3,24 @@
 mod block_fields;
 pub mod checkpoint;
 mod diverged;
-mod face_surface;
 mod fields;
 mod lattice_fluid;
 mod needs;
-mod point_cloud;
 pub mod probe;
 mod rock_step;
 mod sensors;
 mod sph_fluid;
-mod wall_cells;
 mod wall_units;
-mod water_ledger;
-
-pub use block_fields::{block_polyhedra, contact_cloud, voigt};
-pub use checkpoint::Kind;
-pub use face_surface::face_surface;
-pub use fields::Totals;
-pub use needs::{LatticeNeeds, Needs};
-pub use point_cloud::point_cloud;
-pub use sensors::Reading;
-pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
-pub use water_ledger::WaterLedger;
 
 pub use crate::gpu::timer::Phase;
+pub use block_fields::{block_polyhedra, contact_cloud, face_surface, voigt};
+pub use checkpoint::Kind;
+pub use fields::{Totals, point_cloud};
+pub use needs::{LatticeNeeds, Needs};
+pub use sensors::Reading;
+pub use sph_fluid::WaterLedger;
+pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
+
 use crate::{
     Error, Result,
     coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock},

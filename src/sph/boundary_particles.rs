@@ -2,11 +2,9 @@
 
 use super::{
     Side,
-    convex_part::ConvexPart,
     layer_polygon::{LayerBounds, LayerEdge, LayerPoint, LayerPolygon},
-    particle_lattice::ParticleLattice,
-    solid::{Faces, Solid, solids},
-    spatial_hash::SpatialHash,
+    particle_lattice::{ParticleLattice, SpatialHash},
+    solid::{ConvexPart, Faces, Solid, solids},
 };
 use crate::{
     Error, Result,

@@ -3,10 +3,9 @@
 use super::{
     BodyMotion, CellGrid, Clock, CountingSort, Hull, NeighbourSearch, ReferencePosition, Scheme,
     Setup, SortedParticles, WallWork,
-    body_loads::{BodyLoads, hull_starts},
-    hulls::HullSet,
+    bodies::{BodyLoads, HullSet, hull_starts},
     neighbour_lists::{NeighbourLists, PairKernels, PairPasses, boundary_capacity, fluid_capacity},
-    pressure_probes::PressureProbes,
+    probes::PressureProbes,
     program,
 };
 use crate::{

@@ -34,28 +34,19 @@
 //! ```
 
 mod bodies;
-mod body_history;
-mod body_loads;
 mod boundary_particles;
 mod cell_grid;
-mod convex_part;
-mod counting_sort;
-mod equation_of_state;
 mod fill;
-mod gauges;
-mod hulls;
-mod hydrostatic_start;
 mod kernels;
 mod layer_polygon;
 mod layout;
 mod neighbour_lists;
 mod particle_lattice;
-mod pressure_probes;
+mod probes;
 mod program;
 mod setup;
 mod solid;
 mod solver;
-mod spatial_hash;
 mod speed_estimate;
 mod water;
 mod wendland;
@@ -63,18 +54,17 @@ mod wendland;
 pub use bodies::bodies;
 pub use boundary_particles::boundary_particles;
 pub use cell_grid::CellGrid;
-pub(crate) use convex_part::ConvexPart;
-#[doc(hidden)]
-pub use counting_sort::{CountingSort, SortedParticles};
-pub use equation_of_state::EquationOfState;
 pub use fill::{Start, WaterBody, fill, water_volume};
-pub use gauges::Gauges;
 pub use kernels::Counts;
 pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork};
+#[doc(hidden)]
+pub use neighbour_lists::{CountingSort, SortedParticles};
 pub use particle_lattice::ParticleLattice;
+pub use probes::Gauges;
 #[doc(hidden)]
 pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
-pub use setup::{Body, NeighbourSearch, Scheme, Setup, Side};
+pub use setup::{Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side};
+pub(crate) use solid::ConvexPart;
 pub use solid::{Faces, Solid};
 pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};
 pub use speed_estimate::SpeedEstimate;

@@ -2,8 +2,7 @@
 
 use super::{
     BodyMotion, CellGrid, Clock, Counts, Particle, ReferencePosition, Setup, Water,
-    body_history::BodyHistory,
-    hulls::{self, check_loop_iterations},
+    bodies::{BodyHistory, check_loop_iterations, hulls},
     kernels::{Kernels, LOAD_LEN, ListCapacities},
     layout::{columns, sort_escaped},
     neighbour_lists::grown_capacity,
@@ -142,7 +141,7 @@ impl SphSolver {
             bodies: order.len() as u32,
             loaded_bodies: setup.bodies.iter().filter(|body| body.loaded).count() as u32,
         };
-        let hull_set = hulls::hulls(&setup, &grid, &order);
+        let hull_set = hulls(&setup, &grid, &order);
         check_loop_iterations(device, &hull_set.hulls)?;
         if positions.is_empty() {
             let message = "there is no particle; give one at least, or leave the water out";

@@ -1,6 +1,6 @@
 //! Estimates of the largest speeds in a scene.
 
-use super::{Start, convex_part::ConvexPart};
+use super::{Start, solid::ConvexPart};
 use crate::{
     formula::Formula,
     geometry::uniform,

@@ -2,7 +2,7 @@
 //! box lies in the one cell of its level that holds its lower corner, and looks through the cells
 //! of its own and all coarser levels from which a box can reach it.
 
-use super::{Aabb, Boxes, Broadphase, sorted_pairs};
+use super::{Aabb, Boxes, Broadphase, exact_pairs};
 use crate::{
     Result,
     gpu::bins::{DeviceBox, Level, buckets},
@@ -37,7 +37,7 @@ impl Broadphase for HostBroadphase {
             found
         });
         let found = found.collect::<Vec<_>>().concat();
-        Ok(sorted_pairs::exact(aabbs, &found))
+        Ok(exact_pairs(aabbs, &found))
     }
 }
 

@@ -3,20 +3,15 @@
 //! Broadphases take boxes as they are given: to keep a list for several steps, grow the
 //! boxes by a skin first, and search again once something has moved half of it.
 
-use crate::Result;
-
-mod auto;
 mod boxes;
-mod comparison;
 mod device;
 mod host;
-mod sorted_pairs;
 
-pub use auto::AutoBroadphase;
 pub use boxes::{Boxes, FARTHEST};
-pub use comparison::{Header, Search};
-pub use device::DeviceBroadphase;
+pub use device::{DeviceBroadphase, Header, Search};
 pub use host::HostBroadphase;
+
+use crate::Result;
 
 /// A box along the axes around something that may touch others, already grown by the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,3 +49,88 @@ pub trait Broadphase {
 
 /// Most storage buffers in a kernel of [`DeviceBroadphase`].
 pub const MAX_STORAGE_BUFFERS: u32 = 6;
+
+/// Searches on the host for few boxes and on the device for many; the list is the same.
+///
+/// The kernels are compiled when the device is first used.
+#[derive(Debug)]
+pub struct AutoBroadphase {
+    /// Items from which on the device is used.
+    pub crossover: usize,
+    device: Option<(wgpu::Device, wgpu::Queue)>,
+    device_broadphase: Option<DeviceBroadphase>,
+}
+
+impl AutoBroadphase {
+    /// Items from which on a GPU is used. An estimate: the host takes 0.5 to 1 µs of CPU time an
+    /// box, and two submissions that are waited for take some hundred microseconds with a usual driver.
+    /// `cargo bench --bench broadphase` measures it for a device.
+    pub const GPU_CROSSOVER: usize = 1000;
+
+    /// Uses `device` from [`Self::GPU_CROSSOVER`] boxes on, and not at all if it computes on the
+    /// CPU: on lavapipe a search takes 5 to 8 times the CPU time of the host's for 10³ to 10⁵ boxes
+    /// of one size or of sizes 1:100, and more for fewer.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let crossover = match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => usize::MAX,
+            _ => Self::GPU_CROSSOVER,
+        };
+        Self {
+            crossover,
+            device: Some((device.clone(), queue.clone())),
+            device_broadphase: None,
+        }
+    }
+
+    /// Searches on the host alone.
+    pub fn on_host() -> Self {
+        Self {
+            crossover: usize::MAX,
+            device: None,
+            device_broadphase: None,
+        }
+    }
+}
+
+impl Broadphase for AutoBroadphase {
+    async fn pairs(&mut self, aabbs: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+        let (device, queue) = match &self.device {
+            Some(device) if aabbs.len() >= self.crossover => device,
+            _ => return HostBroadphase.pairs(aabbs).await,
+        };
+        let broadphase = match &mut self.device_broadphase {
+            Some(broadphase) => broadphase,
+            empty => empty.insert(DeviceBroadphase::new(device, queue)?),
+        };
+        broadphase.pairs(aabbs).await
+    }
+}
+
+/// Sorts pairs (i, j), i < j, by counting, linear in boxes and pairs, and takes those whose boxes
+/// overlap in f64.
+fn exact_pairs(aabbs: &[Aabb], found: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let mut ends = vec![0; aabbs.len() + 1];
+    for [first, _] in found {
+        ends[*first as usize + 1] += 1;
+    }
+    for n in 0..aabbs.len() {
+        ends[n + 1] += ends[n];
+    }
+    // The start of each row moves to its end as the row is filled.
+    let mut seconds = vec![0; found.len()];
+    for [first, second] in found {
+        let end = &mut ends[*first as usize];
+        seconds[*end] = *second;
+        *end += 1;
+    }
+    let mut list = Vec::with_capacity(found.len());
+    let mut start = 0;
+    for ((number, item), end) in (0..).zip(aabbs).zip(ends) {
+        let row = &mut seconds[start..end];
+        row.sort_unstable();
+        let exact = row.iter().filter(|j| item.overlaps(&aabbs[**j as usize]));
+        list.extend(exact.map(|j| [number, *j]));
+        start = end;
+    }
+    list
+}

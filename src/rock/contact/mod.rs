@@ -35,31 +35,18 @@
 //! ```
 
 mod bond;
-mod cache;
 mod centre;
-mod closed_form_proofs;
-mod counts;
-mod describe;
-mod envelope;
-mod normal;
-mod options;
+mod closed_form;
 mod pair;
 mod polygon;
 mod program;
 mod projection;
-mod prove;
 mod resolver;
 mod section;
-mod separation;
-mod sphere;
 mod thin_gap;
-mod verdict;
 
 pub use crate::geometry::Placed;
 pub use bond::{Bond, BondState};
-pub use cache::Cache;
-pub use counts::Counts;
-pub use options::{Normal, Options};
-pub use resolver::Resolver;
+pub use pair::Cache;
+pub use resolver::{ContactGeometry, Counts, Normal, Options, Resolver, Verdict};
 pub use thin_gap::{GapShape, ThinGap};
-pub use verdict::{ContactGeometry, Verdict};

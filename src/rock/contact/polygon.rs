@@ -1,6 +1,6 @@
 //! A convex polygon in a plane, cut by lines.
 
-use super::envelope::Bound;
+use super::section::Bound;
 use glam::DVec2;
 
 /// Corners in order. Lengths in L, the origin inside.

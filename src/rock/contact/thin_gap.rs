@@ -2,9 +2,9 @@
 
 use super::{
     Placed,
+    closed_form::sphere_polyhedron,
     polygon::Polygon,
     section::{FLAT_FACES, ramp},
-    sphere,
 };
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -96,7 +96,7 @@ fn balls(a: &Placed, b: &Placed) -> ThinGap {
 
 /// A sphere near a polyhedron, unless it is over an edge or a corner.
 fn ball_over_face(block: &Placed, ball: &Placed) -> Option<ThinGap> {
-    let near = sphere::polyhedron(block, ball);
+    let near = sphere_polyhedron(block, ball);
     let normal = near.contact.normal;
     let over = |face: &crate::geometry::HalfSpace| face.normal.dot(normal) > OVER_FACE;
     let gap = near.gap.max(0.0);

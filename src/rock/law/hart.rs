@@ -13,8 +13,13 @@
 //! A bond is a contact whose springs pull too: it keeps the area that it began with, and bends over it as an elastic
 //! bed. It breaks, for good, where its tension reaches σ_t at a corner, or where it has slipped by σ_t/k_s: as far as
 //! it opens before it breaks. It has no spring against a twist about its normal, which dashpots slow alone. What is left is the contact without tension.
+//!
+//! Hart, Cundall & Lemos 1988: the longest stable step, from an upper bound of the highest frequency.
+//!
+//! ω² = max over the blocks of 2·max(Σ(k_n + k_s) A/m, Σ(k_n + k_s) A (|r|² + w²/4)/I_min), r from the
+//! block's centroid to the contact, w the width of its section; Δt ≤ share · 2/ω.
 
-use super::Joint;
+use crate::{Error, Result};
 use glam::{DQuat, DVec3};
 
 /// What a contact remembers from step to step.
@@ -198,4 +203,125 @@ fn turned(history: &History, normal: DVec3, motion: &Motion) -> DVec3 {
     let shear = DQuat::from_axis_angle(normal, angle) * (arc * (motion.frame * history.shear));
     // Rounding leaves no part along the normal.
     shear - normal * shear.dot(normal)
+}
+
+/// Stiffness and strength of the joint between two faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// k_n, Pa/m.
+    pub normal_stiffness: f64,
+    /// k_s, Pa/m.
+    pub shear_stiffness: f64,
+    /// φ, rad.
+    pub friction_angle: f64,
+    /// c, Pa.
+    pub cohesion: f64,
+    /// σ_t, Pa, of the faces that touch at the start, until their bond breaks.
+    pub tensile_strength: f64,
+    /// ζ, of the critical damping of the two blocks on the contact's springs.
+    pub damping: f64,
+}
+
+impl Default for Joint {
+    /// Dry rock: 1 GPa/m in both directions, 30°, ζ = 0.1.
+    fn default() -> Self {
+        Self {
+            normal_stiffness: 1e9,
+            shear_stiffness: 1e9,
+            friction_angle: 30f64.to_radians(),
+            cohesion: 0.0,
+            tensile_strength: 0.0,
+            damping: 0.1,
+        }
+    }
+}
+
+impl Joint {
+    /// The joint of two materials without a pair of their own: the harmonic mean of
+    /// the stiffnesses (springs in series), the weaker of the strengths, the mean of the dampings.
+    /// Two faces of one material have that material's joint.
+    pub fn between(a: &Self, b: &Self) -> Self {
+        let series = |a: f64, b: f64| 2.0 / (1.0 / a + 1.0 / b);
+        Self {
+            normal_stiffness: series(a.normal_stiffness, b.normal_stiffness),
+            shear_stiffness: series(a.shear_stiffness, b.shear_stiffness),
+            friction_angle: a.friction_angle.min(b.friction_angle),
+            cohesion: a.cohesion.min(b.cohesion),
+            tensile_strength: a.tensile_strength.min(b.tensile_strength),
+            damping: 0.5 * (a.damping + b.damping),
+        }
+    }
+
+    /// Whether the numbers can be computed with.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] at `place`, naming the number and its range.
+    pub fn check(&self, place: &str) -> Result<()> {
+        let refuse = |name: &str, value: f64, range: &str| {
+            Err(Error::argument(
+                format!("{place}.{name}"),
+                format!("{value} must be {range}"),
+            ))
+        };
+        for (name, value) in [
+            ("normal_stiffness", self.normal_stiffness),
+            ("shear_stiffness", self.shear_stiffness),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return refuse(name, value, "greater than 0 Pa/m");
+            }
+        }
+        for (name, value) in [
+            ("cohesion", self.cohesion),
+            ("tensile_strength", self.tensile_strength),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return refuse(name, value, "0 Pa or more");
+            }
+        }
+        if !(0.0..std::f64::consts::FRAC_PI_2).contains(&self.friction_angle) {
+            return refuse(
+                "friction_angle",
+                self.friction_angle,
+                "at least 0 and less than π/2 rad (90°)",
+            );
+        }
+        if !(0.0..=1.0).contains(&self.damping) {
+            return refuse("damping", self.damping, "between 0 and 1");
+        }
+        Ok(())
+    }
+}
+
+/// Share of 2/ω that a step takes by default.
+pub const USUAL_SHARE: f64 = 0.1;
+/// Largest share of 2/ω that a step may take.
+pub const LARGEST_SHARE: f64 = 0.2;
+
+/// The springs that hold one block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stiffness {
+    /// Σ(k_n + k_s) A, N/m.
+    pub translation: f64,
+    /// Σ(k_n + k_s) A (|r|² + w²/4), N m.
+    pub rotation: f64,
+}
+
+impl Stiffness {
+    /// Adds a contact of `area` (m²) and `width` (m) at `arm` (m) from the centroid.
+    pub fn add(&mut self, joint: &Joint, area: f64, arm: DVec3, width: f64) {
+        let k = (joint.normal_stiffness + joint.shear_stiffness) * area;
+        self.translation += k;
+        self.rotation += k * (arm.length_squared() + 0.25 * width * width);
+    }
+
+    /// ω² of a block of `mass` (kg) and least moment of inertia `moment` (kg m²), rad²/s².
+    pub fn frequency_squared(&self, mass: f64, moment: f64) -> f64 {
+        2.0 * (self.translation / mass).max(self.rotation / moment)
+    }
+}
+
+/// `share` of 2/ω, s; infinite without springs.
+pub fn longest_step(share: f64, frequency_squared: f64) -> f64 {
+    share * 2.0 / frequency_squared.sqrt()
 }

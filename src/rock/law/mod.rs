@@ -4,13 +4,12 @@
 mod elastic;
 mod film;
 mod hart;
-mod joint;
-mod stability;
 
 pub(crate) use crate::geometry::inner;
 pub(crate) use elastic::trace;
 pub use elastic::{Elastic, von_mises};
 pub use film::Film;
-pub use hart::{Force, History, Motion, Section, force};
-pub use joint::Joint;
-pub use stability::{LARGEST_SHARE, Stiffness, USUAL_SHARE, longest_step};
+pub use hart::{
+    Force, History, Joint, LARGEST_SHARE, Motion, Section, Stiffness, USUAL_SHARE, force,
+    longest_step,
+};

@@ -26,12 +26,9 @@
 //!   and the centre of the cell face with the largest pressure: the stagnation point.
 
 mod cells;
-mod interpolate;
-mod layer;
 mod points;
-mod statistics;
 
-pub use layer::Layer;
+pub use points::Layer;
 
 use crate::{
     Error, Result,
@@ -39,8 +36,7 @@ use crate::{
     scene::{Field, Probe, ProbePlace, Scene},
 };
 use cells::Cells;
-use points::Points;
-use statistics::{Face, box_rows};
+use points::{Face, Points, box_rows};
 
 /// A probe placed on the cells of a scene.
 #[derive(Clone, Debug)]

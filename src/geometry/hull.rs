@@ -5,8 +5,10 @@
 //! faces are the hull's vertices and its vertices are the hull's faces. The cell that cuts half-spaces
 //! cuts these too, drops duplicates and points inside as redundant, and makes coplanar points one face.
 
-use super::cell::{Cell, ON};
-use super::{HalfSpace, Polyhedron};
+use super::{
+    HalfSpace, Polyhedron,
+    cell::{Cell, ON},
+};
 use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 

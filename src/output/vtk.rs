@@ -1,0 +1,360 @@
+//! VTK XML files (format version 1.0) of cells, points, polygons and polyhedra: raw binary arrays appended behind the XML.
+
+use super::{Array, Image, replace::replace};
+use crate::{Error, Result};
+use std::{
+    fmt::Write as _,
+    io::{self, Write},
+    path::Path,
+};
+
+/// Writes `image` to `path` for ParaView, little endian, replacing an older file only when done.
+///
+/// # Errors
+/// [`Error::File`] if an array does not fill the cells or the file cannot be written.
+pub fn write_vti(path: impl AsRef<Path>, image: &Image) -> Result<()> {
+    let path = path.as_ref();
+    if let Some(fault) = image.fault() {
+        return Err(Error::file(path, format!("cannot write: {fault}")));
+    }
+    let mut appended = Appended::default();
+    let mut elements = String::new();
+    for array in &image.arrays {
+        let values = Values::Float32(&array.values);
+        elements += "        ";
+        elements += &appended.declare(&array.name, array.components, values);
+    }
+    let header = header(image, &elements);
+    replace(path, |writer| {
+        writer.write_all(header.as_bytes())?;
+        appended.write_arrays(writer)?;
+        writer.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
+    })
+}
+
+/// What stands before the arrays that `elements` announce.
+fn header(image: &Image, elements: &str) -> String {
+    let [nx, ny, nz] = image.cells;
+    let [x, y, z] = image.origin;
+    let h = image.spacing;
+    let extent = format!("0 {nx} 0 {ny} 0 {nz}");
+    // Version 1.0 is the first that lets header_type be chosen; the old UInt32 ends at 4 GiB.
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         \x20 <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} {z}\" Spacing=\"{h} {h} {h}\">\n\
+         \x20   <Piece Extent=\"{extent}\">\n\
+         \x20     <CellData>\n{elements}      </CellData>\n\
+         \x20   </Piece>\n\
+         \x20 </ImageData>\n\
+         \x20 <AppendedData encoding=\"raw\">\n_"
+    )
+}
+
+/// VTK's number for a polyhedron.
+const POLYHEDRON: u8 = 42;
+
+/// Polyhedra, and quantities on each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polyhedra {
+    /// Corners of all, m.
+    pub points: Vec<[f64; 3]>,
+    /// For each polyhedron its faces, each as the indices of its corners.
+    pub cells: Vec<Vec<Vec<u32>>>,
+    /// The quantities, a value or vector for each polyhedron.
+    pub arrays: Vec<Array>,
+}
+
+/// Writes `polyhedra` to `path` for ParaView, replacing an older file only when done.
+///
+/// # Errors
+/// [`Error::File`] if an array does not fill the cells, a face names a point that is not there, or
+/// the file cannot be written.
+pub fn write_vtu(path: impl AsRef<Path>, polyhedra: &Polyhedra) -> Result<()> {
+    let path = path.as_ref();
+    let Polyhedra {
+        points,
+        cells,
+        arrays,
+    } = polyhedra;
+    let stray = cells.iter().flatten().flatten();
+    let stray = stray.copied().find(|&point| point as usize >= points.len());
+    let stray = stray.map(|point| format!("a face names point {point} of {}", points.len()));
+    if let Some(fault) = stray.or_else(|| fault(arrays, cells.len(), "polyhedra")) {
+        return Err(Error::file(path, format!("cannot write: {fault}")));
+    }
+    let mut appended = Appended::default();
+    let coordinates = points.iter().flatten().copied().collect();
+    let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+    let (mut faces, mut face_offsets) = (Vec::new(), Vec::new());
+    for cell in cells {
+        let mut corners: Vec<u32> = cell.iter().flatten().copied().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        connectivity.extend(corners.into_iter().map(i64::from));
+        offsets.push(connectivity.len() as i64);
+        // VTK's list: number of faces, then for each the number of its corners and these.
+        faces.push(cell.len() as i64);
+        for face in cell {
+            faces.push(face.len() as i64);
+            faces.extend(face.iter().copied().map(i64::from));
+        }
+        face_offsets.push(faces.len() as i64);
+    }
+    let types = vec![POLYHEDRON; cells.len()];
+    let mut xml = format!(
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+        points.len(),
+        cells.len()
+    );
+    xml += &appended.declare("Points", 3, Values::Float64(coordinates));
+    xml += "</Points>\n<Cells>\n";
+    for (name, values) in [
+        ("connectivity", Values::Int64(connectivity)),
+        ("offsets", Values::Int64(offsets)),
+        ("types", Values::UInt8(types)),
+        ("faces", Values::Int64(faces)),
+        ("faceoffsets", Values::Int64(face_offsets)),
+    ] {
+        xml += &appended.declare(name, 1, values);
+    }
+    xml += "</Cells>\n<CellData>\n";
+    xml += &appended.declare_all(arrays);
+    xml += "</CellData>\n</Piece>\n";
+    replace(path, |writer| {
+        appended.write(writer, "UnstructuredGrid", &xml)
+    })
+}
+
+/// Points, and quantities on each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cloud {
+    /// The points, m.
+    pub points: Vec<[f64; 3]>,
+    /// The quantities, a value or vector for each point.
+    pub arrays: Vec<Array>,
+}
+
+/// Writes `cloud` to `path` for ParaView, each point as a vertex to be seen, replacing an older file
+/// only when done.
+///
+/// # Errors
+/// [`Error::File`] if an array does not fill the points, or the file cannot be written.
+pub fn write_vtp(path: impl AsRef<Path>, cloud: &Cloud) -> Result<()> {
+    let path = path.as_ref();
+    let count = cloud.points.len();
+    if let Some(fault) = fault(&cloud.arrays, count, "points") {
+        return Err(Error::file(path, format!("cannot write: {fault}")));
+    }
+    let mut appended = Appended::default();
+    let mut xml = format!(
+        "<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" \
+         NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n"
+    );
+    let coordinates = cloud.points.iter().flatten().copied().collect();
+    xml += &appended.declare("Points", 3, Values::Float64(coordinates));
+    xml += "</Points>\n<Verts>\n";
+    let each = 0..count as i64;
+    xml += &appended.declare("connectivity", 1, Values::Int64(each.clone().collect()));
+    let ends = each.map(|index| index + 1).collect();
+    xml += &appended.declare("offsets", 1, Values::Int64(ends));
+    xml += "</Verts>\n<PointData>\n";
+    xml += &appended.declare_all(&cloud.arrays);
+    xml += "</PointData>\n</Piece>\n";
+    replace(path, |writer| appended.write(writer, "PolyData", &xml))
+}
+
+/// Plane polygons, and quantities on each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Corners of each polygon, m.
+    pub polygons: Vec<Vec<[f64; 3]>>,
+    /// The quantities, a value or vector for each polygon.
+    pub arrays: Vec<Array>,
+}
+
+/// Writes `surface` to `path` for ParaView, replacing an older file only when done.
+///
+/// # Errors
+/// [`Error::File`] if an array does not fill the polygons, or the file cannot be written.
+pub fn write_surface(path: impl AsRef<Path>, surface: &Surface) -> Result<()> {
+    let path = path.as_ref();
+    let polygons = &surface.polygons;
+    if let Some(fault) = fault(&surface.arrays, polygons.len(), "polygons") {
+        return Err(Error::file(path, format!("cannot write: {fault}")));
+    }
+    let corners: Vec<f64> = polygons.iter().flatten().flatten().copied().collect();
+    let points = corners.len() / 3;
+    let mut appended = Appended::default();
+    let mut xml = format!(
+        "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" \
+         NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<Points>\n",
+        polygons.len()
+    );
+    xml += &appended.declare("Points", 3, Values::Float64(corners));
+    xml += "</Points>\n<Polys>\n";
+    let each = (0..points as i64).collect();
+    xml += &appended.declare("connectivity", 1, Values::Int64(each));
+    let ends = polygons.iter().scan(0, |end, polygon| {
+        *end += polygon.len() as i64;
+        Some(*end)
+    });
+    xml += &appended.declare("offsets", 1, Values::Int64(ends.collect()));
+    xml += "</Polys>\n<CellData>\n";
+    xml += &appended.declare_all(&surface.arrays);
+    xml += "</CellData>\n</Piece>\n";
+    replace(path, |writer| appended.write(writer, "PolyData", &xml))
+}
+
+/// Bytes in front of each appended array: its length as UInt64.
+const LENGTH_BYTES: u64 = size_of::<u64>() as u64;
+/// Values converted at a time: 64 KiB, enough to make the calls to the writer few.
+const CHUNK: usize = 8 * 1024;
+
+/// Values of one of VTK's types.
+pub(super) enum Values<'a> {
+    Float32(&'a [f32]),
+    Float64(Vec<f64>),
+    Int64(Vec<i64>),
+    UInt8(Vec<u8>),
+}
+
+impl Values<'_> {
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::Float32(_) => "Float32",
+            Self::Float64(_) => "Float64",
+            Self::Int64(_) => "Int64",
+            Self::UInt8(_) => "UInt8",
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match self {
+            Self::Float32(values) => size_of_val(*values) as u64,
+            Self::Float64(values) => size_of_val(values.as_slice()) as u64,
+            Self::Int64(values) => size_of_val(values.as_slice()) as u64,
+            Self::UInt8(values) => values.len() as u64,
+        }
+    }
+
+    fn write(&self, writer: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Float32(values) => little(writer, values, |v| v.to_le_bytes()),
+            Self::Float64(values) => little(writer, values, |v| v.to_le_bytes()),
+            Self::Int64(values) => little(writer, values, |v| v.to_le_bytes()),
+            Self::UInt8(values) => writer.write_all(values),
+        }
+    }
+}
+
+fn little<T: Copy, const N: usize>(
+    writer: &mut dyn Write,
+    values: &[T],
+    bytes: impl Fn(T) -> [u8; N],
+) -> io::Result<()> {
+    for chunk in values.chunks(CHUNK) {
+        let chunk: Vec<u8> = chunk.iter().flat_map(|value| bytes(*value)).collect();
+        writer.write_all(&chunk)?;
+    }
+    Ok(())
+}
+
+/// The XML of a file and the arrays behind it.
+#[derive(Default)]
+pub(super) struct Appended<'a> {
+    arrays: Vec<Values<'a>>,
+    offset: u64,
+}
+
+impl<'a> Appended<'a> {
+    /// The element that announces `values`.
+    pub fn declare(&mut self, name: &str, components: usize, values: Values<'a>) -> String {
+        let element = format!(
+            "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
+             format=\"appended\" offset=\"{}\"/>\n",
+            values.kind(),
+            escape(name),
+            self.offset
+        );
+        self.offset += LENGTH_BYTES + values.bytes();
+        self.arrays.push(values);
+        element
+    }
+
+    /// The elements that announce the quantities of points or cells.
+    pub fn declare_all(&mut self, arrays: &'a [Array]) -> String {
+        let mut elements = String::new();
+        for array in arrays {
+            let values = Values::Float32(&array.values);
+            // Writing to a String cannot fail.
+            let _ = write!(
+                elements,
+                "{}",
+                self.declare(&array.name, array.components, values)
+            );
+        }
+        elements
+    }
+
+    /// Writes a file of `kind` whose content is `xml`, little endian.
+    pub fn write(&self, writer: &mut dyn Write, kind: &str, xml: &str) -> io::Result<()> {
+        // Version 1.0 is the first that lets header_type be chosen; the old UInt32 ends at 4 GiB.
+        write!(
+            writer,
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\">\n<{kind}>\n{xml}</{kind}>\n\
+             <AppendedData encoding=\"raw\">\n_"
+        )?;
+        self.write_arrays(writer)?;
+        writer.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    }
+
+    /// Writes the arrays alone, each with its length in front.
+    pub fn write_arrays(&self, writer: &mut dyn Write) -> io::Result<()> {
+        for values in &self.arrays {
+            writer.write_all(&values.bytes().to_le_bytes())?;
+            values.write(writer)?;
+        }
+        Ok(())
+    }
+}
+
+/// What is wrong with the sizes of `arrays` of `count` tuples, if anything.
+pub(super) fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> {
+    arrays.iter().find_map(|array| {
+        let wants = count * array.components;
+        (array.values.len() != wants).then(|| {
+            format!(
+                "array {} has {} values; {count} {of} of {} components need {wants}",
+                array.name,
+                array.values.len(),
+                array.components
+            )
+        })
+    })
+}
+
+/// `text` as it may stand inside a quoted attribute.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Inverse of [`escape`].
+pub(super) fn unescape(text: &str) -> String {
+    text.replace("&quot;", "\"")
+        .replace("&gt;", ">")
+        .replace("&lt;", "<")
+        .replace("&amp;", "&")
+}
+
+/// The value of `attribute` in `tag`, an element as [`Pvd`](super::Pvd) writes it.
+pub(super) fn attribute(tag: &str, attribute: &str) -> Option<String> {
+    let (_, rest) = tag.split_once(&format!(" {attribute}=\""))?;
+    let (value, _) = rest.split_once('"')?;
+    Some(unescape(value))
+}

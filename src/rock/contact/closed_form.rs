@@ -1,0 +1,167 @@
+//! Proofs in closed form: a plane with each block on its own side but for rounding, a face or a vertex of one block, and
+//! the contact of a sphere with a sphere or a polyhedron.
+
+use super::{
+    ContactGeometry, Placed, Verdict,
+    pair::{Pair, Row},
+    projection::nearest,
+};
+use crate::geometry::HalfSpace;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+impl Placed {
+    /// Largest n · v over the block, v from its centroid, m. `length` is |n|.
+    pub(super) fn support(&self, n: DVec3, length: f64) -> f64 {
+        if self.faces.is_empty() {
+            return self.radius * length;
+        }
+        let heights = self.vertices.iter().map(|v| n.dot(*v));
+        heights.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl Pair<'_> {
+    /// What the plane with the normal `n`, from the smaller to the larger block, proves: that the
+    /// blocks are apart by more than `margin` (in L), or that they overlap by less. `n` may have any
+    /// length; none proves nothing.
+    pub fn judge(&self, n: DVec3, margin: f64) -> Option<Verdict> {
+        let length = n.length();
+        if length == 0.0 {
+            return None;
+        }
+        let gap =
+            n.dot(self.shift) - self.small.support(n, length) - self.large.support(-n, length);
+        proven(gap, margin * self.length * length)
+    }
+}
+
+/// What a plane with the gap `gap` proves, if rounding is `margin`.
+pub(super) fn proven(gap: f64, margin: f64) -> Option<Verdict> {
+    if gap > margin {
+        Some(Verdict::Apart)
+    } else if gap >= -margin {
+        Some(Verdict::Undecided)
+    } else {
+        None
+    }
+}
+
+impl Pair<'_> {
+    /// A face of one block that has all of the other outside, but for `margin` (in L): its normal from
+    /// the smaller to the larger block.
+    pub fn separating_face(&self, margin: f64) -> Option<DVec3> {
+        let margin = margin * self.length;
+        let clear = |face: &HalfSpace, shift: DVec3, vertices: &[DVec3]| {
+            let height = face.normal.dot(shift) - face.distance + margin;
+            // A face that looks away from the other block's centroid cannot keep it off.
+            height > 0.0 && vertices.iter().all(|v| face.normal.dot(*v) >= -height)
+        };
+        let (small, large) = (self.small, self.large);
+        let own = small.faces.iter();
+        let mut own = own.filter(|f| clear(f, self.shift, &large.vertices));
+        let other = large.faces.iter();
+        let mut other = other.filter(|f| clear(f, -self.shift, &small.vertices));
+        let found = own.next().map(|f| f.normal);
+        found.or_else(|| other.next().map(|f| -f.normal))
+    }
+
+    /// A point of the line of centres that is inside all `rows`, in L, if there is one.
+    pub fn point_between(&self, rows: &[Row], split: usize) -> DVec3 {
+        let line = self.shift / self.length;
+        let (own, other) = rows.split_at(split);
+        // The line leaves the smaller block at `out`, and enters the larger one at `enter`.
+        let out = own.iter().fold(1.0, |s: f64, row| {
+            let rate = row.normal.dot(line);
+            if rate > 0.0 {
+                s.min(row.offset / rate)
+            } else {
+                s
+            }
+        });
+        let enter = other.iter().fold(0.0, |s: f64, row| {
+            let rate = row.normal.dot(line);
+            if rate < 0.0 {
+                s.max(row.offset / rate)
+            } else {
+                s
+            }
+        });
+        0.5 * (out + enter) * line
+    }
+}
+
+/// Smallest slack b − a · x over all rows.
+pub(super) fn smallest_slack(rows: &[Row], x: DVec3) -> f64 {
+    let slacks = rows.iter().map(|row| row.offset - row.normal.dot(x));
+    slacks.fold(f64::INFINITY, f64::min)
+}
+
+/// Gap (m, negative: overlap) and contact of a sphere with another block, from the block to it.
+pub(super) struct Proximity {
+    pub gap: f64,
+    pub contact: ContactGeometry,
+}
+
+/// Two spheres: the section is the circle in which they meet, the common face of the lens.
+pub(super) fn sphere_sphere(a: &Placed, b: &Placed) -> Proximity {
+    let between = b.centre - a.centre;
+    let distance = between.length();
+    let normal = (between / distance).normalize_or(DVec3::X);
+    // From the first centre to the circle; beyond a centre the whole sphere is in the other.
+    let (r, q) = (a.radius, b.radius);
+    let plane = (distance * distance + (r - q) * (r + q)) / (2.0 * distance);
+    let circle = if plane > 0.0 && plane < distance {
+        (r - plane) * (r + plane)
+    } else {
+        r.min(q).powi(2)
+    };
+    let along = plane.clamp(0.0, distance);
+    let point = a.centre + normal * if along.is_nan() { 0.0 } else { along };
+    Proximity {
+        gap: distance - (r + q),
+        contact: round(point, normal, r + q - distance, circle),
+    }
+}
+
+/// A polyhedron and a sphere: the section is the sphere's circle in the plane through the
+/// polyhedron's nearest point, across the normal. On a face that is the circle that the face cuts
+/// out of the sphere; the face's edges do not cut it, so that area and force are continuous while
+/// the sphere rolls over them.
+pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
+    let centre = sphere.centre - block.centre;
+    let height = |k: usize| block.faces[k].normal.dot(centre) - block.faces[k].distance;
+    let top =
+        (0..block.faces.len()).fold(0, |best, k| if height(k) > height(best) { k } else { best });
+    // The top face's plane, moved to the centre, has all of the block below it.
+    let depth = height(top);
+    let tolerance = 4.0 * f64::EPSILON * (block.radius + centre.length());
+    let face = block.faces[top].normal;
+    let (normal, distance, foot) = if depth <= tolerance {
+        (face, depth, centre - face * depth)
+    } else {
+        let foot = nearest(&block.faces, centre, tolerance);
+        let away = centre - foot;
+        (away.normalize_or(face), away.length(), foot)
+    };
+    let radius = sphere.radius;
+    let h = distance.max(0.0);
+    let circle = ((radius - h) * (radius + h)).clamp(0.0, block.radius.powi(2));
+    Proximity {
+        gap: distance - radius,
+        contact: round(block.centre + foot, normal, radius - distance, circle),
+    }
+}
+
+/// A contact over a circle of the squared radius `square` (m²).
+fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeometry {
+    ContactGeometry {
+        point,
+        normal,
+        overlap,
+        area: PI * square,
+        pressure_centre: point,
+        width: 2.0 * square.sqrt(),
+        limit: 0.0,
+    }
+}

@@ -320,6 +320,20 @@ pub(crate) fn error_chain(error: &wgpu::Error) -> String {
     words.join(" ")
 }
 
+/// What `make` gives, and what `device` refused while it was made: memory, or else an invalid use. A bind group of a
+/// buffer without memory is invalid too, so that the memory error takes precedence.
+pub(crate) async fn refused<T>(
+    device: &wgpu::Device,
+    make: impl Future<Output = T>,
+) -> (T, Option<wgpu::Error>) {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let made = make.await;
+    let [validity, memory] = [validity.pop(), memory.pop()];
+    let (validity, memory) = (validity.await, memory.await);
+    (made, memory.or(validity))
+}
+
 /// `std::result::Result` with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Result,
-    geometry::{Form, Shape},
+    geometry::{Form, Shape, min_max},
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase},
     scene::{
         Advice, ProbePlace, Scene, Warning,
@@ -146,31 +146,15 @@ impl Coupled<'_> {
 
 /// Smallest distance between two parallel planes that enclose a shape, one of them along a face, m.
 fn width(shape: &Shape) -> f64 {
-    // The support function of the shape.
-    let support = |n: DVec3| {
-        let part = |part: &crate::geometry::Part| {
-            part.offset.dot(n)
-                + match &part.form {
-                    Form::Sphere { radius } => *radius,
-                    Form::Convex(shape) => {
-                        let corners = shape.vertices().iter().map(|v| v.dot(n));
-                        corners.fold(f64::NEG_INFINITY, f64::max)
-                    }
-                }
-        };
-        shape
-            .parts()
-            .iter()
-            .map(part)
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
     let faces = shape.parts().iter().flat_map(|part| match &part.form {
         Form::Sphere { .. } => vec![DVec3::X, DVec3::Y, DVec3::Z],
         Form::Convex(shape) => shape.faces().iter().map(|face| face.normal).collect(),
     });
-    faces
-        .map(|n| support(n) + support(-n))
-        .fold(f64::INFINITY, f64::min)
+    let widths = faces.map(|n| {
+        let [low, high] = shape.extent(n);
+        high - low
+    });
+    widths.fold(f64::INFINITY, f64::min)
 }
 
 /// Least number of particles over the depth that resolves waves and pressure: at 25 a standing wave loses a few percent of
@@ -203,10 +187,7 @@ pub async fn particle_advice(
     let mut warn = |place: String, message: String| advice.push(Warning { place, message });
     let spacing = setup.spacing;
     if let Some(up) = (-setup.gravity).try_normalize() {
-        let heights = positions.iter().map(|x| up.dot(*x));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-            (low.min(at), high.max(at))
-        });
+        let [low, high] = min_max(positions.iter().map(|x| up.dot(*x)));
         let particles = (high - low) / spacing + 1.0;
         if particles < MIN_DEPTH_PARTICLES {
             warn(
@@ -418,9 +399,7 @@ fn check_probes(
         let found = fixed.iter().find(|(_, part)| part.depth(x) > 0.0);
         found.map(|(name, _)| *name)
     };
-    let empty = (f64::INFINITY, f64::NEG_INFINITY);
-    let heights = positions.iter().map(|x| x.z);
-    let (low, high) = heights.fold(empty, |(low, high), z| (low.min(z), high.max(z)));
+    let [low, high] = min_max(positions.iter().map(|x| x.z));
     for (index, probe) in scene.probes.iter().enumerate() {
         let block = match &probe.place {
             ProbePlace::Point { at } => inside(DVec3::from(*at)),

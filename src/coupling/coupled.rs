@@ -198,12 +198,7 @@ impl Coupled<'_> {
         let cells = domain.cells();
         for found in self.cells_near_blocks(0.0) {
             let at = found.cell.index;
-            let ijk = [
-                at % cells[0],
-                at / cells[0] % cells[1],
-                at / (cells[0] * cells[1]),
-            ];
-            let centre = DVec3::from(domain.centre(ijk));
+            let centre = DVec3::from(domain.centre(found.cell.ijk(cells)));
             let velocity = self.solid_velocity(found.block, centre).to_array();
             for (field, velocity) in state.velocity.iter_mut().zip(velocity) {
                 field[at as usize] = units.velocity_to_lattice(velocity) as f32;
@@ -235,12 +230,7 @@ impl Coupled<'_> {
         }
         let (cells, _) = self.solid_cells().domain();
         for found in self.cells_near_blocks(0.0) {
-            let at = found.cell.index;
-            let ijk = [
-                at % cells[0],
-                at / cells[0] % cells[1],
-                at / (cells[0] * cells[1]),
-            ];
+            let ijk = found.cell.ijk(cells);
             for (face, velocity) in through {
                 let axis = face.axis();
                 let end = if face.is_max() {

@@ -1,6 +1,6 @@
 //! The rims of the closed joints of a block, and the pressure field in the joints, fitted to that at their rims.
 
-use super::kernel_deficit::KernelDeficit;
+use super::{joint_faces::NeighbourPart, kernel_deficit::KernelDeficit};
 use crate::{geometry::outer, rock::contact::Placed};
 use glam::{DMat3, DVec3};
 
@@ -276,6 +276,17 @@ pub(super) struct Contiguity {
     pub other: usize,
     /// Periodic offset of the other block, m.
     pub offset: DVec3,
+}
+
+impl Contiguity {
+    /// Of a block and a part of a neighbour.
+    pub fn of(block: usize, part: &NeighbourPart) -> Self {
+        Self {
+            block,
+            other: part.block,
+            offset: part.offset,
+        }
+    }
 }
 
 /// Propagates the fields of blocks to those without one that `may_have` one. Inside a jointed mass all sides of a block are

@@ -144,18 +144,13 @@ impl JointSeal {
                 };
                 let rim = find_rim(rims, &closed.patches, plane.normal, solids.clone(), params);
                 let losses = edge_losses(&closed.patches, &rim);
-                sealed.edge_losses.extend(losses.map(|(edge, loss)| {
-                    let other = over[edge.patch];
-                    EdgeLoss {
-                        between: Contiguity {
-                            block,
-                            other: other.block,
-                            offset: other.offset,
-                        },
+                sealed
+                    .edge_losses
+                    .extend(losses.map(|(edge, loss)| EdgeLoss {
+                        between: Contiguity::of(block, over[edge.patch]),
                         place: edge.place,
                         loss: closed.fractions[edge.patch] * loss,
-                    }
-                }));
+                    }));
                 let rims = &mut sealed.rims[block];
                 // The pressure outside the domain is unknown, not zero.
                 let [low, high] = self.domain;
@@ -198,11 +193,7 @@ impl JointSeal {
                 }
                 if patch.1 > 0.0 {
                     sealed.joints.push(Joint {
-                        between: Contiguity {
-                            block,
-                            other: other.block,
-                            offset: other.offset,
-                        },
+                        between: Contiguity::of(block, other),
                         corners: patch.0,
                         normal: fraction / heights.len() as f64 * normal,
                     });

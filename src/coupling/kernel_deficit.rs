@@ -39,12 +39,7 @@ pub(super) struct KernelDeficit {
 impl KernelDeficit {
     /// The deficit of the kernel function of `setup`.
     pub fn new(setup: &Setup) -> Self {
-        let h = setup.smoothing * setup.spacing;
-        let kernel = if setup.plane {
-            Wendland::plane(h)
-        } else {
-            Wendland::space(h)
-        };
+        let kernel = setup.kernel();
         let support = kernel.support();
         let step = support / STEPS as f64;
         let deficits: Vec<f64> = (0..=STEPS)

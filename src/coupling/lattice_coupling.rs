@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     Error, Result,
+    error::refused,
     geometry::{Load, Pose},
     gpu::{
         readback,
@@ -93,12 +94,9 @@ impl LatticeCoupling {
         }
         self.placed = None;
         let in_fluid = self.in_fluid;
-        // A failed allocation also invalidates the bind groups that contain its buffer.
-        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let placed = self.cells.place(device, queue, lattice, &poses[..in_fluid]);
-        let [validity, memory] = [validity.pop(), memory.pop()];
-        let refused = validity.await.or(memory.await);
+        let cells = &mut self.cells;
+        let place = async { cells.place(device, queue, lattice, &poses[..in_fluid]) };
+        let (placed, refused) = refused(device, place).await;
         placed?;
         if let Some(error) = refused {
             return Err(Error::Device(format!(
@@ -223,6 +221,61 @@ impl LatticeCoupling {
             self.face_loads = loads.into_iter().zip(poses).map(at_faces).collect();
         }
         Ok(())
+    }
+}
+
+/// The state of the coupling of blocks to a lattice.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct CouplingState {
+    load_average: LoadAverage,
+    /// Pose of the last tile search of each block in the fluid: the tiles determine the order of summation, and so the
+    /// rounding of loads.
+    tiled: Vec<Option<Pose>>,
+}
+
+impl LatticeCoupling {
+    /// The present state, for a later [`LatticeCoupling::restore`]; waits for the loads in flight.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(&mut self) -> Result<CouplingState> {
+        self.read_loads().await?;
+        Ok(CouplingState {
+            load_average: self.load_average.clone(),
+            tiled: self.cells.tiled(),
+        })
+    }
+
+    /// Checks that a state is of as many blocks in the fluid.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if not.
+    pub fn check(&self, state: &CouplingState) -> Result<()> {
+        let known = |loads: usize| loads == 0 || loads == self.in_fluid;
+        let last = state.load_average.last.as_ref();
+        if state.tiled.len() == self.in_fluid
+            && known(state.load_average.sum.len())
+            && last.is_none_or(|(_, loads)| loads.len() == self.in_fluid)
+        {
+            return Ok(());
+        }
+        let message = format!(
+            "the checkpoint has {} blocks in the fluid, and the scene {}; restart with the scene that wrote it",
+            state.tiled.len(),
+            self.in_fluid
+        );
+        Err(Error::argument("restart", message))
+    }
+
+    /// Restores a state of the same blocks, which [`LatticeCoupling::check`] accepts.
+    pub fn restore(&mut self, state: &CouplingState) {
+        self.load_readback.discard();
+        self.face_readback.discard();
+        self.face_loads.clear();
+        self.load_average.clone_from(&state.load_average);
+        self.cells.tile(&state.tiled);
+        self.placed = None;
     }
 }
 

@@ -41,7 +41,6 @@ mod joint_seal;
 mod kernel_deficit;
 mod lattice_coupling;
 mod rock;
-mod state;
 mod uplift;
 
 pub use added_mass::{AddedMass, InteriorInertia, MassProperties};
@@ -54,7 +53,6 @@ pub use fluid_load::{Ambient, FluidLoad, LoadAverage};
 pub use gaps::Gap;
 pub(crate) use joint_seal::JointSeal;
 pub(crate) use lattice_coupling::LatticeCoupling;
-pub use lattice_coupling::{AsyncReadback, Copied};
-pub use rock::{CouplingParams, InteriorFluid, Rock};
-pub use state::{CouplingState, RockState};
+pub use lattice_coupling::{AsyncReadback, Copied, CouplingState};
+pub use rock::{CouplingParams, InteriorFluid, Rock, RockState};
 pub use uplift::JointLoad;

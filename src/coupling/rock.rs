@@ -318,6 +318,56 @@ impl Rock {
     }
 }
 
+/// The state of the blocks of a scene, without their fluid: everything on which their next steps depend.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct RockState {
+    /// The blocks.
+    pub snapshot: Snapshot,
+    /// Of the fluid inside each block; empty without a fluid.
+    interior: Vec<InteriorInertia>,
+    /// Load on each block in the last exchange; empty without a fluid.
+    cell_load: Vec<FluidLoad>,
+    /// Work of the blocks on the fluid since the start, J.
+    work_on_fluid: f64,
+}
+
+impl Rock {
+    /// The present state, for a later [`Rock::restore`].
+    pub fn state(&self) -> RockState {
+        RockState {
+            snapshot: self.blocks.snapshot(),
+            interior: self.interior.clone(),
+            cell_load: self.cell_load.clone(),
+            work_on_fluid: self.work_on_fluid,
+        }
+    }
+
+    /// Restores a state of the same blocks: the next steps yield the same bits.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if it is of other blocks.
+    pub fn restore(&mut self, state: &RockState) -> Result<()> {
+        let own = [self.interior.len(), self.cell_load.len()];
+        if [state.interior.len(), state.cell_load.len()] != own {
+            let message = format!(
+                "the checkpoint has loads on {} blocks, and the scene {}; restart with the scene that wrote it",
+                state.cell_load.len(),
+                self.cell_load.len()
+            );
+            return Err(Error::argument("restart", message));
+        }
+        self.blocks
+            .restore(&state.snapshot)
+            .map_err(|error| Error::argument("restart", error.to_string()))?;
+        self.interior.clone_from(&state.interior);
+        self.cell_load.clone_from(&state.cell_load);
+        self.work_on_fluid = state.work_on_fluid;
+        self.update_external_load();
+        Ok(())
+    }
+}
+
 /// The inertia tensor of a body in its present orientation.
 fn rotated_inertia(pose: &Pose, inertia: DMat3) -> DMat3 {
     pose.deformation * inertia * pose.deformation.transpose()

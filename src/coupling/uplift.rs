@@ -16,7 +16,7 @@
 
 use super::{Coupled, FluidLoad, joint_faces::covered_polygon};
 use crate::{
-    geometry::{Form, Part, Pose, Shape, outer},
+    geometry::{Form, Part, Pose, Shape, min_max, outer},
     psm::{FaceLoad, corners},
     rock::contact::Placed,
 };
@@ -358,10 +358,7 @@ impl<'a> JointFace<'a> {
         }
         let [open, closed] = [&self.open, &self.closed].map(|part| part.first / part.area);
         let along = (closed - open).try_normalize()?;
-        let heights = self.corners.iter().map(|x| along.dot(*x));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let [low, high] = min_max(self.corners.iter().map(|x| along.dot(*x)));
         // The centroids of two adjacent parts are half of their total extent apart.
         let adjacent = (closed - open).length() > 0.4 * (high - low);
         let place = open.lerp(closed, self.open.area / whole.area);

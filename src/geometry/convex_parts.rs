@@ -4,9 +4,8 @@
 //! Cells do not overlap, and so neither do the parts. A part holds all of the solid that is in its cell.
 
 use super::{
-    Form, HalfSpace, Part, Polyhedron, Shape,
-    cell::{Cell, Clip, ON},
-    moments::Moments,
+    Form, HalfSpace, Part, Polyhedron, Shape, bounding_box,
+    cell::{Cell, Clip, Moments, ON},
     polyhedron::positive,
 };
 use crate::{
@@ -135,7 +134,7 @@ fn convex(
 /// nothing of it but rounding.
 fn part(mut cell: Cell, tolerance: f64) -> Option<(Polyhedron, DVec3)> {
     cell.compact();
-    let (min, max) = cell.bounds();
+    let [min, max] = cell.bounds();
     let coplanar = (tolerance / min.distance(max)).min(1e-3);
     Polyhedron::hull(&cell.vertices, coplanar).ok()
 }
@@ -337,9 +336,7 @@ pub(super) fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> 
 /// Planes across the axes, at quarters of the box around the faces: for round hollows, whose own planes
 /// only graze them.
 fn across(polygons: &[Polygon]) -> impl Iterator<Item = HalfSpace> {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let corners = polygons.iter().flat_map(|p| &p.corners);
-    let (min, max) = corners.fold(nothing, |(min, max), c| (min.min(*c), max.max(*c)));
+    let [min, max] = bounding_box(polygons.iter().flat_map(|p| &p.corners).copied());
     let planes = DVec3::AXES.into_iter().flat_map(move |axis| {
         let at = [0.25, 0.5, 0.75].map(|t| min.lerp(max, t));
         at.map(|point| HalfSpace::through(point, axis))

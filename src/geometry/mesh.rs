@@ -1,5 +1,6 @@
 //! Triangle meshes from STL and OBJ files, and whether they enclose a volume.
 
+use super::bounding_box;
 #[cfg(feature = "mesh")]
 use super::mesh_file;
 use crate::error::{Error, Result};
@@ -88,7 +89,7 @@ impl TriangleMesh {
 
     /// Lower and upper corner of the box around the mesh, m.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
-        let (min, max) = around(&self.vertices);
+        let [min, max] = bounding_box(self.vertices.iter().copied());
         (min.into(), max.into())
     }
 }
@@ -112,16 +113,9 @@ fn no_files(_: Vec<u8>) -> Result<Soup, String> {
     Err("this program reads no meshes; build it with the feature `mesh` of riprap".into())
 }
 
-fn around(points: &[DVec3]) -> (DVec3, DVec3) {
-    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points
-        .iter()
-        .fold(nothing, |(min, max), p| (min.min(*p), max.max(*p)))
-}
-
 /// The distinct points, and for each given point which of them it is.
 fn weld(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
-    let (min, max) = around(points);
+    let [min, max] = bounding_box(points.iter().copied());
     let reach = (WELD * min.distance(max)).max(f64::MIN_POSITIVE);
     let bin = |p: DVec3| ((p - min) / reach).floor().as_i64vec3().to_array();
     let mut bins: HashMap<[i64; 3], u32> = HashMap::new();

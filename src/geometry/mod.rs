@@ -25,7 +25,6 @@ mod joint_set;
 mod mesh;
 #[cfg(feature = "mesh")]
 mod mesh_file;
-mod moments;
 mod placed;
 mod polyhedron;
 mod pose;
@@ -38,7 +37,7 @@ pub(crate) use joint_set::uniform;
 pub use joint_set::{Compass, JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
 pub use placed::Placed;
-pub(crate) use placed::clip;
+pub(crate) use placed::{bounding_box, clip, min_max};
 pub use polyhedron::{HalfSpace, Polyhedron};
 pub use pose::{Load, Pose, skew};
 pub(crate) use pose::{axial, inner, outer};

@@ -93,6 +93,20 @@ impl Placed {
     }
 }
 
+/// Lower and upper corner of the box around points; ∞ and −∞ without points.
+pub(crate) fn bounding_box(points: impl IntoIterator<Item = DVec3>) -> [DVec3; 2] {
+    let widen = |[low, high]: [DVec3; 2], x: DVec3| [low.min(x), high.max(x)];
+    let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    points.into_iter().fold(empty, widen)
+}
+
+/// Least and largest of some values; ∞ and −∞ without values.
+pub(crate) fn min_max(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let widen = |[low, high]: [f64; 2], x: f64| [low.min(x), high.max(x)];
+    let empty = [f64::INFINITY, f64::NEG_INFINITY];
+    values.into_iter().fold(empty, widen)
+}
+
 /// Keeps the part of a plane polygon at heights of at most zero (Sutherland & Hodgman 1974).
 pub(crate) fn clip(corners: &mut Vec<DVec3>, height: impl Fn(DVec3) -> f64) {
     let mut kept = Vec::with_capacity(corners.len() + 1);

@@ -1,9 +1,6 @@
 //! A convex polyhedron about its centroid, from its faces; boxes and the regular solids.
 
-use super::{
-    cell::{Cell, Clip, ON, START},
-    moments::Moments,
-};
+use super::cell::{Cell, Clip, ON, START};
 use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 use std::f64::consts::SQRT_2;
@@ -133,25 +130,6 @@ impl Polyhedron {
     }
 }
 
-impl Cell {
-    /// Its moments about `origin`.
-    pub(super) fn moments(&self, origin: DVec3) -> Moments {
-        let at = |v: u32| self.vertices[v as usize] - origin;
-        Moments::of(self.facets.iter().flat_map(|facet| {
-            let pairs = facet.ring[1..].windows(2);
-            pairs.map(move |pair| [at(facet.ring[0]), at(pair[0]), at(pair[1])])
-        }))
-    }
-
-    /// The centroid of a compact cell; none if it has no volume.
-    pub(super) fn centroid(&self) -> Option<DVec3> {
-        let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
-        let moments = self.moments(middle);
-        let centroid = middle + moments.centroid();
-        (moments.volume > 0.0 && centroid.is_finite()).then_some(centroid)
-    }
-}
-
 /// A plane face: the points x of the block have `normal` · x ≤ `distance`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
@@ -242,7 +220,7 @@ pub(super) fn cell_of(faces: &[HalfSpace]) -> Result<Cell> {
     let (mut centre, mut half) = (DVec3::ZERO, 1.01 * reach * largest);
     loop {
         let mut cell = clip_box(faces, centre, half)?;
-        let (min, max) = cell.bounds();
+        let [min, max] = cell.bounds();
         let size = (max - min).max_element() / 2.0;
         // Again from a box of its size, or the rounding of the large box would remain.
         if size < half / 8.0 {

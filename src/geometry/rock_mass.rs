@@ -4,11 +4,13 @@
 //! divides the convex pieces that it meets into two convex pieces. The pieces of one round do not know
 //! of each other, and so all are cut at once, whatever the number of threads.
 
-use super::cell::{Cell, ON};
-use super::joint_set::Joints;
-use super::polyhedron::SLIVER;
-use super::polyhedron::{cell_of, unit};
-use super::{Compass, HalfSpace, JointSet, Polyhedron};
+use super::{
+    Compass, HalfSpace, JointSet, Polyhedron,
+    cell::{Cell, ON},
+    joint_set::Joints,
+    min_max,
+    polyhedron::{SLIVER, cell_of, unit},
+};
 use crate::{Error, Result};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -154,7 +156,7 @@ impl RockMass {
         for (index, set) in self.joints.iter().enumerate() {
             let joints = set
                 .joints(&self.compass, |normal| {
-                    let [low, high] = range(&pieces, normal);
+                    let [low, high] = heights(&pieces, normal);
                     let offset = normal.dot(middle);
                     [low + offset, high + offset]
                 })
@@ -264,7 +266,7 @@ impl Cutter<'_> {
         let Some(normal) = self.local.first().map(|plane| plane.normal) else {
             return 0..0;
         };
-        let [low, high] = range(std::slice::from_ref(cell), normal);
+        let [low, high] = heights(std::slice::from_ref(cell), normal);
         let start = self.local.partition_point(|p| p.distance <= low);
         start..self.local.partition_point(|p| p.distance < high)
     }
@@ -301,8 +303,8 @@ impl Cell {
 /// Moves the cells so that the middle of the box around them is the origin; returns where it was.
 fn recentre(cells: &mut [Cell]) -> DVec3 {
     let bounds = cells.iter().map(Cell::bounds);
-    let all = bounds.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)));
-    let middle = all.map_or(DVec3::ZERO, |(min, max)| (min + max) / 2.0);
+    let all = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+    let middle = all.map_or(DVec3::ZERO, |[min, max]| (min + max) / 2.0);
     for cell in cells {
         cell.vertices.iter_mut().for_each(|v| *v -= middle);
         for facet in &mut cell.facets {
@@ -313,9 +315,6 @@ fn recentre(cells: &mut [Cell]) -> DVec3 {
 }
 
 /// Lowest and highest point along `normal`, m.
-fn range(cells: &[Cell], normal: DVec3) -> [f64; 2] {
-    let heights = cells.iter().flat_map(Cell::live).map(|v| normal.dot(v));
-    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| {
-        [low.min(h), high.max(h)]
-    })
+fn heights(cells: &[Cell], normal: DVec3) -> [f64; 2] {
+    min_max(cells.iter().flat_map(Cell::live).map(|v| normal.dot(v)))
 }

@@ -3,8 +3,9 @@
 use super::{
     Polyhedron,
     cell::{Cell, Clip, Facet, ON},
-    moments::outer,
+    min_max,
     polyhedron::positive,
+    pose::outer,
 };
 use crate::{Error, Result};
 use glam::{DMat3, DVec3};
@@ -107,6 +108,20 @@ impl Shape {
     pub fn radius(&self) -> f64 {
         self.radius
     }
+
+    /// Least and largest coordinate of a point along a vector, m from the centroid; spheres take it for a unit vector.
+    pub(crate) fn extent(&self, along: DVec3) -> [f64; 2] {
+        min_max(self.parts.iter().flat_map(|part| {
+            let centre = along.dot(part.offset);
+            let [low, high] = match &part.form {
+                Form::Sphere { radius } => [-radius, *radius],
+                Form::Convex(polyhedron) => {
+                    min_max(polyhedron.vertices().iter().map(|v| along.dot(*v)))
+                }
+            };
+            [centre + low, centre + high]
+        }))
+    }
 }
 
 impl From<Polyhedron> for Shape {
@@ -150,7 +165,7 @@ impl Shape {
         let centroid = first / volume;
         let inertia = parts.iter().fold(DMat3::ZERO, |sum, part| {
             let r = part.offset - centroid;
-            let steiner = DMat3::IDENTITY * r.length_squared() - outer(r);
+            let steiner = DMat3::IDENTITY * r.length_squared() - outer(r, r);
             sum + part.form.inertia() + steiner * part.form.volume()
         });
         Ok((Self::of(parts, centroid, volume, inertia), centroid))

@@ -6,11 +6,9 @@
 //!      ≈ N·(p − q)/(4π|p − q|³)     far off; N = Σ area·normal, p the centre of the area
 //! ```
 
-use std::f64::consts::PI;
-
+use super::{TriangleMesh, bounding_box};
 use glam::DVec3;
-
-use super::TriangleMesh;
+use std::f64::consts::PI;
 
 /// A part is far off beyond this many of its radii (the value of Barill et al. 2018). The error of
 /// the sum then stays below a tenth, against the ½ that decides.
@@ -79,11 +77,7 @@ impl WindingTree {
         }
         let part = &mut self.corners[range.clone()];
         let centroid = |[a, b, c]: &[DVec3; 3]| *a + *b + *c;
-        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for corners in part.iter() {
-            min = min.min(centroid(corners));
-            max = max.max(centroid(corners));
-        }
+        let [min, max] = bounding_box(part.iter().map(centroid));
         let axis = (max - min).max_position();
         let half = part.len() / 2;
         part.select_nth_unstable_by(half, |a, b| centroid(a)[axis].total_cmp(&centroid(b)[axis]));

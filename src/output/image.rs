@@ -1,6 +1,8 @@
 //! Cell data on a regular lattice, the host's picture of a flow at one time; between cell centres, and the gradient of the
 //! velocity: vorticity, and Q (Hunt, Wray and Moin, 1988). A plain reference on the host; cost grows with the cells.
 
+use glam::DVec3;
+
 /// Values on the cells of a box, x running fastest, then y, then z.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
@@ -23,6 +25,26 @@ pub struct Array {
     pub components: usize,
     /// `components` values per cell, interleaved, in the unit of the quantity.
     pub values: Vec<f32>,
+}
+
+impl Array {
+    /// A scalar on each of some cells or points.
+    pub fn scalars(name: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        Self {
+            name: name.into(),
+            components: 1,
+            values: values.into_iter().map(|v| v as f32).collect(),
+        }
+    }
+
+    /// A vector on each of some cells or points.
+    pub fn vectors(name: &str, values: impl IntoIterator<Item = DVec3>) -> Self {
+        let values = values.into_iter().flat_map(|v| v.to_array());
+        Self {
+            components: 3,
+            ..Self::scalars(name, values)
+        }
+    }
 }
 
 impl Image {

@@ -19,6 +19,14 @@ pub struct NearCell {
     pub normal: DVec3,
 }
 
+impl NearCell {
+    /// Its places along x, y and z in a lattice of `cells`.
+    pub fn ijk(&self, [nx, ny, _]: [u32; 3]) -> [u32; 3] {
+        let at = self.index;
+        [at % nx, at / nx % ny, at / (nx * ny)]
+    }
+}
+
 /// The cells of a domain of `cells` cells that lie at most `reach` cells from a part, those of its periodic
 /// images included where an axis is periodic.
 pub fn near_cells(

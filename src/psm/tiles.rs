@@ -2,7 +2,7 @@
 
 use super::Tile;
 use crate::{
-    geometry::Pose,
+    geometry::{Pose, min_max},
     lattice::{Geometry, Grid},
 };
 use glam::DVec3;
@@ -48,13 +48,7 @@ const LONGER: f64 = 1e-6;
 pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bool; 3] {
     [0, 1, 2].map(|axis| {
         let ends = |of: &Outline| [of.low, of.high].map(|end| of.centre[axis] + end[axis]);
-        let widen = |[low, high]: [f64; 2], of: &Outline| {
-            let [from, to] = ends(of);
-            [low.min(from), high.max(to)]
-        };
-        let [low, high] = outlines
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], widen);
+        let [low, high] = min_max(outlines.iter().flat_map(ends));
         periodic[axis] && high - low <= f64::from(cells[axis]) + LONGER
     })
 }

@@ -384,7 +384,7 @@ impl AppliedForces {
 }
 
 /// The value of three formulas of t (s).
-pub(super) fn formula_values(formulas: &[Formula; 3], t: f64) -> DVec3 {
+pub(crate) fn formula_values(formulas: &[Formula; 3], t: f64) -> DVec3 {
     DVec3::from_array(formulas.each_ref().map(|f| f.eval_at([0.0; 3], t)))
 }
 

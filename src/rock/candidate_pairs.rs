@@ -12,7 +12,7 @@ use super::{
 use crate::rock::broadphase::Broadphase;
 use crate::{
     Error, Result,
-    geometry::{Form, Pose},
+    geometry::{Form, Pose, bounding_box},
     rock::{
         broadphase::Aabb,
         contact::{Cache, Placed},
@@ -235,11 +235,8 @@ impl Blocks {
         let part_aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
         let filled = self.bodies.iter().enumerate().map(|(block, body)| {
             let own = part_aabbs[body.parts.clone()].iter();
-            let around = own.fold(
-                [DVec3::INFINITY, DVec3::NEG_INFINITY],
-                |[low, high], aabb| [low.min(aabb.min.into()), high.max(aabb.max.into())],
-            );
-            period.filled(body, around, &self.label(block))
+            let corners = own.flat_map(|aabb| [aabb.min, aabb.max].map(DVec3::from));
+            period.filled(body, bounding_box(corners), &self.label(block))
         });
         Ok(Periods {
             period,
@@ -369,7 +366,7 @@ impl PlacedParts {
     pub fn aabbs(&self, bodies: &[Body], skin_margin: impl Fn(usize) -> f64) -> Vec<Aabb> {
         let immovable = bodies.len() as u32;
         let aabb = |(placed, &block): (&Placed, &u32)| {
-            let (min, max) = bounds(placed);
+            let [min, max] = bounds(placed);
             let grow = DVec3::splat(skin_margin(block as usize));
             let free = bodies[block as usize].is_free();
             Aabb {
@@ -421,15 +418,10 @@ fn place(body: &Body, index: usize, pose: &Pose, placed: &mut Placed) {
 }
 
 /// Corners of the box along the axes around a part, m.
-fn bounds(placed: &Placed) -> (DVec3, DVec3) {
+fn bounds(placed: &Placed) -> [DVec3; 2] {
     if placed.faces.is_empty() {
         let r = DVec3::splat(placed.radius);
-        return (placed.centre - r, placed.centre + r);
+        return [placed.centre - r, placed.centre + r];
     }
-    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for &v in &placed.vertices {
-        min = min.min(v);
-        max = max.max(v);
-    }
-    (placed.centre + min, placed.centre + max)
+    bounding_box(placed.vertices.iter().copied()).map(|corner| placed.centre + corner)
 }

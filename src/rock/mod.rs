@@ -63,3 +63,4 @@ pub use snapshot::Snapshot;
 pub use step::StepTimes;
 
 use body::Body;
+pub(crate) use body::formula_values;

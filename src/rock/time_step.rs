@@ -155,20 +155,6 @@ fn width(body: &Body, state: &State, deforming: &DeformingBlocks, along: DVec3) 
         None => DMat3::from_quat(state.rotation),
     };
     // F X along d is X along Fᵀ d.
-    let along = deformation.transpose() * along;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut extend = |from: f64, to: f64| (low, high) = (low.min(from), high.max(to));
-    for part in body.shape.parts() {
-        let centre = along.dot(part.offset);
-        match &part.form {
-            Form::Sphere { radius } => extend(centre - radius, centre + radius),
-            Form::Convex(polyhedron) => {
-                for vertex in polyhedron.vertices() {
-                    let at = centre + along.dot(*vertex);
-                    extend(at, at);
-                }
-            }
-        }
-    }
+    let [low, high] = body.shape.extent(deformation.transpose() * along);
     high - low
 }

@@ -5,7 +5,7 @@ use crate::{
     geometry::{Form, Pose},
     output::{Array, Cloud, Polyhedra, Surface},
     psm::{FaceLoad, corners},
-    rock::{Block, Blocks, Motion},
+    rock::{Block, Blocks, ContactPoint, Motion},
 };
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -42,18 +42,11 @@ pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, loads: &[FluidLoad]) ->
     let spins: Vec<DVec3> = blocks.spins().collect();
     let forces: Vec<DVec3> = blocks.contact_forces().collect();
     let asleep: Vec<bool> = blocks.asleep().collect();
-    let scalar = |name: &str, value: &dyn Fn(usize) -> f64| Array {
-        name: name.into(),
-        components: 1,
-        values: owners.iter().map(|&owner| value(owner) as f32).collect(),
+    let scalar = |name: &str, value: &dyn Fn(usize) -> f64| {
+        Array::scalars(name, owners.iter().map(|&owner| value(owner)))
     };
-    let vector = |name: &str, value: &dyn Fn(usize) -> DVec3| Array {
-        name: name.into(),
-        components: 3,
-        values: owners
-            .iter()
-            .flat_map(|&owner| value(owner).to_array().map(|v| v as f32))
-            .collect(),
+    let vector = |name: &str, value: &dyn Fn(usize) -> DVec3| {
+        Array::vectors(name, owners.iter().map(|&owner| value(owner)))
     };
     let flag = |set: bool| f64::from(u8::from(set));
     made.arrays = vec![
@@ -69,13 +62,12 @@ pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, loads: &[FluidLoad]) ->
     if blocks.any_deforms() {
         let stress = |owner: &usize| {
             let stress = blocks.stress(*owner).map(voigt);
-            stress.unwrap_or([f64::NAN; 6]).map(|s| s as f32)
+            stress.unwrap_or([f64::NAN; 6])
         };
         made.arrays.extend([
             Array {
-                name: "stress".into(),
                 components: 6,
-                values: owners.iter().flat_map(stress).collect(),
+                ..Array::scalars("stress", owners.iter().flat_map(stress))
             },
             scalar("von_mises", &|owner| {
                 blocks.von_mises(owner).unwrap_or(f64::NAN)
@@ -114,39 +106,23 @@ pub fn voigt(m: DMat3) -> [f64; 6] {
 /// magnitude (N), the normal from the first to the second, the overlap (m), the area (m²), and the
 /// numbers of both.
 pub fn contact_cloud(blocks: &Blocks) -> Cloud {
-    let contacts: Vec<_> = blocks.contacts().collect();
-    let vectors = |name: &str, values: Vec<DVec3>| Array {
-        name: name.into(),
-        components: 3,
-        values: values
-            .iter()
-            .flat_map(|v| v.to_array().map(|v| v as f32))
-            .collect(),
+    let contacts: Vec<ContactPoint> = blocks.contacts().collect();
+    let vector = |name: &str, value: fn(&ContactPoint) -> DVec3| {
+        Array::vectors(name, contacts.iter().map(value))
     };
-    let scalars = |name: &str, values: Vec<f64>| Array {
-        name: name.into(),
-        components: 1,
-        values: values.into_iter().map(|v| v as f32).collect(),
+    let scalar = |name: &str, value: fn(&ContactPoint) -> f64| {
+        Array::scalars(name, contacts.iter().map(value))
     };
     Cloud {
         points: contacts.iter().map(|c| c.point.to_array()).collect(),
         arrays: vec![
-            vectors("force", contacts.iter().map(|c| c.force).collect()),
-            scalars(
-                "force_magnitude",
-                contacts.iter().map(|c| c.force.length()).collect(),
-            ),
-            vectors("normal", contacts.iter().map(|c| c.normal).collect()),
-            scalars("overlap", contacts.iter().map(|c| c.overlap).collect()),
-            scalars("area", contacts.iter().map(|c| c.area).collect()),
-            scalars(
-                "first",
-                contacts.iter().map(|c| c.blocks[0] as f64).collect(),
-            ),
-            scalars(
-                "second",
-                contacts.iter().map(|c| c.blocks[1] as f64).collect(),
-            ),
+            vector("force", |c| c.force),
+            scalar("force_magnitude", |c| c.force.length()),
+            vector("normal", |c| c.normal),
+            scalar("overlap", |c| c.overlap),
+            scalar("area", |c| c.area),
+            scalar("first", |c| c.blocks[0] as f64),
+            scalar("second", |c| c.blocks[1] as f64),
         ],
     }
 }
@@ -203,21 +179,14 @@ pub fn face_surface(coupled: &Coupled<'_>) -> Surface {
             shown.push((number, load));
         }
     }
-    let scalar = |name: &str, value: &dyn Fn(&(usize, &FaceLoad)) -> f64| Array {
-        name: name.into(),
-        components: 1,
-        values: shown.iter().map(|of| value(of) as f32).collect(),
+    let scalar = |name: &str, value: &dyn Fn(&(usize, &FaceLoad)) -> f64| {
+        Array::scalars(name, shown.iter().map(value))
     };
-    let shear = shown.iter().flat_map(|(_, load)| load.shear().to_array());
     made.arrays = vec![
         scalar("block", &|(block, _)| *block as f64),
         scalar("pressure", &|(_, load)| load.pressure()),
         scalar("wetted", &|(_, load)| load.wetted / load.face.area),
-        Array {
-            name: "shear".into(),
-            components: 3,
-            values: shear.map(|x| x as f32).collect(),
-        },
+        Array::vectors("shear", shown.iter().map(|(_, load)| load.shear())),
     ];
     made
 }

@@ -201,11 +201,10 @@ pub fn point_cloud(water: &Water, fields: &[Field]) -> Cloud {
         })
     };
     let mut arrays: Vec<Array> = fields.iter().filter_map(array).collect();
-    arrays.push(Array {
-        name: "id".into(),
-        components: 1,
-        values: water.ids.iter().map(|id| *id as f32).collect(),
-    });
+    arrays.push(Array::scalars(
+        "id",
+        water.ids.iter().copied().map(f64::from),
+    ));
     Cloud {
         points: water.positions.iter().map(|x| x.to_array()).collect(),
         arrays,

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Error, Result,
     coupling::{Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, couple},
-    error::error_chain,
+    error::{error_chain, refused},
     geometry::Pose,
     gpu::timer::{Phases, begin_pass},
     lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
@@ -52,9 +52,7 @@ impl LatticeFluid {
             Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
             _ => None,
         };
-        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = async {
+        let make = async {
             let mut lattice =
                 Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
             let observer = Observer::new(device, &lattice)?;
@@ -75,12 +73,9 @@ impl LatticeFluid {
                 .map_err(|error| error.at_key(lattice_key))?;
             Ok((lattice, observer, blocks, advice))
         };
-        let made = made.await;
-        // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
-        let [validity, memory] = [validity.pop(), memory.pop()];
-        let refused = (validity.await, memory.await);
+        let (made, refused) = refused(device, make).await;
         let (lattice, observer, blocks, advice) = made?;
-        if let Some(error) = refused.1.or(refused.0) {
+        if let Some(error) = refused {
             let bytes: u64 = lattice.bytes().iter().map(|(_, bytes)| bytes).sum();
             return Err(Error::Device(format!(
                 "it does not hold {} cells, {bytes} bytes in its buffers ({}); use a larger cell or 16-bit storage",

@@ -12,7 +12,7 @@ use crate::{
         CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange,
         particle_advice,
     },
-    error::error_chain,
+    error::{error_chain, refused},
     geometry::{Load, Pose},
     rock::Motion,
     scene::{
@@ -117,21 +117,19 @@ impl SphFluid {
         };
         let rock = Rock::new(Some((device, queue)), scene, setup, Some(params)).await?;
         check_substep_count(time_step, rock.blocks())?;
-        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let particles = SphSolver::new(
-            device,
-            queue,
-            water,
-            &start.positions,
-            &start.velocities,
-            &start.pressures,
-        );
-        // A bind group of a buffer without memory is invalid too, so that the memory error takes precedence.
-        let [validity, memory] = [validity.pop(), memory.pop()];
-        let refused = (validity.await, memory.await);
+        let make = async {
+            SphSolver::new(
+                device,
+                queue,
+                water,
+                &start.positions,
+                &start.velocities,
+                &start.pressures,
+            )
+        };
+        let (particles, refused) = refused(device, make).await;
         let particles = particles.map_err(|error| error.at_key(particle_key))?;
-        if let Some(error) = refused.1.or(refused.0) {
+        if let Some(error) = refused {
             return Err(Error::Device(format!(
                 "it does not hold {} particles ({}); use a larger spacing",
                 particles.counts().fluid,

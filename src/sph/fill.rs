@@ -5,7 +5,11 @@ use super::{
     particle_lattice::{MIN_DISTANCE, ParticleLattice},
     solid::ConvexPart,
 };
-use crate::{Error, Result, geometry::Shape, rock::Block};
+use crate::{
+    Error, Result,
+    geometry::{Shape, bounding_box},
+    rock::Block,
+};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
@@ -157,10 +161,7 @@ pub fn water_volume(lattice: &ParticleLattice, bodies: &[WaterBody], blocks: &[B
 /// Fraction of a body of water outside all solids, by the low-discrepancy sequence of the generalised golden ratio
 /// (Roberts 2018, R₃) in its bounding box.
 fn free_fraction(water: &[ConvexPart<'_>], solids: &[&ConvexPart<'_>]) -> f64 {
-    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = water.iter().fold(empty, |(low, high), part| {
-        (low.min(part.low), high.max(part.high))
-    });
+    let [low, high] = bounding_box(water.iter().flat_map(|part| [part.low, part.high]));
     // x⁴ = x + 1.
     let golden = 1.220_744_084_605_759_5_f64;
     let steps = DVec3::new(golden.powi(-1), golden.powi(-2), golden.powi(-3));

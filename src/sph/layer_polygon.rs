@@ -2,7 +2,7 @@
 //! it.
 
 use super::{particle_lattice::ParticleLattice, solid::Solid};
-use crate::geometry::HalfSpace;
+use crate::geometry::{HalfSpace, min_max};
 use glam::DVec3;
 
 /// Cosine between a direction and a normal below which the direction lies in the plane.
@@ -145,10 +145,7 @@ impl LayerPolygon {
 
     /// Its extent along a direction, m.
     fn extent(&self, direction: DVec3) -> [f64; 2] {
-        let coordinates = self.corners.iter().map(|c| c.dot(direction));
-        coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
-            [low.min(at), high.max(at)]
-        })
+        min_max(self.corners.iter().map(|c| c.dot(direction)))
     }
 
     /// Whether it is parallel to an axis and extends beyond the lower and the upper end of the domain along it.

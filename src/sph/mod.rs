@@ -49,7 +49,6 @@ mod solid;
 mod solver;
 mod speed_estimate;
 mod water;
-mod wendland;
 
 pub use bodies::bodies;
 pub use boundary_particles::boundary_particles;
@@ -63,10 +62,9 @@ pub use particle_lattice::ParticleLattice;
 pub use probes::Gauges;
 #[doc(hidden)]
 pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
-pub use setup::{Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side};
+pub use setup::{Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side, Wendland};
 pub(crate) use solid::ConvexPart;
 pub use solid::{Faces, Solid};
 pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};
 pub use speed_estimate::SpeedEstimate;
 pub use water::{Totals, Water};
-pub use wendland::Wendland;

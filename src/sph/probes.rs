@@ -33,18 +33,13 @@ pub struct Gauges<'a> {
 impl<'a> Gauges<'a> {
     /// Gauges for particles at `positions` (m).
     pub fn new(setup: &Setup, positions: &'a [DVec3]) -> Self {
-        let h = setup.smoothing * setup.spacing;
         let period = |axis: usize| match setup.faces[axis][0] {
             Side::Periodic => setup.size[axis],
             _ => 0.0,
         };
         Self {
             positions,
-            kernel: if setup.plane {
-                Wendland::plane(h)
-            } else {
-                Wendland::space(h)
-            },
+            kernel: setup.kernel(),
             spacing: setup.spacing,
             period: DVec3::new(period(0), period(1), period(2)),
             plane: setup.plane,

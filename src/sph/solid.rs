@@ -2,7 +2,7 @@
 
 use super::{layer_polygon::LayerPolygon, particle_lattice::ParticleLattice};
 use crate::{
-    geometry::{Form, HalfSpace, Shape},
+    geometry::{Form, HalfSpace, Shape, bounding_box},
     rock::{Block, Motion},
 };
 use glam::{DQuat, DVec3};
@@ -243,13 +243,11 @@ impl<'a> ConvexPart<'a> {
     pub fn of_shape(shape: &'a Shape, centre: DVec3, rotation: DQuat) -> Vec<Self> {
         let part = |part: &'a crate::geometry::Part| {
             let centre = centre + rotation * part.offset;
-            let (low, high) = match &part.form {
-                Form::Sphere { radius } => (centre - *radius, centre + *radius),
+            let [low, high] = match &part.form {
+                Form::Sphere { radius } => [centre - *radius, centre + *radius],
                 Form::Convex(polyhedron) => {
                     let corners = polyhedron.vertices().iter();
-                    let corners = corners.map(|v| centre + rotation * *v);
-                    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                    corners.fold(empty, |(low, high), v| (low.min(v), high.max(v)))
+                    bounding_box(corners.map(|v| centre + rotation * *v))
                 }
             };
             Self {

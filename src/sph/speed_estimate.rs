@@ -2,9 +2,8 @@
 
 use super::{Start, solid::ConvexPart};
 use crate::{
-    formula::Formula,
-    geometry::uniform,
-    rock::{Block, Motion},
+    geometry::{min_max, uniform},
+    rock::{Block, Motion, formula_values},
 };
 use glam::DVec3;
 
@@ -27,9 +26,7 @@ pub struct SpeedEstimate {
 impl SpeedEstimate {
     /// The estimate for particles at `positions` (m), `spacing` (m) apart, in `gravity` (m/s²), at the start of a run.
     pub fn new(positions: &[DVec3], spacing: f64, gravity: DVec3) -> Self {
-        let depths = positions.iter().map(|x| x.dot(gravity));
-        let empty = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = depths.fold(empty, |(low, high), at| (low.min(at), high.max(at)));
+        let [low, high] = min_max(positions.iter().map(|x| x.dot(gravity)));
         let half = 0.5 * spacing * gravity.length();
         Self {
             gravity,
@@ -77,12 +74,10 @@ impl SpeedEstimate {
                     |n: u32| (f64::from(n) + uniform(0, &[n.into()])) / f64::from(SAMPLES);
                 let times = [0.0, 1.0].into_iter().chain((0..SAMPLES).map(jittered));
                 let times = times.map(|fraction| self.length * fraction);
-                let at = |formulas: &[Formula; 3], time| {
-                    DVec3::from_array([0, 1, 2].map(|axis| formulas[axis].eval_at([0.0; 3], time)))
-                };
-                times
-                    .map(|time| fastest(at(velocity, time), at(spin, time)))
-                    .fold(0.0, f64::max)
+                let speeds = times.map(|time| {
+                    fastest(formula_values(velocity, time), formula_values(spin, time))
+                });
+                speeds.fold(0.0, f64::max)
             }
         }
     }

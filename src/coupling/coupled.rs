@@ -205,22 +205,7 @@ impl Coupled<'_> {
             }
         }
     }
-}
 
-/// A block that covers the centres of cells at a velocity face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct BlockAtInlet {
-    pub block: usize,
-    pub face: Face,
-    /// Number of cells.
-    pub cells: usize,
-    /// The first of them.
-    pub first: [u32; 3],
-    /// Largest normal velocity through them, in the unit of the given velocities.
-    pub speed: f64,
-}
-
-impl Coupled<'_> {
     /// The blocks in cells of velocity faces with a velocity other than zero; `through` has the velocity of each cell
     /// of such a face along its normal, lower axis fastest.
     pub(crate) fn at_inlets(&self, through: &[(Face, Vec<f64>)]) -> Vec<BlockAtInlet> {
@@ -284,7 +269,7 @@ impl Coupled<'_> {
 
     /// The blocks in inflow cells at their present poses, with the velocities at the start, in the middle and at the end
     /// of the run.
-    pub(super) fn blocks_at_inlets(&self, scene: &Scene, units: &Units) -> Vec<BlockAtInlet> {
+    fn blocks_at_inlets(&self, scene: &Scene, units: &Units) -> Vec<BlockAtInlet> {
         let length = scene.run.duration(units);
         let velocity_face = |(face, boundary): (Face, &Boundary)| {
             matches!(boundary, Boundary::Velocity { .. }).then_some(face)
@@ -330,6 +315,19 @@ impl Coupled<'_> {
     }
 }
 
+/// A block that covers the centres of cells at a velocity face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BlockAtInlet {
+    pub block: usize,
+    pub face: Face,
+    /// Number of cells.
+    pub cells: usize,
+    /// The first of them.
+    pub first: [u32; 3],
+    /// Largest normal velocity through them, in the unit of the given velocities.
+    pub speed: f64,
+}
+
 /// Roughness of faces, cells: that of rock is a thousandth to a hundredth of the size of a block, which spans some
 /// tens of cells.
 const ROUGHNESS: f64 = 0.1;
@@ -342,7 +340,7 @@ const CURVED_GAP: f64 = 2.0 / 3.0;
 const PLANE_GAP: f64 = 0.8;
 
 /// The lubrication film in unresolved gaps; `None` without `coupling.lubrication`, and for an inviscid fluid.
-pub(super) fn lubrication_film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Film> {
+fn lubrication_film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Film> {
     let faces = scene.boundaries.iter();
     let free_slip = faces.filter(|(_, boundary)| matches!(boundary, Boundary::FreeSlip));
     let mut slip: Vec<usize> = free_slip

@@ -222,19 +222,7 @@ impl LatticeCoupling {
         }
         Ok(())
     }
-}
 
-/// The state of the coupling of blocks to a lattice.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
-pub struct CouplingState {
-    load_average: LoadAverage,
-    /// Pose of the last tile search of each block in the fluid: the tiles determine the order of summation, and so the
-    /// rounding of loads.
-    tiled: Vec<Option<Pose>>,
-}
-
-impl LatticeCoupling {
     /// The present state, for a later [`LatticeCoupling::restore`]; waits for the loads in flight.
     ///
     /// # Errors
@@ -277,6 +265,16 @@ impl LatticeCoupling {
         self.cells.tile(&state.tiled);
         self.placed = None;
     }
+}
+
+/// The state of the coupling of blocks to a lattice.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct CouplingState {
+    load_average: LoadAverage,
+    /// Pose of the last tile search of each block in the fluid: the tiles determine the order of summation, and so the
+    /// rounding of loads.
+    tiled: Vec<Option<Pose>>,
 }
 
 impl<'a> Coupled<'a> {

@@ -257,7 +257,7 @@ impl Rock {
     }
 
     /// Separates the load of the exterior fluid from the load that moved the blocks.
-    pub(super) fn update_external_load(&mut self) {
+    fn update_external_load(&mut self) {
         let held = self.is_held();
         let (loads, poses): (Vec<_>, _) = (self.blocks.loads().collect(), self.blocks.poses());
         self.external_load.clone_from(&self.cell_load);
@@ -316,23 +316,7 @@ impl Rock {
     pub fn exchange_count(&self) -> u64 {
         self.exchanges
     }
-}
 
-/// The state of the blocks of a scene, without their fluid: everything on which their next steps depend.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
-pub struct RockState {
-    /// The blocks.
-    pub snapshot: Snapshot,
-    /// Of the fluid inside each block; empty without a fluid.
-    interior: Vec<InteriorInertia>,
-    /// Load on each block in the last exchange; empty without a fluid.
-    cell_load: Vec<FluidLoad>,
-    /// Work of the blocks on the fluid since the start, J.
-    work_on_fluid: f64,
-}
-
-impl Rock {
     /// The present state, for a later [`Rock::restore`].
     pub fn state(&self) -> RockState {
         RockState {
@@ -366,6 +350,20 @@ impl Rock {
         self.update_external_load();
         Ok(())
     }
+}
+
+/// The state of the blocks of a scene, without their fluid: everything on which their next steps depend.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct RockState {
+    /// The blocks.
+    pub snapshot: Snapshot,
+    /// Of the fluid inside each block; empty without a fluid.
+    interior: Vec<InteriorInertia>,
+    /// Load on each block in the last exchange; empty without a fluid.
+    cell_load: Vec<FluidLoad>,
+    /// Work of the blocks on the fluid since the start, J.
+    work_on_fluid: f64,
 }
 
 /// The inertia tensor of a body in its present orientation.

@@ -231,24 +231,7 @@ impl Cell {
     pub fn bounds(&self) -> [DVec3; 2] {
         bounding_box(self.live())
     }
-}
 
-/// The ring that runs against all of `rim`; none if that is more or less than one ring.
-fn chain(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
-    let [end, start] = *rim.first()?;
-    let mut ring = vec![start];
-    let mut at = end;
-    while at != start {
-        if ring.len() >= rim.len() {
-            return None;
-        }
-        ring.push(at);
-        at = rim.iter().find(|[_, to]| *to == at)?[0];
-    }
-    (ring.len() == rim.len() && ring.len() >= 3).then_some(ring)
-}
-
-impl Cell {
     /// Moves each vertex of a compact cell to where three of its planes meet, chosen to span the most.
     /// While a cell is cut, a vertex stays where the first three met, however flat the angle.
     pub(super) fn settle(&mut self) {
@@ -276,6 +259,38 @@ impl Cell {
             }
         }
     }
+
+    /// Its moments about `origin`.
+    pub(super) fn moments(&self, origin: DVec3) -> Moments {
+        let at = |v: u32| self.vertices[v as usize] - origin;
+        Moments::of(self.facets.iter().flat_map(|facet| {
+            let pairs = facet.ring[1..].windows(2);
+            pairs.map(move |pair| [at(facet.ring[0]), at(pair[0]), at(pair[1])])
+        }))
+    }
+
+    /// The centroid of a compact cell; none if it has no volume.
+    pub(super) fn centroid(&self) -> Option<DVec3> {
+        let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
+        let moments = self.moments(middle);
+        let centroid = middle + moments.centroid();
+        (moments.volume > 0.0 && centroid.is_finite()).then_some(centroid)
+    }
+}
+
+/// The ring that runs against all of `rim`; none if that is more or less than one ring.
+fn chain(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
+    let [end, start] = *rim.first()?;
+    let mut ring = vec![start];
+    let mut at = end;
+    while at != start {
+        if ring.len() >= rim.len() {
+            return None;
+        }
+        ring.push(at);
+        at = rim.iter().find(|[_, to]| *to == at)?[0];
+    }
+    (ring.len() == rim.len() && ring.len() >= 3).then_some(ring)
 }
 
 /// The two planes at the widest angle and the third that spans the most with them.
@@ -305,25 +320,6 @@ pub(super) fn meet([p, q, r]: [HalfSpace; 3], near: DVec3) -> Option<DVec3> {
     let [hp, hq, hr] = [p, q, r].map(|plane| plane.height(near));
     let sum = q.normal.cross(r.normal) * hp + r.normal.cross(p.normal) * hq + across * hr;
     Some(near - sum / det)
-}
-
-impl Cell {
-    /// Its moments about `origin`.
-    pub(super) fn moments(&self, origin: DVec3) -> Moments {
-        let at = |v: u32| self.vertices[v as usize] - origin;
-        Moments::of(self.facets.iter().flat_map(|facet| {
-            let pairs = facet.ring[1..].windows(2);
-            pairs.map(move |pair| [at(facet.ring[0]), at(pair[0]), at(pair[1])])
-        }))
-    }
-
-    /// The centroid of a compact cell; none if it has no volume.
-    pub(super) fn centroid(&self) -> Option<DVec3> {
-        let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
-        let moments = self.moments(middle);
-        let centroid = middle + moments.centroid();
-        (moments.volume > 0.0 && centroid.is_finite()).then_some(centroid)
-    }
 }
 
 /// ∫dV, ∫x dV and ∫x xᵀ dV.

@@ -16,7 +16,7 @@ use glam::DVec3;
 use std::path::Path;
 
 /// Most parts: a compound of more is slow in contact.
-pub(super) const PARTS: usize = 64;
+const PARTS: usize = 64;
 
 /// Faces that are tested for concavity of a mesh, before its hull is made to find out.
 const SAMPLE: usize = 200;
@@ -294,7 +294,7 @@ impl Polygon {
 
 /// A plane that divides what is not convex: of all that are tried, the one that leaves the least height of
 /// corners above faces on its own sides. None if no face has corners more than `deviation` (m) above it.
-pub(super) fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> Option<HalfSpace> {
+fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> Option<HalfSpace> {
     let concave = |p: &&Polygon| p.broad && polygons.iter().any(|o| o.rises(&p.plane, deviation));
     // Some faces here and there; all of them only if none of those will do.
     let mut faces: Vec<&Polygon> = some(polygons, 4 * FACES).filter(concave).collect();

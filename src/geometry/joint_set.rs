@@ -222,7 +222,7 @@ impl Default for Compass {
 
 /// The axes of a plane: unit vectors, `strike` × `rise` = `normal`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Attitude {
+struct Attitude {
     /// Level, the plane falling to the right of it.
     pub strike: DVec3,
     /// Up the plane.
@@ -241,7 +241,7 @@ impl Compass {
         Ok(self.attitude(dip, dip_direction)?.normal)
     }
 
-    pub(super) fn attitude(&self, dip: f64, dip_direction: f64) -> Result<Attitude> {
+    fn attitude(&self, dip: f64, dip_direction: f64) -> Result<Attitude> {
         let axes = self.up.try_normalize().and_then(|up| {
             let north = self.north.try_normalize()?.reject_from_normalized(up);
             // Within a hundredth of a degree of up, north would be a matter of rounding.

@@ -92,53 +92,7 @@ impl TriangleMesh {
         let [min, max] = bounding_box(self.vertices.iter().copied());
         (min.into(), max.into())
     }
-}
 
-/// Whether all corners of `triangles` are among so many vertices.
-pub(super) fn named(triangles: &[[u32; 3]], vertices: usize) -> Result<(), String> {
-    let all = triangles.iter().flatten();
-    match all.max().filter(|corner| **corner as usize >= vertices) {
-        None => Ok(()),
-        Some(corner) => Err(format!(
-            "a triangle names the vertex {corner}, and there are only {vertices}; count them from 0, or export the mesh again"
-        )),
-    }
-}
-
-/// Vertices and triangles of a file.
-pub(super) type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
-
-#[cfg(not(feature = "mesh"))]
-fn no_files(_: Vec<u8>) -> Result<Soup, String> {
-    Err("this program reads no meshes; build it with the feature `mesh` of riprap".into())
-}
-
-/// The distinct points, and for each given point which of them it is.
-fn weld(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
-    let [min, max] = bounding_box(points.iter().copied());
-    let reach = (WELD * min.distance(max)).max(f64::MIN_POSITIVE);
-    let bin = |p: DVec3| ((p - min) / reach).floor().as_i64vec3().to_array();
-    let mut bins: HashMap<[i64; 3], u32> = HashMap::new();
-    let mut kept: Vec<DVec3> = Vec::new();
-    let mut of = Vec::with_capacity(points.len());
-    for p in points {
-        let here = bin(*p);
-        let near = (0..27).find_map(|n| {
-            let shift = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-            let candidate = *bins.get(&std::array::from_fn(|a| here[a] + shift[a]))?;
-            (kept[candidate as usize].distance(*p) <= reach).then_some(candidate)
-        });
-        of.push(near.unwrap_or_else(|| {
-            let new = kept.len() as u32;
-            kept.push(*p);
-            bins.insert(here, new);
-            new
-        }));
-    }
-    (kept, of)
-}
-
-impl TriangleMesh {
     /// Whether every edge is passed as often in one direction as in the other: then the surface has no
     /// boundary, and the winding number of every point off it is whole.
     ///
@@ -187,4 +141,48 @@ impl TriangleMesh {
             )),
         }
     }
+}
+
+/// Whether all corners of `triangles` are among so many vertices.
+pub(super) fn named(triangles: &[[u32; 3]], vertices: usize) -> Result<(), String> {
+    let all = triangles.iter().flatten();
+    match all.max().filter(|corner| **corner as usize >= vertices) {
+        None => Ok(()),
+        Some(corner) => Err(format!(
+            "a triangle names the vertex {corner}, and there are only {vertices}; count them from 0, or export the mesh again"
+        )),
+    }
+}
+
+/// Vertices and triangles of a file.
+pub(super) type Soup = (Vec<DVec3>, Vec<[u32; 3]>);
+
+#[cfg(not(feature = "mesh"))]
+fn no_files(_: Vec<u8>) -> Result<Soup, String> {
+    Err("this program reads no meshes; build it with the feature `mesh` of riprap".into())
+}
+
+/// The distinct points, and for each given point which of them it is.
+fn weld(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
+    let [min, max] = bounding_box(points.iter().copied());
+    let reach = (WELD * min.distance(max)).max(f64::MIN_POSITIVE);
+    let bin = |p: DVec3| ((p - min) / reach).floor().as_i64vec3().to_array();
+    let mut bins: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut kept: Vec<DVec3> = Vec::new();
+    let mut of = Vec::with_capacity(points.len());
+    for p in points {
+        let here = bin(*p);
+        let near = (0..27).find_map(|n| {
+            let shift = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+            let candidate = *bins.get(&std::array::from_fn(|a| here[a] + shift[a]))?;
+            (kept[candidate as usize].distance(*p) <= reach).then_some(candidate)
+        });
+        of.push(near.unwrap_or_else(|| {
+            let new = kept.len() as u32;
+            kept.push(*p);
+            bins.insert(here, new);
+            new
+        }));
+    }
+    (kept, of)
 }

@@ -128,6 +128,71 @@ impl Polyhedron {
     pub(super) fn thickness(&self) -> f64 {
         self.smallest_distance() / (2.0 * self.radius)
     }
+
+    /// The points inside all of `faces`, and their centroid (m), which becomes the origin. Faces without
+    /// a vertex go, coplanar ones become one, the others keep their order. Normals need not have unit
+    /// length: both sides of n · x ≤ d are divided by |n|.
+    ///
+    /// # Errors
+    /// If a face is not finite or has no normal, or if what the faces bound is unbounded, empty, or a
+    /// sliver (a face nearer to the centroid than 1e-4 of the diameter, twice the radius). Says which face.
+    pub fn from_half_spaces(faces: &[HalfSpace]) -> Result<(Self, DVec3)> {
+        Self::from_cell(cell_of(&unit(faces)?)?)
+    }
+
+    /// The box with these edges (m) along its axes.
+    ///
+    /// # Errors
+    /// If an edge is not positive, or the box is a sliver.
+    pub fn cuboid(edges: DVec3) -> Result<Self> {
+        for (axis, edge) in edges.to_array().into_iter().enumerate() {
+            positive(&format!("edges[{axis}]"), edge)?;
+        }
+        let mut cell = Cell::cuboid(-edges / 2.0, edges / 2.0);
+        for (index, facet) in cell.facets.iter_mut().enumerate() {
+            facet.source = index as u32;
+        }
+        Self::about(cell, DVec3::ZERO)
+    }
+
+    /// The regular tetrahedron with this edge (m), corners along (1, 1, 1), (1, −1, −1) and so on.
+    ///
+    /// # Errors
+    /// If the edge is not positive.
+    pub fn tetrahedron(edge: f64) -> Result<Self> {
+        let corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
+        let corners = corners.map(|c| DVec3::from(c.map(f64::from)));
+        regular(edge, 2.0 * SQRT_2, corners.into())
+    }
+
+    /// The regular octahedron with this edge (m), corners on the axes.
+    ///
+    /// # Errors
+    /// If the edge is not positive.
+    pub fn octahedron(edge: f64) -> Result<Self> {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let corners = axes.into_iter().flat_map(|a| [a, -a]);
+        regular(edge, SQRT_2, corners.collect())
+    }
+
+    /// The regular dodecahedron with this edge (m), eight of its corners along (±1, ±1, ±1).
+    ///
+    /// # Errors
+    /// If the edge is not positive.
+    pub fn dodecahedron(edge: f64) -> Result<Self> {
+        let sign = |i: u32, bit: u32| if i >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let cube = (0..8).map(|i| DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2)));
+        let corners = cube.chain(rectangles(1.0 / PHI, PHI));
+        regular(edge, 2.0 / PHI, corners.collect())
+    }
+
+    /// The regular icosahedron with this edge (m), its corners on three golden rectangles.
+    ///
+    /// # Errors
+    /// If the edge is not positive.
+    pub fn icosahedron(edge: f64) -> Result<Self> {
+        regular(edge, 2.0, rectangles(1.0, PHI).collect())
+    }
 }
 
 /// A plane face: the points x of the block have `normal` · x ≤ `distance`.
@@ -174,19 +239,6 @@ impl HalfSpace {
 /// Size of the box around the unit sphere's tangent planes beyond which a block counts as unbounded:
 /// one so long would be a sliver by far.
 const FAR: f64 = 1e6;
-
-impl Polyhedron {
-    /// The points inside all of `faces`, and their centroid (m), which becomes the origin. Faces without
-    /// a vertex go, coplanar ones become one, the others keep their order. Normals need not have unit
-    /// length: both sides of n · x ≤ d are divided by |n|.
-    ///
-    /// # Errors
-    /// If a face is not finite or has no normal, or if what the faces bound is unbounded, empty, or a
-    /// sliver (a face nearer to the centroid than 1e-4 of the diameter, twice the radius). Says which face.
-    pub fn from_half_spaces(faces: &[HalfSpace]) -> Result<(Self, DVec3)> {
-        Self::from_cell(cell_of(&unit(faces)?)?)
-    }
-}
 
 /// The faces with unit normals.
 pub(super) fn unit(faces: &[HalfSpace]) -> Result<Vec<HalfSpace>> {
@@ -287,62 +339,6 @@ fn reach(faces: &[HalfSpace]) -> Result<f64> {
 
 /// The golden ratio.
 const PHI: f64 = 1.618_033_988_749_895;
-
-impl Polyhedron {
-    /// The box with these edges (m) along its axes.
-    ///
-    /// # Errors
-    /// If an edge is not positive, or the box is a sliver.
-    pub fn cuboid(edges: DVec3) -> Result<Self> {
-        for (axis, edge) in edges.to_array().into_iter().enumerate() {
-            positive(&format!("edges[{axis}]"), edge)?;
-        }
-        let mut cell = Cell::cuboid(-edges / 2.0, edges / 2.0);
-        for (index, facet) in cell.facets.iter_mut().enumerate() {
-            facet.source = index as u32;
-        }
-        Self::about(cell, DVec3::ZERO)
-    }
-
-    /// The regular tetrahedron with this edge (m), corners along (1, 1, 1), (1, −1, −1) and so on.
-    ///
-    /// # Errors
-    /// If the edge is not positive.
-    pub fn tetrahedron(edge: f64) -> Result<Self> {
-        let corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
-        let corners = corners.map(|c| DVec3::from(c.map(f64::from)));
-        regular(edge, 2.0 * SQRT_2, corners.into())
-    }
-
-    /// The regular octahedron with this edge (m), corners on the axes.
-    ///
-    /// # Errors
-    /// If the edge is not positive.
-    pub fn octahedron(edge: f64) -> Result<Self> {
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let corners = axes.into_iter().flat_map(|a| [a, -a]);
-        regular(edge, SQRT_2, corners.collect())
-    }
-
-    /// The regular dodecahedron with this edge (m), eight of its corners along (±1, ±1, ±1).
-    ///
-    /// # Errors
-    /// If the edge is not positive.
-    pub fn dodecahedron(edge: f64) -> Result<Self> {
-        let sign = |i: u32, bit: u32| if i >> bit & 1 == 0 { 1.0 } else { -1.0 };
-        let cube = (0..8).map(|i| DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2)));
-        let corners = cube.chain(rectangles(1.0 / PHI, PHI));
-        regular(edge, 2.0 / PHI, corners.collect())
-    }
-
-    /// The regular icosahedron with this edge (m), its corners on three golden rectangles.
-    ///
-    /// # Errors
-    /// If the edge is not positive.
-    pub fn icosahedron(edge: f64) -> Result<Self> {
-        regular(edge, 2.0, rectangles(1.0, PHI).collect())
-    }
-}
 
 /// The corners (0, ±a, ±b) and their cyclic permutations.
 fn rectangles(a: f64, b: f64) -> impl Iterator<Item = DVec3> {

@@ -122,15 +122,7 @@ impl Shape {
             [centre + low, centre + high]
         }))
     }
-}
 
-impl From<Polyhedron> for Shape {
-    fn from(polyhedron: Polyhedron) -> Self {
-        Self::single(Form::Convex(polyhedron))
-    }
-}
-
-impl Shape {
     /// The rigid compound of `parts`, their offsets in any common frame (m), and its centroid (m) in
     /// that frame, which becomes the origin. Volume and inertia are the sums over the parts, which must
     /// not overlap, or their mass would count twice.
@@ -187,6 +179,12 @@ impl Shape {
     }
 }
 
+impl From<Polyhedron> for Shape {
+    fn from(polyhedron: Polyhedron) -> Self {
+        Self::single(Form::Convex(polyhedron))
+    }
+}
+
 impl Part {
     /// Largest distance of a point from the centroid of the shape, m.
     fn reach(&self) -> f64 {
@@ -199,13 +197,7 @@ impl Part {
             Form::Sphere { radius } => self.offset.length() + radius,
         }
     }
-}
 
-/// Share of the smaller part that may be common to two: what rounding of their places makes of parts
-/// that touch.
-const COMMON: f64 = 1e-6;
-
-impl Part {
     /// Whether the mass of the two would count twice somewhere.
     pub(super) fn overlaps(&self, other: &Self) -> bool {
         let apart = self.offset.distance(other.offset);
@@ -229,6 +221,10 @@ impl Part {
         }
     }
 }
+
+/// Share of the smaller part that may be common to two: what rounding of their places makes of parts
+/// that touch.
+const COMMON: f64 = 1e-6;
 
 /// Volume of what is in both, m³.
 fn common_volume(a: &Polyhedron, at_a: DVec3, b: &Polyhedron, at_b: DVec3) -> f64 {

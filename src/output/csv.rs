@@ -1,6 +1,6 @@
 //! CSV: what a probe saw, a row a step, and reading it back. A value that does not exist, such as the level of a dry gauge, is `NaN`.
 
-use super::replace::{failure, replace};
+use super::{failure, replace};
 use crate::{Error, Result};
 use std::{
     cmp::Ordering,

@@ -99,9 +99,7 @@ impl Image {
             }
         })
     }
-}
 
-impl Image {
     /// The array `name` at `point` (m), by trilinear interpolation between cell centres.
     ///
     /// A point outside the outermost centres takes the value at the nearest place between them.

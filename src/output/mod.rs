@@ -23,13 +23,79 @@
 
 mod csv;
 mod image;
-mod pvd;
-mod replace;
 mod vtk;
 
 pub use csv::{Csv, Table};
 pub use image::{Array, Image, VelocityQuantities};
-pub use pvd::Pvd;
-pub(crate) use replace::failure;
-pub use replace::replace;
-pub use vtk::{Cloud, Polyhedra, Surface, write_surface, write_vti, write_vtp, write_vtu};
+pub use vtk::{Cloud, Polyhedra, Pvd, Surface, write_surface, write_vti, write_vtp, write_vtu};
+
+use crate::{Error, Result};
+use std::{
+    fs::{self, File},
+    io::{self, BufWriter, ErrorKind, Write},
+    path::{Path, PathBuf},
+};
+
+/// Writes `path` through `content`, next to it first and renamed at the end, so that a killed run
+/// or a full disk leaves the former file, never half of the new one.
+///
+/// # Errors
+/// [`Error::File`] with the system's reason and a remedy.
+pub fn replace(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    // A device or a pipe cannot be replaced by a rename, and has no former content to keep.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return File::options()
+            .write(true)
+            .open(path)
+            .and_then(|file| fill(&file, content))
+            .map_err(|error| failure("write", path, &error));
+    }
+    let draft = draft_of(path);
+    let written = File::create(&draft)
+        .and_then(|file| {
+            fill(&file, content)?;
+            // Some file systems report a full disk only here.
+            file.sync_all()
+        })
+        .and_then(|()| fs::rename(&draft, path));
+    written.map_err(|error| {
+        // The draft is of no use to anyone; that it may not exist is fine.
+        let _ = fs::remove_file(&draft);
+        failure("write", path, &error)
+    })
+}
+
+fn fill(file: &File, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::new(file);
+    content(&mut writer)?;
+    writer.flush()
+}
+
+/// The name under which `path` grows: in the same folder, since a rename cannot cross file systems.
+fn draft_of(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(".part");
+    path.with_file_name(name)
+}
+
+/// The error for `path`, with what to do about it.
+pub(crate) fn failure(action: &str, path: &Path, error: &io::Error) -> Error {
+    let remedy = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "free some space, write less often, or choose a folder on another disk"
+        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "choose a folder that this user may write to"
+        }
+        ErrorKind::NotFound if action == "read" => {
+            "there is no such file: check the spelling of the path"
+        }
+        ErrorKind::NotFound => "create its folder first, or check the spelling of the path",
+        ErrorKind::NotADirectory => {
+            "a part of the path is a file, not a folder; choose another path"
+        }
+        ErrorKind::IsADirectory => "this is a folder; add a file name",
+        _ => "check the path and the disk",
+    };
+    Error::file(path, format!("cannot {action}: {error}; {remedy}"))
+}

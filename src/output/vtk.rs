@@ -1,11 +1,12 @@
 //! VTK XML files (format version 1.0) of cells, points, polygons and polyhedra: raw binary arrays appended behind the XML.
 
-use super::{Array, Image, replace::replace};
+use super::{Array, Image, failure, replace};
 use crate::{Error, Result};
 use std::{
     fmt::Write as _,
-    io::{self, Write},
-    path::Path,
+    fs,
+    io::{self, ErrorKind, Write},
+    path::{Component, Path, PathBuf},
 };
 
 /// Writes `image` to `path` for ParaView, little endian, replacing an older file only when done.
@@ -17,38 +18,18 @@ pub fn write_vti(path: impl AsRef<Path>, image: &Image) -> Result<()> {
     if let Some(fault) = image.fault() {
         return Err(Error::file(path, format!("cannot write: {fault}")));
     }
-    let mut appended = Appended::default();
-    let mut elements = String::new();
-    for array in &image.arrays {
-        let values = Values::Float32(&array.values);
-        elements += "        ";
-        elements += &appended.declare(&array.name, array.components, values);
-    }
-    let header = header(image, &elements);
-    replace(path, |writer| {
-        writer.write_all(header.as_bytes())?;
-        appended.write_arrays(writer)?;
-        writer.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
-    })
-}
-
-/// What stands before the arrays that `elements` announce.
-fn header(image: &Image, elements: &str) -> String {
     let [nx, ny, nz] = image.cells;
     let [x, y, z] = image.origin;
     let h = image.spacing;
     let extent = format!("0 {nx} 0 {ny} 0 {nz}");
-    // Version 1.0 is the first that lets header_type be chosen; the old UInt32 ends at 4 GiB.
-    format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         \x20 <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} {z}\" Spacing=\"{h} {h} {h}\">\n\
-         \x20   <Piece Extent=\"{extent}\">\n\
-         \x20     <CellData>\n{elements}      </CellData>\n\
-         \x20   </Piece>\n\
-         \x20 </ImageData>\n\
-         \x20 <AppendedData encoding=\"raw\">\n_"
-    )
+    let grid = format!(" WholeExtent=\"{extent}\" Origin=\"{x} {y} {z}\" Spacing=\"{h} {h} {h}\"");
+    let mut appended = Appended::default();
+    let mut xml = format!("<Piece Extent=\"{extent}\">\n<CellData>\n");
+    xml += &appended.declare_all(&image.arrays);
+    xml += "</CellData>\n</Piece>\n";
+    replace(path, |writer| {
+        appended.write(writer, "ImageData", &grid, &xml)
+    })
 }
 
 /// VTK's number for a polyhedron.
@@ -122,7 +103,7 @@ pub fn write_vtu(path: impl AsRef<Path>, polyhedra: &Polyhedra) -> Result<()> {
     xml += &appended.declare_all(arrays);
     xml += "</CellData>\n</Piece>\n";
     replace(path, |writer| {
-        appended.write(writer, "UnstructuredGrid", &xml)
+        appended.write(writer, "UnstructuredGrid", "", &xml)
     })
 }
 
@@ -161,7 +142,7 @@ pub fn write_vtp(path: impl AsRef<Path>, cloud: &Cloud) -> Result<()> {
     xml += "</Verts>\n<PointData>\n";
     xml += &appended.declare_all(&cloud.arrays);
     xml += "</PointData>\n</Piece>\n";
-    replace(path, |writer| appended.write(writer, "PolyData", &xml))
+    replace(path, |writer| appended.write(writer, "PolyData", "", &xml))
 }
 
 /// Plane polygons, and quantities on each.
@@ -203,7 +184,7 @@ pub fn write_surface(path: impl AsRef<Path>, surface: &Surface) -> Result<()> {
     xml += "</Polys>\n<CellData>\n";
     xml += &appended.declare_all(&surface.arrays);
     xml += "</CellData>\n</Piece>\n";
-    replace(path, |writer| appended.write(writer, "PolyData", &xml))
+    replace(path, |writer| appended.write(writer, "PolyData", "", &xml))
 }
 
 /// Bytes in front of each appended array: its length as UInt64.
@@ -212,7 +193,7 @@ const LENGTH_BYTES: u64 = size_of::<u64>() as u64;
 const CHUNK: usize = 8 * 1024;
 
 /// Values of one of VTK's types.
-pub(super) enum Values<'a> {
+enum Values<'a> {
     Float32(&'a [f32]),
     Float64(Vec<f64>),
     Int64(Vec<i64>),
@@ -262,14 +243,14 @@ fn little<T: Copy, const N: usize>(
 
 /// The XML of a file and the arrays behind it.
 #[derive(Default)]
-pub(super) struct Appended<'a> {
+struct Appended<'a> {
     arrays: Vec<Values<'a>>,
     offset: u64,
 }
 
 impl<'a> Appended<'a> {
     /// The element that announces `values`.
-    pub fn declare(&mut self, name: &str, components: usize, values: Values<'a>) -> String {
+    fn declare(&mut self, name: &str, components: usize, values: Values<'a>) -> String {
         let element = format!(
             "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
              format=\"appended\" offset=\"{}\"/>\n",
@@ -283,7 +264,7 @@ impl<'a> Appended<'a> {
     }
 
     /// The elements that announce the quantities of points or cells.
-    pub fn declare_all(&mut self, arrays: &'a [Array]) -> String {
+    fn declare_all(&mut self, arrays: &'a [Array]) -> String {
         let mut elements = String::new();
         for array in arrays {
             let values = Values::Float32(&array.values);
@@ -297,32 +278,33 @@ impl<'a> Appended<'a> {
         elements
     }
 
-    /// Writes a file of `kind` whose content is `xml`, little endian.
-    pub fn write(&self, writer: &mut dyn Write, kind: &str, xml: &str) -> io::Result<()> {
+    /// Writes a file of `kind`, whose element has these `attributes` and the content `xml`, little endian, and behind it
+    /// the arrays, each with its length in front.
+    fn write(
+        &self,
+        writer: &mut dyn Write,
+        kind: &str,
+        attributes: &str,
+        xml: &str,
+    ) -> io::Result<()> {
         // Version 1.0 is the first that lets header_type be chosen; the old UInt32 ends at 4 GiB.
         write!(
             writer,
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\">\n<{kind}>\n{xml}</{kind}>\n\
+             header_type=\"UInt64\">\n<{kind}{attributes}>\n{xml}</{kind}>\n\
              <AppendedData encoding=\"raw\">\n_"
         )?;
-        self.write_arrays(writer)?;
-        writer.write_all(b"\n</AppendedData>\n</VTKFile>\n")
-    }
-
-    /// Writes the arrays alone, each with its length in front.
-    pub fn write_arrays(&self, writer: &mut dyn Write) -> io::Result<()> {
         for values in &self.arrays {
             writer.write_all(&values.bytes().to_le_bytes())?;
             values.write(writer)?;
         }
-        Ok(())
+        writer.write_all(b"\n</AppendedData>\n</VTKFile>\n")
     }
 }
 
 /// What is wrong with the sizes of `arrays` of `count` tuples, if anything.
-pub(super) fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> {
+fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> {
     arrays.iter().find_map(|array| {
         let wants = count * array.components;
         (array.values.len() != wants).then(|| {
@@ -337,7 +319,7 @@ pub(super) fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> 
 }
 
 /// `text` as it may stand inside a quoted attribute.
-pub(super) fn escape(text: &str) -> String {
+fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
@@ -345,7 +327,7 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// Inverse of [`escape`].
-pub(super) fn unescape(text: &str) -> String {
+fn unescape(text: &str) -> String {
     text.replace("&quot;", "\"")
         .replace("&gt;", ">")
         .replace("&lt;", "<")
@@ -353,8 +335,131 @@ pub(super) fn unescape(text: &str) -> String {
 }
 
 /// The value of `attribute` in `tag`, an element as [`Pvd`](super::Pvd) writes it.
-pub(super) fn attribute(tag: &str, attribute: &str) -> Option<String> {
+fn attribute(tag: &str, attribute: &str) -> Option<String> {
     let (_, rest) = tag.split_once(&format!(" {attribute}=\""))?;
     let (value, _) = rest.split_once('"')?;
     Some(unescape(value))
+}
+
+/// A collection of files with their times, complete on disk after every [`Pvd::add`].
+#[derive(Clone, Debug)]
+pub struct Pvd {
+    path: PathBuf,
+    /// Time (s) and file, relative to the collection's folder, `/` between its parts.
+    entries: Vec<(f64, String)>,
+}
+
+impl Pvd {
+    /// Begins an empty collection at `path`, over an older one.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be written.
+    pub fn create(path: impl Into<PathBuf>) -> Result<Self> {
+        let pvd = Self {
+            path: path.into(),
+            entries: Vec::new(),
+        };
+        pvd.write()?;
+        Ok(pvd)
+    }
+
+    /// Continues the collection at `path` for a run that starts again at `time` (s): entries from
+    /// then on are dropped, since the run writes them anew. Begins an empty one if there is none.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be read, is not a collection written by this type, or
+    /// cannot be written.
+    pub fn resume(path: impl Into<PathBuf>, time: f64) -> Result<Self> {
+        let path = path.into();
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::NotFound => return Self::create(path),
+            Err(error) => return Err(failure("read", &path, &error)),
+        };
+        let mut entries = Vec::new();
+        for (number, line) in text.lines().enumerate() {
+            if !line.trim_start().starts_with("<DataSet ") {
+                continue;
+            }
+            let stamp = attribute(line, "timestep").and_then(|stamp| stamp.parse::<f64>().ok());
+            let (Some(stamp), Some(file)) = (stamp, attribute(line, "file")) else {
+                return Err(Error::file(
+                    path,
+                    format!(
+                        "line {}: a DataSet needs a timestep and a file; \
+                         move this collection away to begin a new one",
+                        number + 1
+                    ),
+                ));
+            };
+            if stamp < time {
+                entries.push((stamp, file));
+            }
+        }
+        let pvd = Self { path, entries };
+        pvd.write()?;
+        Ok(pvd)
+    }
+
+    /// Adds `file` at `time` (s). A file already listed is listed once, at its new time.
+    ///
+    /// `file` lies below the collection's folder; it is given either with that folder in front,
+    /// as it was written, or relative to it.
+    ///
+    /// # Errors
+    /// [`Error::File`] if `file` lies elsewhere, or the collection cannot be written.
+    pub fn add(&mut self, time: f64, file: impl AsRef<Path>) -> Result<()> {
+        let file = self.relative(file.as_ref())?;
+        self.entries.retain(|(_, listed)| *listed != file);
+        self.entries.push((time, file));
+        self.write()
+    }
+
+    /// Times (s) and files, in the order in which they were added.
+    pub fn entries(&self) -> impl Iterator<Item = (f64, &str)> {
+        self.entries
+            .iter()
+            .map(|(time, file)| (*time, file.as_str()))
+    }
+
+    fn relative(&self, file: &Path) -> Result<String> {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let below = file.strip_prefix(folder).unwrap_or(file);
+        let parts: Option<Vec<_>> = below
+            .components()
+            .filter(|part| *part != Component::CurDir)
+            .map(|part| match part {
+                Component::Normal(name) => name.to_str(),
+                _ => None,
+            })
+            .collect();
+        parts.map(|parts| parts.join("/")).ok_or_else(|| {
+            Error::file(
+                file,
+                format!(
+                    "a collection lists files by UTF-8 paths below its own folder; \
+                     write this one below {}",
+                    folder.display()
+                ),
+            )
+        })
+    }
+
+    fn write(&self) -> Result<()> {
+        replace(&self.path, |writer| {
+            writer.write_all(
+                b"<?xml version=\"1.0\"?>\n\
+                  <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+                  \x20 <Collection>\n",
+            )?;
+            for (time, file) in &self.entries {
+                let file = escape(file);
+                writeln!(
+                    writer,
+                    "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>"
+                )?;
+            }
+            writer.write_all(b"  </Collection>\n</VTKFile>\n")
+        })
+    }
 }

@@ -77,13 +77,7 @@ impl SkinReference {
 }
 
 /// By how much the boxes of a block are grown: half the skin, or what a fast one travels in two steps, m.
-pub(super) fn skin_margin(
-    body: &Body,
-    state: &State,
-    deforming: &DeformingBlocks,
-    skin: f64,
-    dt: f64,
-) -> f64 {
+fn skin_margin(body: &Body, state: &State, deforming: &DeformingBlocks, skin: f64, dt: f64) -> f64 {
     (0.5 * skin).max(2.0 * step_travel(body, state, deforming, dt))
 }
 
@@ -96,7 +90,7 @@ fn step_travel(body: &Body, state: &State, deforming: &DeformingBlocks, dt: f64)
 }
 
 /// Whether some block may leave its boxes within a step, so that pairs may be missing.
-pub(super) fn skin_exceeded(
+fn skin_exceeded(
     bodies: &[Body],
     states: &[State],
     deforming: &DeformingBlocks,
@@ -119,7 +113,7 @@ pub(super) fn skin_exceeded(
 /// kept all the same: its history ends only where the resolver says so.
 ///
 /// `lasting`: the components of the periodic offset that identify a pair, see [`Periods::lasting`].
-pub(super) fn merged(
+fn merged(
     old: &[CandidatePair],
     new: &[PartPair],
     lasting: impl Fn(&PartPair) -> [i32; 3],
@@ -144,7 +138,7 @@ pub(super) fn merged(
 
 /// Two parts that may touch, and the image of the second that may touch the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct PartPair {
+struct PartPair {
     /// First and second part, in ascending order.
     pub parts: [u32; 2],
     /// Number of periods by which the second is shifted.
@@ -156,7 +150,7 @@ pub(super) struct PartPair {
 ///
 /// # Errors
 /// If the list is not sorted, names a box that does not exist, or names a pair twice.
-pub(super) fn checked(
+fn checked(
     pairs: Vec<[u32; 2]>,
     images: Option<&[Image]>,
     block: &[u32],

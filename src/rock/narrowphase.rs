@@ -29,7 +29,7 @@ const CORNER_SHARE: f64 = 0.25;
 
 /// Parts and blocks of a pair, and the image of the second part that it means.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PairIds {
+struct PairIds {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],
     /// Shift of the second part to its image, m.
@@ -332,16 +332,9 @@ impl Narrowphase<'_> {
     fn name(&self, block: u32) -> String {
         label(block as usize, &self.bodies[block as usize].name)
     }
-}
 
-/// A block in a message.
-pub(super) fn label(index: usize, name: &str) -> String {
-    format!("blocks[{index}] ({name})")
-}
-
-impl Narrowphase<'_> {
     /// The contact of a bond at the present poses of its parts; none where it breaks.
-    pub(super) fn bonded_contact(
+    fn bonded_contact(
         &self,
         ids: PairIds,
         [first, second]: [&Placed; 2],
@@ -393,8 +386,13 @@ impl Narrowphase<'_> {
     }
 }
 
+/// A block in a message.
+pub(super) fn label(index: usize, name: &str) -> String {
+    format!("blocks[{index}] ({name})")
+}
+
 /// History of a contact without a bond.
-pub(super) fn unbonded(contact: &Contact) -> History {
+fn unbonded(contact: &Contact) -> History {
     History {
         bonded: false,
         slip: 0.0,

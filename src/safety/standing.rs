@@ -117,7 +117,7 @@ const AREA: f64 = 1e-3;
 
 /// A patch in which a block touches another one.
 #[derive(Clone, Debug)]
-pub(super) struct Touching {
+struct Touching {
     /// The other block.
     pub other: usize,
     /// Unit normal into the block.
@@ -130,7 +130,7 @@ pub(super) struct Touching {
 
 /// The contacts of a block. One that has just been put somewhere has none, and one that forces do not move has none with
 /// others of that kind: with those that it has no contact with, the patches of its plane faces that lie on them.
-pub(super) fn touching(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Touching> {
+fn touching(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Touching> {
     let poses = blocks.poses();
     let own = blocks.contacts().filter(|c| c.blocks.contains(&block));
     let mut all: Vec<_> = own.map(|c| of_contact(setup, &poses, block, &c)).collect();

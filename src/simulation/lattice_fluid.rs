@@ -162,67 +162,7 @@ impl LatticeFluid {
             ),
         ))
     }
-}
 
-impl Fluid for LatticeFluid {
-    fn time(&self) -> f64 {
-        self.lattice.step() as f64 * self.units.time_step
-    }
-
-    async fn advance(
-        &mut self,
-        poses: &[Pose],
-        interval: ExchangeInterval,
-        end: f64,
-    ) -> Result<Option<Vec<FluidLoad>>> {
-        let last = (end / self.units.time_step).round() as u64;
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        if let Some(coupling) = &mut self.coupling {
-            let (device, queue) = (&self.device, &self.queue);
-            coupling
-                .place(
-                    device,
-                    queue,
-                    &mut self.lattice,
-                    (&mut encoder, &mut self.phases),
-                    poses,
-                )
-                .await?;
-        }
-        loop {
-            let next = self.lattice.step() + 1;
-            if self
-                .coupling
-                .as_ref()
-                .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
-            {
-                let faces = LatticeCoupling::may_be_last(interval, next, last);
-                return self.exchange(encoder, faces).await;
-            }
-            self.record_psm(&mut encoder);
-            if let Some(coupling) = self
-                .coupling
-                .as_mut()
-                .filter(|coupling| coupling.needs_loads(interval, next, last))
-            {
-                let phases = &mut self.phases;
-                coupling.record_loads(&self.device, (&mut encoder, phases), next);
-            }
-            self.record_rest(&mut encoder);
-            let coming = self.changed_faces();
-            let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
-            if self.lattice.step() == last || !goes_on {
-                // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
-                // written between two submissions.
-                self.submit(encoder).await?;
-                self.set_faces()?;
-                return Ok(None);
-            }
-        }
-    }
-}
-
-impl LatticeFluid {
     /// Records the boundaries and the bricks with blocks.
     fn record_psm(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if self.phases.is_some() {
@@ -366,6 +306,64 @@ impl LatticeFluid {
         self.observer
             .keep_inside(device, &self.lattice, &state.inside)?;
         self.set_faces()
+    }
+}
+
+impl Fluid for LatticeFluid {
+    fn time(&self) -> f64 {
+        self.lattice.step() as f64 * self.units.time_step
+    }
+
+    async fn advance(
+        &mut self,
+        poses: &[Pose],
+        interval: ExchangeInterval,
+        end: f64,
+    ) -> Result<Option<Vec<FluidLoad>>> {
+        let last = (end / self.units.time_step).round() as u64;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        if let Some(coupling) = &mut self.coupling {
+            let (device, queue) = (&self.device, &self.queue);
+            coupling
+                .place(
+                    device,
+                    queue,
+                    &mut self.lattice,
+                    (&mut encoder, &mut self.phases),
+                    poses,
+                )
+                .await?;
+        }
+        loop {
+            let next = self.lattice.step() + 1;
+            if self
+                .coupling
+                .as_ref()
+                .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
+            {
+                let faces = LatticeCoupling::may_be_last(interval, next, last);
+                return self.exchange(encoder, faces).await;
+            }
+            self.record_psm(&mut encoder);
+            if let Some(coupling) = self
+                .coupling
+                .as_mut()
+                .filter(|coupling| coupling.needs_loads(interval, next, last))
+            {
+                let phases = &mut self.phases;
+                coupling.record_loads(&self.device, (&mut encoder, phases), next);
+            }
+            self.record_rest(&mut encoder);
+            let coming = self.changed_faces();
+            let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
+            if self.lattice.step() == last || !goes_on {
+                // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
+                // written between two submissions.
+                self.submit(encoder).await?;
+                self.set_faces()?;
+                return Ok(None);
+            }
+        }
     }
 }
 

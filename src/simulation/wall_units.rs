@@ -86,25 +86,9 @@ impl LatticeFluid {
             block: wall_cell.block,
         }
     }
-}
 
-/// A fluid cell next to a wall, a solid or a block.
-pub(super) struct WallCell {
-    /// Its place in an array over the domain, x fastest.
-    pub cell: u32,
-    /// Unit normal of the wall.
-    pub normal: DVec3,
-    /// Distance of the cell's centre from the wall, cells.
-    pub distance: f64,
-    /// Velocity of the wall, m/s.
-    pub wall_velocity: DVec3,
-    /// The block, if it is one.
-    pub block: Option<usize>,
-}
-
-impl LatticeFluid {
     /// All of them; a cell next to two walls is there for each, but only once for all blocks.
-    pub(super) fn wall_cells(&self, coupled: Option<Coupled<'_>>) -> Vec<WallCell> {
+    fn wall_cells(&self, coupled: Option<Coupled<'_>>) -> Vec<WallCell> {
         let near = coupled.map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
         // Where a block is close, its cells are those of the block.
@@ -177,9 +161,23 @@ impl LatticeFluid {
     }
 
     /// Centre of a cell of an array over the domain, m.
-    pub(super) fn centre_of(&self, cell: u32) -> DVec3 {
+    fn centre_of(&self, cell: u32) -> DVec3 {
         let [nx, ny, _] = self.lattice.setup().cells;
         let at = [cell % nx, cell / nx % ny, cell / (nx * ny)];
         self.scene.centre(at).into()
     }
+}
+
+/// A fluid cell next to a wall, a solid or a block.
+struct WallCell {
+    /// Its place in an array over the domain, x fastest.
+    pub cell: u32,
+    /// Unit normal of the wall.
+    pub normal: DVec3,
+    /// Distance of the cell's centre from the wall, cells.
+    pub distance: f64,
+    /// Velocity of the wall, m/s.
+    pub wall_velocity: DVec3,
+    /// The block, if it is one.
+    pub block: Option<usize>,
 }

@@ -278,7 +278,7 @@ fn check_open(
 }
 
 /// Bodies of water and the solids that support them.
-pub(super) struct HydrostaticStart<'a> {
+struct HydrostaticStart<'a> {
     /// Particles of each body, m.
     pub points: &'a [Vec<DVec3>],
     /// Convex parts of each body.

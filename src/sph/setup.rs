@@ -269,6 +269,35 @@ impl Setup {
         );
         Err(Error::argument("positions", message))
     }
+
+    /// Pressure (Pa) at the density excess ρ/ρ₀ − 1.
+    pub fn pressure(&self, excess: f64) -> f64 {
+        let unit = self.density * self.sound_speed.powi(2);
+        match self.equation_of_state {
+            EquationOfState::Linear => unit * excess,
+            EquationOfState::Tait => unit * ((1.0 + excess).powi(7) - 1.0) / 7.0,
+        }
+    }
+
+    /// Specific compression energy (J/kg) at the density excess ρ/ρ₀ − 1: ∫ p/ρ² dρ.
+    pub fn compression(&self, excess: f64) -> f64 {
+        let ratio = 1.0 + excess;
+        self.sound_speed.powi(2)
+            * match self.equation_of_state {
+                // ln(1 + s) − s/(1 + s), whose first terms cancel.
+                EquationOfState::Linear => excess.ln_1p() - excess / ratio,
+                EquationOfState::Tait => (ratio.powi(6) / 6.0 + 1.0 / ratio - 7.0 / 6.0) / 7.0,
+            }
+    }
+
+    /// Density excess ρ/ρ₀ − 1 at a pressure (Pa).
+    pub fn excess(&self, pressure: f64) -> f64 {
+        let p = pressure / (self.density * self.sound_speed.powi(2));
+        match self.equation_of_state {
+            EquationOfState::Linear => p,
+            EquationOfState::Tait => (1.0 + 7.0 * p).powf(1.0 / 7.0) - 1.0,
+        }
+    }
 }
 
 impl Body {
@@ -307,37 +336,6 @@ pub enum EquationOfState {
     Linear,
     /// p = ρ₀ c₀²/7 ((ρ/ρ₀)⁷ − 1), Cole (1948).
     Tait,
-}
-
-impl Setup {
-    /// Pressure (Pa) at the density excess ρ/ρ₀ − 1.
-    pub fn pressure(&self, excess: f64) -> f64 {
-        let unit = self.density * self.sound_speed.powi(2);
-        match self.equation_of_state {
-            EquationOfState::Linear => unit * excess,
-            EquationOfState::Tait => unit * ((1.0 + excess).powi(7) - 1.0) / 7.0,
-        }
-    }
-
-    /// Specific compression energy (J/kg) at the density excess ρ/ρ₀ − 1: ∫ p/ρ² dρ.
-    pub fn compression(&self, excess: f64) -> f64 {
-        let ratio = 1.0 + excess;
-        self.sound_speed.powi(2)
-            * match self.equation_of_state {
-                // ln(1 + s) − s/(1 + s), whose first terms cancel.
-                EquationOfState::Linear => excess.ln_1p() - excess / ratio,
-                EquationOfState::Tait => (ratio.powi(6) / 6.0 + 1.0 / ratio - 7.0 / 6.0) / 7.0,
-            }
-    }
-
-    /// Density excess ρ/ρ₀ − 1 at a pressure (Pa).
-    pub fn excess(&self, pressure: f64) -> f64 {
-        let p = pressure / (self.density * self.sound_speed.powi(2));
-        match self.equation_of_state {
-            EquationOfState::Linear => p,
-            EquationOfState::Tait => (1.0 + 7.0 * p).powf(1.0 / 7.0) - 1.0,
-        }
-    }
 }
 
 /// W(r) = a (1 − r/2h)⁴ (1 + 2r/h) for r < 2h, normalised to the integral one over space or over a plane.

@@ -192,7 +192,7 @@ pub struct Header {
 }
 
 #[derive(Debug)]
-pub(super) struct Comparison {
+struct Comparison {
     count: Kernel,
     write: Kernel,
     search: wgpu::Buffer,
@@ -202,7 +202,7 @@ pub(super) struct Comparison {
 
 /// Pairs of each invocation, then pairs before each.
 #[derive(Debug)]
-pub(super) struct Hits {
+struct Hits {
     pub(super) slices: u32,
     groups: u32,
     counts: wgpu::Buffer,
@@ -212,7 +212,7 @@ pub(super) struct Hits {
 
 /// Room for pairs.
 #[derive(Debug)]
-pub(super) struct List {
+struct List {
     pub(super) capacity: u32,
     pub(super) pairs: wgpu::Buffer,
     groups: u32,
@@ -234,7 +234,7 @@ impl Comparison {
     }
 
     /// Prepares to count with so many invocations that all `candidates` of a box are looked at.
-    pub(super) fn hits(
+    fn hits(
         &self,
         device: &wgpu::Device,
         scan: &Scan,
@@ -278,17 +278,12 @@ impl Comparison {
     }
 
     /// Writes the parameters of the next submission.
-    pub(super) fn write_search(&self, queue: &wgpu::Queue, search: Search) {
+    fn write_search(&self, queue: &wgpu::Queue, search: Search) {
         queue.write_buffer(&self.search, 0, bytemuck::bytes_of(&search));
     }
 
     /// Records the count of pairs, the places of them, and the header.
-    pub(super) fn record_count(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scan: &Scan,
-        hits: &Hits,
-    ) {
+    fn record_count(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, hits: &Hits) {
         encoder.clear_buffer(&self.header, 0, None);
         encoder.clear_buffer(&hits.counts, 0, None);
         {
@@ -300,7 +295,7 @@ impl Comparison {
     }
 
     /// Records the writing of the pairs that the list has room for.
-    pub(super) fn record_write(&self, encoder: &mut wgpu::CommandEncoder, list: &List) {
+    fn record_write(&self, encoder: &mut wgpu::CommandEncoder, list: &List) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         self.write.record(&mut pass, &list.bind, list.groups);
     }
@@ -318,7 +313,7 @@ impl Comparison {
 
 impl List {
     /// Whether more room would not help for as many pairs.
-    pub(super) fn suffices(&self, device: &wgpu::Device, pairs: u32) -> bool {
+    fn suffices(&self, device: &wgpu::Device, pairs: u32) -> bool {
         self.capacity >= pairs.min(most(device))
     }
 }

@@ -40,7 +40,6 @@ mod closed_form;
 mod pair;
 mod polygon;
 mod program;
-mod projection;
 mod resolver;
 mod section;
 mod thin_gap;

@@ -145,7 +145,7 @@ impl Affine {
     }
 
     /// M⁻¹ b of a row (c, F) of the unknowns: b₀/m and S⁻¹ b.
-    pub(super) fn over_mass(&self, (centre, row): (f64, DVec3)) -> (f64, DVec3) {
+    fn over_mass(&self, (centre, row): (f64, DVec3)) -> (f64, DVec3) {
         (centre / self.mass, self.inverse * row)
     }
 }

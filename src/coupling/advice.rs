@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Result,
     geometry::{Form, Shape, min_max},
-    rock::{Block, Blocks, Motion, broadphase::HostBroadphase},
+    rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
     scene::{
         Advice, ProbePlace, Scene, Warning,
         build::{BlockSetup, particle_lattice, scene_step, water_bodies},
@@ -322,9 +322,7 @@ fn check_support(
             format!(
                 "gravity, {} m/s², acts along periodic axes, and no block opposes it: the water falls for ever; give the \
                  lower face kind = \"wall\", or add a bed below the water",
-                DVec3::from_array(
-                    [0, 1, 2].map(|axis| scene.fluid.acceleration[axis].eval_at([0.0; 3], 0.0))
-                )
+                formula_values(&scene.fluid.acceleration, 0.0)
             ),
         );
     }

@@ -1,12 +1,12 @@
 //! A fluid on a lattice, with the cells of the blocks that are in it.
 
-use super::{
-    checkpoint::{LatticeState, differ, other_scene},
-    rock_step::check_substep_count,
-};
+use super::checkpoint::{LatticeState, differ, other_scene};
 use crate::{
     Error, Result,
-    coupling::{Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, couple},
+    coupling::{
+        Coupled, ExchangeInterval, Fluid, FluidLoad, LatticeCoupling, Rock, check_substep_count,
+        couple,
+    },
     error::{error_chain, refused},
     geometry::Pose,
     gpu::timer::{Phases, begin_pass},

@@ -7,7 +7,6 @@ mod fields;
 mod lattice_fluid;
 mod needs;
 pub mod probe;
-mod rock_step;
 mod sensors;
 mod sph_fluid;
 mod wall_units;
@@ -23,7 +22,7 @@ pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{
     Error, Result,
-    coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock},
+    coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock, rock_step},
     geometry::Pose,
     gpu::timer::Phases,
     lattice::{Lattice, Setup},
@@ -36,7 +35,6 @@ use crate::{
 };
 use checkpoint::{Checkpoint, FluidState, other_scene};
 use lattice_fluid::LatticeFluid;
-use rock_step::rock_step;
 use sph_fluid::SphFluid;
 use std::sync::Arc;
 

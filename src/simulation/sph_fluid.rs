@@ -3,14 +3,13 @@
 use super::{
     Reading,
     checkpoint::{WaterState, other_scene},
-    rock_step::check_substep_count,
     sensors::Sensors,
 };
 use crate::{
     Error, Result,
     coupling::{
-        CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, longest_exchange,
-        particle_advice,
+        CouplingParams, ExchangeInterval, Fluid, FluidLoad, JointSeal, Rock, check_substep_count,
+        longest_exchange, particle_advice,
     },
     error::{error_chain, refused},
     geometry::{Load, Pose},

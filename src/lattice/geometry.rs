@@ -104,9 +104,9 @@ pub struct Geometry {
     pub open: Vec<(usize, usize, Vec<FaceCell>)>,
     /// The order in which the cells of both are completed.
     pub stages: Stages,
-    /// Bricks of plain fluid.
+    /// Bricks of plain fluid, ascending.
     pub plain: Vec<u32>,
-    /// Bricks with flagged cells.
+    /// Bricks with flagged cells, and with [`Setup::whole_rows`] the others of their rows; ascending.
     pub mixed: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -170,7 +170,7 @@ impl Geometry {
         for (_, _, cells) in &mut geometry.open {
             geometry.stages.sort(cells);
         }
-        geometry.sort_bricks(grid);
+        geometry.sort_bricks(setup, grid);
         geometry
     }
 
@@ -237,7 +237,7 @@ impl Geometry {
         bits
     }
 
-    fn sort_bricks(&mut self, grid: &Grid) {
+    fn sort_bricks(&mut self, setup: &Setup, grid: &Grid) {
         let [bx, by, bz] = grid.bricks();
         let [nx, ny, nz] = grid.elements;
         let all_solid = (0..grid.lanes).fold(0, |word, l| word | u32::from(SOLID) << (8 * l));
@@ -246,6 +246,8 @@ impl Geometry {
         } else {
             (1 << (8 * grid.lanes)) - 1
         };
+        // Where the plain bricks of the present row begin, and whether all of it is mixed.
+        let (mut row, mut row_mixed) = (0, false);
         for (brick, [x, y, z]) in (0..)
             .zip((0..bz).flat_map(|z| (0..by).flat_map(move |y| (0..bx).map(move |x| [x, y, z]))))
         {
@@ -261,12 +263,22 @@ impl Geometry {
                 }
             }
             let first = [x * grid.brick[0], y * grid.brick[1], z * grid.brick[2]];
+            if x == 0 {
+                row = self.plain.len();
+                row_mixed = false;
+            }
             match (flagged, solid) {
                 // It is padding behind the last cells, which no kernel has to leave out.
                 (_, true) if !grid.contains(first) => {}
                 (_, true) => self.solid_bricks += 1,
-                (true, _) => self.mixed.push(brick),
-                (false, _) => self.plain.push(brick),
+                (false, _) if !row_mixed => self.plain.push(brick),
+                (flagged, _) => {
+                    if flagged && setup.whole_rows && !row_mixed {
+                        row_mixed = true;
+                        self.mixed.extend(self.plain.drain(row..));
+                    }
+                    self.mixed.push(brick);
+                }
             }
         }
     }

@@ -54,7 +54,11 @@ impl LeftOut {
         Self::some([
             (kernel.as_str(), of - absent_count, of),
             ("bricks of cells, the others being solid", run, all),
-            ("bricks with walls, the others being plain", walls, run),
+            (
+                "bricks run by the kernel for walls, the others by that without",
+                walls,
+                run,
+            ),
         ])
     }
 

@@ -104,17 +104,6 @@ fn utc(seconds: u64) -> String {
     format!("{year}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
-/// A result in a file, with where it was found.
-#[derive(Serialize)]
-pub struct Kept<'a, T> {
-    /// The result.
-    #[serde(flatten)]
-    pub row: T,
-    /// Where and when.
-    #[serde(flatten)]
-    pub machine: &'a Machine,
-}
-
 impl Machine {
     /// Results that were found here, as a JSON array.
     ///
@@ -124,6 +113,13 @@ impl Machine {
         &self,
         rows: impl IntoIterator<Item = T>,
     ) -> serde_json::Result<String> {
+        #[derive(Serialize)]
+        struct Kept<'a, T> {
+            #[serde(flatten)]
+            row: T,
+            #[serde(flatten)]
+            machine: &'a Machine,
+        }
         let kept = |row| Kept { row, machine: self };
         let kept: Vec<_> = rows.into_iter().map(kept).collect();
         Ok(serde_json::to_string_pretty(&kept)? + "\n")

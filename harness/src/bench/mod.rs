@@ -13,7 +13,7 @@ mod work;
 
 pub use fluid::storage;
 pub use kit::copy::copy_bandwidth;
-pub use machine::{Kept, Machine};
+pub use machine::Machine;
 pub use work::Work;
 
 use kit::{clock::Clock, gpu};

@@ -2,7 +2,7 @@
 
 use super::{
     Bench,
-    fluid::storage as name_of,
+    fluid::{plain, storage as name_of},
     solids::{crowd, unit_frame},
 };
 use glam::{DQuat, DVec3};
@@ -146,17 +146,13 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
 }
 
 fn setup(grid: u32, storage: Storage, kind: Kind, bench: &Bench<'_>) -> Setup {
-    let mut setup = Setup::periodic([grid; 3], 0.01);
-    setup.storage = storage;
-    setup.max_speed = 0.0;
-    setup.lanes = match (bench.machine.software, storage) {
+    let software = bench.machine.software;
+    let lanes = match (software, storage) {
         (true, _) => 4,
         (false, Storage::F32) => 1,
         (false, Storage::F16) => 2,
     };
-    if bench.machine.software {
-        setup.suit_cpu(bench.device.features());
-    }
+    let mut setup = plain(grid, storage, lanes, software, bench.device);
     match kind {
         Kind::Plain => {}
         Kind::Wale => setup.wale = Some(0.5),

@@ -13,10 +13,8 @@ pub mod stand;
 pub mod tank;
 
 pub(crate) mod cavity;
-mod conservation;
 pub(crate) mod decay;
-mod golden;
-mod null_models;
+mod noise_and_shear;
 mod offset_joint;
 mod open_channel;
 mod outlet;
@@ -123,10 +121,10 @@ const fn long(name: &'static str, about: &'static str, run: fn(&Stand) -> Outcom
 #[rustfmt::skip]
 pub const CASES: &[Case] = &[
     short("kernels/slots", "every combination of slots is valid WGSL, and binds only what it uses", slots::run),
-    short("kernels/golden", "a periodic box of noise and shear after 50 steps, against float64", golden::run),
-    short("kernels/null-models", "a model with its constant at zero is the simpler model", null_models::run),
+    short("kernels/golden", "a periodic box of noise and shear after 50 steps, against float64", noise_and_shear::golden),
+    short("kernels/null-models", "a model with its constant at zero is the simpler model", noise_and_shear::null_models),
     short("kernels/repeatability", "same bits: twice, after a restart, in workgroups of other shapes", repeatability::run),
-    short("kernels/conservation", "mass and momentum of a periodic box over 10⁴ steps", conservation::run),
+    short("kernels/conservation", "mass and momentum of a periodic box over 10⁴ steps", noise_and_shear::conservation),
     short("taylor-green/convergence", "order of convergence and viscosity of Taylor–Green vortices", decay::taylor_green),
     short("abc-flow/convergence", "order of convergence and viscosity of the ABC flow", decay::abc_flow),
     short("shear-wave/galilean", "a shear wave carried along an axis decays as one at rest", decay::shear_wave),

@@ -5,6 +5,7 @@ mod row;
 mod variant;
 
 pub use row::{Row, storage};
+pub use variant::plain;
 
 use super::{
     Args, Bench, budget,

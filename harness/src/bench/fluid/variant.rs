@@ -77,20 +77,11 @@ pub fn groups(
     device: &wgpu::Device,
 ) -> Vec<Group> {
     // The layout that the adapter likes best first, then the one that is there to compare.
-    let layouts = match software {
-        true => [
-            (Storage::F32, 4),
-            (Storage::F16, 4),
-            (Storage::F32, 1),
-            (Storage::F16, 2),
-        ],
-        false => [
-            (Storage::F32, 1),
-            (Storage::F16, 2),
-            (Storage::F32, 4),
-            (Storage::F16, 4),
-        ],
-    };
+    let (f32, f16) = (Storage::F32, Storage::F16);
+    let mut layouts = [(f32, 4), (f16, 4), (f32, 1), (f16, 2)];
+    if !software {
+        layouts.rotate_left(2);
+    }
     let limits = device.limits();
     let mut all = Vec::new();
     for (rank, (storage, lanes)) in layouts.into_iter().enumerate() {
@@ -102,11 +93,7 @@ pub fn groups(
             (_, false) => Vec::new(),
         };
         let make = |name, change: Change| {
-            let mut setup = Setup::periodic([grid; 3], 0.01);
-            (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
-            if software {
-                setup.suit_cpu(device.features());
-            }
+            let mut setup = plain(grid, storage, lanes, software, device);
             change(&mut setup);
             let memory = Grid::new(&setup).and_then(|g| memory(&setup, &g, &limits));
             match memory {
@@ -130,6 +117,22 @@ pub fn groups(
         all.extend(split(grid, [stream, plain], others.collect(), budget));
     }
     all
+}
+
+/// The setup of the plain step in a layout.
+pub fn plain(
+    grid: u32,
+    storage: Storage,
+    lanes: u32,
+    software: bool,
+    device: &wgpu::Device,
+) -> Setup {
+    let mut setup = Setup::periodic([grid; 3], 0.01);
+    (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
+    if software {
+        setup.suit_cpu(device.features());
+    }
+    setup
 }
 
 /// Puts as many variants side by side as memory holds, each group with the two it is compared to.

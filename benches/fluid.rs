@@ -7,9 +7,8 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput, measurement:
 use kit::{
     clock::Clock,
     copy::{Copy, METHODS},
-    flow, gpu,
-    stream_only::StreamOnly,
-    subject::Subject,
+    gpu,
+    subject::{StreamOnly, Subject, sheared_noise},
 };
 use riprap::{
     Error,
@@ -65,7 +64,7 @@ fn bench(criterion: &mut Criterion, adapter: &wgpu::Adapter, name: &str) -> Resu
                 setup.suit_cpu(device.features());
             }
             change(&mut setup);
-            let state = flow::sheared_noise(&setup)?;
+            let state = sheared_noise(&setup)?;
             let mut lattice = Lattice::new(&device, setup)?;
             lattice.start(&device, &queue, &state, true)?;
             let subject = match variant {

@@ -1,17 +1,14 @@
 //! What tests, benches and the harness share: the choice of an adapter, a device for tests, clocks and copies, scenes of
 //! any size, and the f64 twins of the kernels.
 
-pub mod arithmetic;
 pub mod broadphase;
 pub mod clock;
 pub mod contact;
 pub mod copy;
-pub mod flow;
 pub mod gpu;
 pub mod pile;
 mod rig;
 pub mod scene;
-pub mod stream_only;
 pub mod subject;
 pub mod tank;
 pub mod twin;

@@ -1,14 +1,18 @@
-//! What is measured: a lattice that steps, one that only streams, or a copy.
+//! What is measured: a lattice that steps, one that only streams, a copy, or arithmetic and nothing else.
 
 use super::{
-    arithmetic::Arithmetic,
     copy::{Copy, Method},
-    stream_only::StreamOnly,
+    gpu,
 };
 use riprap::{
-    gpu::timer::{self, Timer},
-    lattice::Lattice,
-    wgpu,
+    Error,
+    gpu::{
+        kernel::{Kernel, Shader},
+        link::Program,
+        timer::{self, Timer},
+    },
+    lattice::{BrickKind, Grid, Lattice, Setup, State, collide_stream, constants},
+    wgpu::{self, util::DeviceExt},
 };
 
 /// Something that can be recorded over and over.
@@ -47,4 +51,156 @@ impl Subject<'_> {
         }
         timed
     }
+}
+
+/// The populations of a lattice that streams and never collides: what a step of a layout costs at the least.
+pub struct StreamOnly {
+    passes: [(Kernel, wgpu::BindGroup); 2],
+    groups: u32,
+    step: usize,
+}
+
+impl StreamOnly {
+    /// Takes a periodic lattice without solids after an even number of steps, with the state that it has.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if it has walls or solids, whose reflections belong to the collision.
+    pub fn new(device: &wgpu::Device, lattice: Lattice) -> Result<Self, Error> {
+        let setup = lattice.setup();
+        if !setup.is_all_fluid() {
+            let message = "streaming alone wants a periodic box without solids";
+            return Err(Error::argument("faces", message));
+        }
+        let buffers = lattice.population_buffers();
+        // The layout of the fused kernel, and another text in place of its collision.
+        let text = include_str!("kernels/stream_only.wgsl");
+        let program = collide_stream(setup, buffers.len() as u32, BrickKind::All);
+        let shader = Shader::new(device, program.text("collide_stream", text).link()?);
+        let names: Vec<String> = (0..buffers.len())
+            .map(|n| format!("populations_{n}"))
+            .collect();
+        let named: Vec<_> = names.iter().map(String::as_str).zip(buffers).collect();
+        let groups = lattice.grid().bricks().iter().product();
+        let pass = |odd| {
+            let family = constants(setup, lattice.grid(), odd);
+            let mut constants = shader.linked().constants_of(&family);
+            constants.push(("BRICKS", f64::from(groups)));
+            let kernel = shader.kernel(device, "stream_only", &constants)?;
+            let bind = kernel.bind(device, &named)?;
+            Ok::<_, Error>((kernel, bind))
+        };
+        Ok(Self {
+            passes: [pass(false)?, pass(true)?],
+            groups,
+            step: 0,
+        })
+    }
+
+    /// Records one step into the caller's pass.
+    pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        let (kernel, bind) = &self.passes[self.step % 2];
+        kernel.record(pass, bind, self.groups);
+        self.step += 1;
+    }
+}
+
+/// Turns of the loop of arithmetic: short, since drivers may end long ones.
+const TURNS: u32 = 64;
+/// Products and sums of a turn: 32 of each, of four components.
+pub const FLOPS: u64 = 2 * 32 * 4;
+/// Workgroups of 64 on a GPU: large ones hold 270 000 invocations, and this is as many fifteen times over. A dispatch
+/// may have no more than 65535.
+const GROUPS: u32 = 65_535;
+/// The same on a CPU, whose cores each take one after the other.
+const CPU_GROUPS: u32 = 4096;
+
+/// The arithmetic ceiling of an adapter: products and sums of vectors in registers, and nothing else.
+pub struct Arithmetic {
+    kernel: Kernel,
+    bind: wgpu::BindGroup,
+    groups: u32,
+}
+
+/// The program of the kernel `multiply_add`.
+pub fn program() -> Program {
+    Program::new("multiply_add").text("multiply_add", include_str!("kernels/multiply_add.wgsl"))
+}
+
+impl Arithmetic {
+    /// The kernel and its numbers.
+    ///
+    /// # Errors
+    /// If the device refuses it.
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let groups = match gpu::is_software(&device.adapter_info()) {
+            true => CPU_GROUPS,
+            false => GROUPS,
+        };
+        let linked = program().link()?;
+        let kernel = Kernel::new(
+            device,
+            &linked,
+            "multiply_add",
+            &[("TURNS", f64::from(TURNS))],
+        )?;
+        // Numbers that stay finite: x ← 0.5 x + 0.5 goes to 1.
+        let factors = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("factors"),
+            contents: bytemuck::cast_slice(&[0.5f32; 8]),
+            usage: wgpu::BufferUsages::STORAGE,
+        });
+        let sums = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("sums"),
+            size: u64::from(groups) * 64 * 16,
+            usage: wgpu::BufferUsages::STORAGE,
+            mapped_at_creation: false,
+        });
+        let bind = kernel.bind(device, &[("factors", &factors), ("sums", &sums)])?;
+        Ok(Self {
+            kernel,
+            bind,
+            groups,
+        })
+    }
+
+    /// Products and sums of a dispatch.
+    pub fn flops(&self) -> f64 {
+        f64::from(self.groups) * 64.0 * f64::from(TURNS) * FLOPS as f64
+    }
+
+    /// Records a dispatch.
+    pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.kernel.record(pass, &self.bind, self.groups);
+    }
+}
+
+/// A flow that moves in every cell: waves along each axis and noise. At rest, or where symmetry
+/// keeps a component at 0, denormal numbers would slow a CPU down.
+///
+/// # Errors
+/// If the setup has no grid.
+pub fn sheared_noise(setup: &Setup) -> Result<State, Error> {
+    let grid = Grid::new(setup)?;
+    let mut state = State::rest(grid.cell_count());
+    for (n, cell) in grid.domain().enumerate() {
+        let wave = |axis: usize| {
+            let turns = (f64::from(cell[axis]) + 0.5) / f64::from(grid.cells[axis]);
+            (std::f64::consts::TAU * turns).sin()
+        };
+        let noise = |k: usize| f64::from(hash(4 * n + k)) / f64::from(u32::MAX) - 0.5;
+        state.excess[n] = (1e-3 * noise(3)) as f32;
+        for a in 0..3 {
+            // 0.04 is a Mach number of 0.07.
+            state.velocity[a][n] = (0.04 * wave((a + 1) % 3) + 0.01 * noise(a)) as f32;
+        }
+    }
+    Ok(state)
+}
+
+/// A number that looks random: the finaliser of MurmurHash3 (Appleby 2011).
+fn hash(n: usize) -> u32 {
+    let mut n = n as u32;
+    n = (n ^ (n >> 16)).wrapping_mul(0x85eb_ca6b);
+    n = (n ^ (n >> 13)).wrapping_mul(0xc2b2_ae35);
+    n ^ (n >> 16)
 }

@@ -12,12 +12,9 @@ use super::{
     target::{Target, show},
 };
 use kit::{
-    arithmetic::Arithmetic,
     clock::{Clock, Spent, Turn},
     copy::{Copy, METHODS},
-    flow::sheared_noise,
-    stream_only::StreamOnly,
-    subject::Subject,
+    subject::{Arithmetic, StreamOnly, Subject, sheared_noise},
 };
 use riprap::{Error, lattice::Lattice};
 use row::{Ceilings, StepWork};
@@ -74,7 +71,7 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
         work.push(of_step);
     }
     subjects.extend(METHODS.map(|method| Subject::Copying(&copy, method)));
-    let arithmetic = Arithmetic::new(&clock.device, &clock.queue)?;
+    let arithmetic = Arithmetic::new(&clock.device)?;
     subjects.push(Subject::Computing(&arithmetic));
     // The first turns compile and clear memory; the next ones tell how many fill the time. An even
     // number, because a lattice steps in pairs.

@@ -241,7 +241,7 @@ pub fn explain(grid: u32, rows: &[Row]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kit::arithmetic::{FLOPS, program};
+    use kit::subject::{FLOPS, program};
 
     #[test]
     fn the_ceiling_has_the_operations_that_are_counted() {

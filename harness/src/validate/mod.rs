@@ -36,9 +36,8 @@ pub(crate) mod solids {
     pub mod lubrication;
     pub mod obstacle;
     pub mod plates;
-    pub mod release;
-    pub mod rotation;
     pub mod settling;
+    pub mod sphere;
 }
 
 /// Free water by particles.
@@ -152,8 +151,8 @@ pub const CASES: &[Case] = &[
     long("solids/array-offset", "drag of the array with the spheres shifted in their cells", solids::array::offset),
     short("solids/array-comparison", "drag of the array at other concentrations and by other operators", solids::array::comparison),
     short("solids/array-map", "error of the drag of the array over resolution and relaxation time", solids::array::map),
-    short("solids/rotation", "torque on a sphere that turns in a viscous fluid", solids::rotation::run),
-    short("solids/release", "acceleration of a sphere that is let go: its added mass", solids::release::run),
+    short("solids/rotation", "torque on a sphere that turns in a viscous fluid", solids::sphere::rotation),
+    short("solids/release", "acceleration of a sphere that is let go: its added mass", solids::sphere::release),
     short("solids/buoyancy", "buoyancy of a block at rest in a closed tank", solids::buoyancy::archimedes),
     short("solids/neutral", "a cube as heavy as water stays where it is", solids::buoyancy::neutral),
     short("solids/crossing", "a cube crosses the grid in fluid that moves with it and in fluid at rest", solids::crossing::run),

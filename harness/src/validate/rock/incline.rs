@@ -158,7 +158,7 @@ impl Wedge {
         list.push(Block::new("wedge", Arc::new(prism.into()), at + sink));
         let joints = tan_phi.map(|t| joint(WEDGE_STIFFNESS, t.atan().to_degrees()));
         let mut setup = setup(list, joints[0]);
-        setup.materials = vec![setup.materials[0].clone(); 3];
+        setup.materials = vec![setup.materials[0]; 3];
         let pair = |k: usize| PairMaterial {
             materials: [0, k + 1],
             joint: joints[k],

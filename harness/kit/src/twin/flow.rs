@@ -5,7 +5,7 @@ use super::domain::{Domain, Link};
 use super::lattice::{C, OPPOSITE, Q, W, c_dot, macroscopic};
 use super::rates::{Config, OddClass};
 use super::solid::{Solid, SolidOperator, force_on, solid_change, tightness};
-use super::{start, wale};
+use super::{equilibrium, wale};
 
 /// Force per cell.
 #[derive(Clone, Debug)]
@@ -48,9 +48,9 @@ impl Twin {
         }
     }
 
-    /// Start anew from ρ and u of each cell (see [`start::consistent`]).
+    /// Start anew from ρ and u of each cell (see [`equilibrium::consistent`]).
     pub fn start(&mut self, rho: &[f64], u: &[[f64; 3]]) {
-        self.f = start::consistent(&self.domain, &self.config, rho, u);
+        self.f = equilibrium::consistent(&self.domain, &self.config, rho, u);
         self.previous_velocity = None;
     }
 

@@ -15,7 +15,6 @@ pub mod noise;
 pub mod of_setup;
 pub mod rates;
 pub mod solid;
-pub mod start;
 pub mod wale;
 
 pub use collide::collide;

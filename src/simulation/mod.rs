@@ -1,4 +1,40 @@
 //! A scene on a device: blocks, a fluid, or both, in one loop.
+//!
+//! Blocks without a fluid need no device; [`Simulation::new`] takes one for all kinds of scenes.
+//!
+//! ```
+//! use riprap::{scene::{Scene, build::block_setup}, simulation::Simulation};
+//!
+//! # fn main() -> riprap::Result<()> {
+//! let text = r#"
+//! [[materials]]
+//! name = "rock"
+//! density = 2650
+//! normal_stiffness = 1e8
+//! friction = 35
+//! [[blocks]]
+//! kind = "box"
+//! size = [1, 1, 1]
+//! position = [0, 0, 10]
+//! [rock]
+//! gravity = [0, 0, -10]
+//! [run]
+//! duration = 0.5
+//! "#;
+//! let scene = Scene::from_toml(text, ".".as_ref(), "falling.toml")?;
+//! let (t, z) = pollster::block_on(async {
+//!     let mut simulation = Simulation::of_rock(None, &scene, block_setup(&scene)?).await?;
+//!     while simulation.time() < 0.5 {
+//!         simulation.advance(1).await?;
+//!     }
+//!     let t = simulation.time();
+//!     let rock = simulation.rock().expect("the scene has blocks");
+//!     Ok::<_, riprap::Error>((t, rock.poses()[0].centre.z))
+//! })?;
+//! assert!((z - (10.0 - 5.0 * t * t)).abs() < 1e-9);
+//! # Ok(())
+//! # }
+//! ```
 
 mod block_fields;
 pub mod checkpoint;

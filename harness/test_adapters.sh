@@ -15,13 +15,14 @@ trap 'rm -f "$log"' EXIT
 # A test program, and the modules or names of its tests.
 filters=(
     "gpu lost_device:: memory:: timer::"
-    "lattice divergence_guard::s golden:: kernels:: limits::"
+    "lattice divergence_guard::s kernels:: limits::"
     "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise::"
     "sph mueller:: refusals:: step::"
     "rock broadphase::"
     "coupling faults::"
     "check more_cells_than_the_device_holds"
     "run interrupted::"
+    "records cases::kernels"
 )
 
 # run_tests PROGRAM NAME...: its tests whose names contain one of the names. The whole workspace, so that nothing is

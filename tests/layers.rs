@@ -1,201 +1,99 @@
 //! The top modules of the library form layers: none needs, over others or directly, a module that needs it.
 
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
     path::{Path, PathBuf},
 };
 
-/// A word or a sign of Rust; of literals only that they are there.
-#[derive(Clone, Debug, PartialEq)]
-enum Token {
-    Word(String),
-    Sign(char),
-    Literal,
-}
-
-/// The tokens of a source without its comments.
-fn tokens(source: &str) -> Vec<Token> {
-    let text: Vec<char> = source.chars().collect();
-    let at = |i: usize| text.get(i).copied().unwrap_or('\0');
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut found = Vec::new();
-    let mut i = 0;
-    while i < text.len() {
-        let c = text[i];
-        if c == '/' && at(i + 1) == '/' {
-            while i < text.len() && text[i] != '\n' {
-                i += 1;
-            }
-        } else if c == '/' && at(i + 1) == '*' {
-            let mut depth = 0;
-            while i < text.len() {
-                match (text[i], at(i + 1)) {
-                    ('/', '*') => (depth, i) = (depth + 1, i + 2),
-                    ('*', '/') => (depth, i) = (depth - 1, i + 2),
-                    _ => i += 1,
-                }
-                if depth == 0 {
-                    break;
-                }
-            }
-        } else if is_word(c) {
-            let start = i;
-            while is_word(at(i)) {
-                i += 1;
-            }
-            let word: String = text[start..i].iter().collect();
-            let mut hashes = 0;
-            while at(i + hashes) == '#' {
-                hashes += 1;
-            }
-            if matches!(word.as_str(), "r" | "br" | "cr") && at(i + hashes) == '"' {
-                i += hashes + 1;
-                let is_end = |i: usize| at(i) == '"' && (1..=hashes).all(|n| at(i + n) == '#');
-                while i < text.len() && !is_end(i) {
-                    i += 1;
-                }
-                i += hashes + 1;
-                found.push(Token::Literal);
-            } else {
-                found.push(Token::Word(word));
-            }
-        } else if c == '"' {
-            i += 1;
-            while i < text.len() && text[i] != '"' {
-                i += if text[i] == '\\' { 2 } else { 1 };
-            }
-            i += 1;
-            found.push(Token::Literal);
-        } else if c == '\'' {
-            // A character ends with a quote, a lifetime does not.
-            if at(i + 1) == '\\' {
-                i += 3;
-                while i < text.len() && text[i] != '\'' {
-                    i += 1;
-                }
-                i += 1;
-            } else if at(i + 2) == '\'' {
-                i += 3;
-            } else {
-                i += 1;
-            }
-            found.push(Token::Literal);
-        } else {
-            if !c.is_whitespace() {
-                found.push(Token::Sign(c));
-            }
-            i += 1;
-        }
-    }
-    found
+/// The tokens of a source, comments aside.
+fn tokens(source: &str) -> Vec<TokenTree> {
+    let stream: TokenStream = source.parse().expect("Rust");
+    without_tests(stream)
 }
 
 /// The tokens without the items of tests: what follows `#[cfg(test)]` up to its end.
-fn without_tests(tokens: &[Token]) -> Vec<Token> {
-    let sign = |c: char| Token::Sign(c);
-    let word = |w: &str| Token::Word(w.into());
-    let attribute = [
-        sign('#'),
-        sign('['),
-        word("cfg"),
-        sign('('),
-        word("test"),
-        sign(')'),
-        sign(']'),
-    ];
+fn without_tests(stream: TokenStream) -> Vec<TokenTree> {
     let mut kept = Vec::new();
-    let mut i = 0;
-    while i < tokens.len() {
-        if !tokens[i..].starts_with(&attribute) {
-            kept.push(tokens[i].clone());
-            i += 1;
+    let mut tokens = stream.into_iter();
+    while let Some(token) = tokens.next() {
+        let is_test = token.to_string().replace(' ', "") == "[cfg(test)]";
+        if !is_test {
+            kept.push(token);
             continue;
         }
-        i += attribute.len();
-        let mut depth = 0;
-        while i < tokens.len() {
-            match tokens[i] {
-                Token::Sign('{' | '(' | '[') => depth += 1,
-                Token::Sign('}' | ')' | ']') => depth -= 1,
-                _ => {}
-            }
-            let is_end = depth == 0 && matches!(tokens[i], Token::Sign('}' | ';'));
-            i += 1;
-            if is_end {
-                break;
-            }
-        }
+        // The sign # of the attribute; its item ends with a semicolon or a body.
+        kept.pop();
+        tokens.find(|token| match token {
+            TokenTree::Punct(sign) => sign.as_char() == ';',
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+            _ => false,
+        });
     }
     kept
 }
 
-/// The first names behind a path that ends before `i`: one, or all of a tree in braces.
-fn first_names(tokens: &[Token], mut i: usize) -> Vec<String> {
-    match tokens.get(i) {
-        Some(Token::Word(name)) => vec![name.clone()],
-        Some(Token::Sign('{')) => {
-            let mut names = Vec::new();
-            let (mut depth, mut is_first) = (0, true);
-            loop {
-                match tokens.get(i) {
-                    Some(Token::Sign('{')) => depth += 1,
-                    Some(Token::Sign('}')) => depth -= 1,
-                    Some(Token::Sign(',')) if depth == 1 => is_first = true,
-                    Some(Token::Word(name)) if is_first && depth == 1 => {
-                        names.push(name.clone());
-                        is_first = false;
-                    }
-                    Some(_) => {}
-                    None => break,
-                }
-                if depth == 0 {
-                    break;
-                }
-                i += 1;
-            }
-            names
+fn is_word(token: Option<&TokenTree>, word: &str) -> bool {
+    matches!(token, Some(TokenTree::Ident(found)) if found == word)
+}
+
+/// The tokens behind `::` at the start.
+fn behind_path(tokens: &[TokenTree]) -> Option<&[TokenTree]> {
+    let is_colon = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ':');
+    match tokens {
+        [a, b, rest @ ..] if is_colon(a) && is_colon(b) => Some(rest),
+        _ => None,
+    }
+}
+
+/// The first names at the start: one, or all of a tree in braces.
+fn first_names(tokens: &[TokenTree]) -> Vec<String> {
+    match tokens.first() {
+        Some(TokenTree::Ident(name)) => vec![name.to_string()],
+        Some(TokenTree::Group(tree)) => {
+            let tree: Vec<_> = tree.stream().into_iter().collect();
+            let is_comma = |t: &TokenTree| matches!(t, TokenTree::Punct(p) if p.as_char() == ',');
+            tree.split(is_comma).flat_map(first_names).collect()
         }
         _ => Vec::new(),
     }
 }
 
-/// The names at the root of the crate that a file uses. `depth` is the number of modules from the root to it.
-fn root_names(source: &str, depth: usize) -> Vec<String> {
-    let tokens = without_tests(&tokens(source));
-    let is_path = |i: usize| {
-        tokens.get(i) == Some(&Token::Sign(':')) && tokens.get(i + 1) == Some(&Token::Sign(':'))
-    };
-    let mut names = Vec::new();
-    // Of each open brace, whether it is that of a module.
-    let mut braces: Vec<bool> = Vec::new();
+/// Adds the names at the root of the crate that tokens use; `depth` is the number of modules from the root to them.
+fn add_root_names(tokens: &[TokenTree], depth: usize, names: &mut Vec<String>) {
     let mut i = 0;
     while i < tokens.len() {
-        match &tokens[i] {
-            Token::Sign('{') => {
-                let is_module = i >= 2 && tokens[i - 2] == Token::Word("mod".into());
-                braces.push(is_module);
+        if let TokenTree::Group(group) = &tokens[i] {
+            let is_module = i >= 2 && is_word(tokens.get(i - 2), "mod");
+            let inner = without_tests(group.stream());
+            add_root_names(&inner, depth + usize::from(is_module), names);
+        }
+        let mut rest = behind_path(&tokens[i + 1..]);
+        let mut is_root = is_word(tokens.get(i), "crate");
+        if is_word(tokens.get(i), "super") {
+            let mut up = 1;
+            while let Some([next, above @ ..]) = rest
+                && is_word(Some(next), "super")
+            {
+                (up, i) = (up + 1, i + 3);
+                rest = behind_path(above);
             }
-            Token::Sign('}') => {
-                braces.pop();
-            }
-            Token::Word(word) if word == "crate" && is_path(i + 1) => {
-                names.extend(first_names(&tokens, i + 3));
-            }
-            Token::Word(word) if word == "super" => {
-                let mut up = 1;
-                while is_path(i + 1) && tokens.get(i + 3) == Some(&Token::Word("super".into())) {
-                    (up, i) = (up + 1, i + 3);
-                }
-                let depth = depth + braces.iter().filter(|is_module| **is_module).count();
-                if up == depth && is_path(i + 1) {
-                    names.extend(first_names(&tokens, i + 3));
-                }
-            }
-            _ => {}
+            is_root = up == depth;
+        }
+        if let Some(rest) = rest
+            && is_root
+        {
+            names.extend(first_names(rest));
         }
         i += 1;
     }
+}
+
+/// The names at the root of the crate that a file uses.
+fn root_names(source: &str, depth: usize) -> Vec<String> {
+    let mut names = Vec::new();
+    add_root_names(&tokens(source), depth, &mut names);
     names
 }
 
@@ -215,20 +113,15 @@ type Uses = BTreeMap<String, BTreeMap<String, PathBuf>>;
 
 /// The uses of the top modules under `src`. Names that `lib.rs` exports from a module count as that module.
 fn uses(src: &Path) -> Uses {
-    let root = without_tests(&tokens(&fs::read_to_string(src.join("lib.rs")).unwrap()));
+    let root = tokens(&fs::read_to_string(src.join("lib.rs")).unwrap());
     let mut homes = BTreeMap::new();
     for i in 0..root.len() {
-        if let [
-            Token::Word(word),
-            Token::Word(module),
-            Token::Sign(':'),
-            Token::Sign(':'),
-            ..,
-        ] = &root[i..]
-            && word == "use"
+        if let [word, TokenTree::Ident(module), rest @ ..] = &root[i..]
+            && is_word(Some(word), "use")
+            && let Some(rest) = behind_path(rest)
         {
-            for name in first_names(&root, i + 4) {
-                homes.insert(name, module.clone());
+            for name in first_names(rest) {
+                homes.insert(name, module.to_string());
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Loads on the faces of blocks.
 
-use crate::fixture::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, WALLS, World, accelerated_fluid, fluid, material};
 use glam::DVec3;
+use kit::{assert_near, assert_relative};
 use riprap::psm::FaceLoad;
 
 const GRAVITY: f64 = 0.01;
@@ -15,14 +16,9 @@ fn tank(position: [f64; 3], angle: f64) -> World {
 /// The same of so many cells, with a fixed block of this shape.
 fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
     let depth = 0.5 * f64::from(cells);
-    let wall = |face: &str| format!("{face} = {{ kind = \"wall\" }}\n");
-    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
-        .map(wall)
-        .concat();
     World::new(&format!(
         r#"{}{}
-        [boundaries]
-        {walls}
+        {WALLS}
         [initial]
         pressure = "{DENSITY} * {GRAVITY} * ({depth} - z)"
         [rock]
@@ -41,10 +37,7 @@ fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
         position = {position:?}
         rotation = {{ axis = [1, 2, 3], angle = {angle} }}
         motion = "fixed""#,
-        fluid([cells; 3], 0.1).replace(
-            "viscosity",
-            &format!("acceleration = [0, 0, -{GRAVITY}]\nviscosity")
-        ),
+        accelerated_fluid([cells; 3], 0.1, [0.0, 0.0, -GRAVITY]),
         material("rock", 2650.0)
     ))
 }
@@ -206,7 +199,7 @@ fn a_face_on_the_ground_is_dry() {
             assert_eq!(load.force, DVec3::ZERO);
         } else {
             let there = DENSITY * GRAVITY * (12.0 - load.face.centre.z);
-            assert!((load.pressure() / there - 1.0).abs() < 1e-5);
+            assert_relative(load.pressure(), there, 1e-5);
         }
     }
 }
@@ -250,7 +243,7 @@ fn a_moving_lid_shears_the_face_below() {
     println!("{} of {exact}, {load}", top.shear());
     assert!((top.shear() - DVec3::X * exact).length() < 1e-2 * exact);
     // What the cells of the slab lose is the same force.
-    assert!((top.force.x / load.x - 1.0).abs() < 1e-2, "{load}");
+    assert_relative(top.force.x, load.x, 1e-2);
 }
 
 #[test]
@@ -381,7 +374,7 @@ fn faces_end_at_the_walls() {
             n if n.x.abs() > 0.5 => 6.0 * 3.5,
             _ => 8.0 * 3.5,
         };
-        assert!((load.wetted - exact).abs() < 1e-9, "{load:?}");
+        assert_near(load.wetted, exact, 1e-9);
     }
 }
 

@@ -2,13 +2,13 @@
 
 use crate::fixture::{World, fluid, material};
 use glam::{DQuat, DVec3};
-use kit::{Rig, scene::read};
+use kit::{Rig, assert_contains, scene::read};
 use riprap::{
     Error,
     geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator, State},
     psm::{Frame, SolidBlock, SolidCells},
-    simulation::{Needs, Simulation},
+    simulation::Needs,
     units::Units,
     wgpu,
 };
@@ -141,9 +141,7 @@ fn a_device_with_what_a_scene_needs_runs_it() {
     let needs = Needs::of(&scene, &adapter).unwrap();
     let (device, queue) = kit::gpu::open(&adapter, needs.features, needs.limits.clone()).unwrap();
     let rig = Rig { device, queue };
-    let mut sim = rig
-        .wait(Simulation::new(&rig.device, &rig.queue, &scene))
-        .unwrap();
+    let mut sim = rig.simulation(&scene).unwrap();
     rig.wait(sim.advance(3)).unwrap();
     assert!(sim.coupled().unwrap().blocks().poses()[0].velocity.z < 0.0);
 }
@@ -170,10 +168,7 @@ fn a_block_faster_than_any_flow_is_named() {
     let error = world.try_advance(40).unwrap_err();
     assert!(matches!(error, Error::Diverged { .. }), "{error}");
     let text = error.to_string();
-    assert!(
-        text.contains("ram") && text.contains("cells a step"),
-        "{text}"
-    );
+    assert_contains(&text, &["ram", "cells a step"]);
 }
 
 #[test]
@@ -233,10 +228,7 @@ fn single_loads_for_free_blocks_in_cells_that_reflect_are_refused() {
         material("rock", 2000.0)
     );
     let error = read(&text).unwrap_err().to_string();
-    assert!(
-        error.contains("average") && error.contains("noble"),
-        "{error}"
-    );
+    assert_contains(&error, &["average", "noble"]);
     read(&format!("{text}\nmotion = \"fixed\"")).unwrap();
     let noble = text.replace("[numerics]", "[numerics]\nsolid_operator = \"noble\"");
     read(&noble).unwrap();

@@ -25,6 +25,22 @@ pub fn fluid(cells: [u32; 3], nu: f64) -> String {
     )
 }
 
+/// The same under this acceleration, m/s².
+pub fn accelerated_fluid(cells: [u32; 3], nu: f64, acceleration: [f64; 3]) -> String {
+    let accelerated = format!("acceleration = {acceleration:?}\nviscosity");
+    fluid(cells, nu).replace("viscosity", &accelerated)
+}
+
+/// Walls on all sides.
+pub const WALLS: &str = r#"[boundaries]
+    x_min = { kind = "wall" }
+    x_max = { kind = "wall" }
+    y_min = { kind = "wall" }
+    y_max = { kind = "wall" }
+    z_min = { kind = "wall" }
+    z_max = { kind = "wall" }
+"#;
+
 pub struct World {
     pub rig: Rig,
     pub sim: Simulation,
@@ -41,7 +57,7 @@ impl World {
     pub fn try_new(text: &str) -> Result<Self> {
         let scene = kit::scene::read(text)?;
         let rig = Rig::new();
-        let sim = rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))?;
+        let sim = rig.simulation(&scene)?;
         Ok(Self { rig, sim })
     }
 

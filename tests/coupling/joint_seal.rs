@@ -1,7 +1,8 @@
 //! Closed joints: the load of a block there is the pressure at the rim, once the fluid of the cells inside has seeped out.
 
-use crate::fixture::{DENSITY, World, fluid, material};
+use crate::fixture::{DENSITY, WALLS, World, accelerated_fluid, fluid, material};
 use glam::DVec3;
+use kit::assert_relative;
 
 /// The factors of safety of a block called stone.
 const SAFETY: &str = r#"
@@ -34,26 +35,19 @@ fn stone(size: DVec3, motion: &str) -> String {
 /// A closed tank of 12 m an edge with water at rest under `acceleration`, a block on its bottom, and inside of SIZE
 /// another pressure, higher by `stale` (Pa).
 fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> World {
-    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
-        .map(|face| format!("{face} = {{ kind = \"wall\" }}\n"))
-        .concat();
     let [x, y, z] = acceleration.map(|a| DENSITY * a);
     // 1 in the box, 0 outside it.
     let inside = "max(0, sign(4 - abs(x - 6)))*max(0, sign(3 - abs(y - 6)))*max(0, sign(5 - z))";
     let mut world = World::new(&format!(
         r#"{}{}
-        [boundaries]
-        {walls}
+        {WALLS}
         [initial]
         pressure = "{x}*x + {y}*y + {z}*(z - 12) + {stale}*{inside}"
         [rock]
         gravity = {gravity:?}
         {SAFETY}
         {block}"#,
-        fluid([24; 3], 0.1).replace(
-            "viscosity",
-            &format!("acceleration = {acceleration:?}\nviscosity")
-        ),
+        accelerated_fluid([24; 3], 0.1, acceleration),
         material("rock", 2650.0),
     ));
     world.advance(400);
@@ -248,7 +242,7 @@ fn each_joint_has_the_pressure_of_its_own_rim() {
     let base = face(-DVec3::Z).1;
     let arm = base.moment.y / base.force.z;
     let exact = (up - down) / (3.0 * mean);
-    assert!((arm / exact - 1.0).abs() < 0.03, "{arm} {exact}");
+    assert_relative(arm, exact, 0.03);
 }
 
 /// In the open there is nothing to say about joints.

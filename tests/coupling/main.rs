@@ -1,6 +1,5 @@
 //! Blocks and fluid together: what must be conserved, repeated, left alone and refused.
 
-mod buoyancy;
 mod conservation;
 mod density;
 mod external_load;
@@ -9,8 +8,6 @@ mod faults;
 mod fixture;
 mod inlets;
 mod joint_seal;
-mod many_blocks;
-mod mass_flux;
 mod periodic_images;
 mod places;
 mod reproducibility;

@@ -1,7 +1,7 @@
 //! A light block that is pushed until its base lifts a little off what it stands on, in still water: what is in a gap of a few
 //! thousandths of a cell must not shake it.
 
-use crate::fixture::World;
+use crate::fixture::{WALLS, World};
 
 /// A slab of 8 × 8 × 5 cells on a floor, or on a block so high, pushed at half its height with three quarters of what topples
 /// it; a cell is 1 m, a step 1 s and the fluid has 1 kg/m³.
@@ -17,9 +17,6 @@ fn slab(bed: f64) -> World {
         ),
         false => String::new(),
     };
-    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
-        .map(|face| format!("{face} = {{ kind = \"wall\" }}\n"))
-        .concat();
     World::new(&format!(
         r#"
         domain = {{ size = [16, 16, 14], cell = 1 }}
@@ -28,8 +25,7 @@ fn slab(bed: f64) -> World {
         rock = {{ gravity = [0, 0, -1e-4] }}
         run = {{ steps = 1 }}
         materials = [{{ name = "rock", density = 2, normal_stiffness = 0.5, friction = 60 }}]
-        [boundaries]
-        {walls}
+        {WALLS}
         [[blocks]]
         kind = "box"
         size = [{WIDTH}, {WIDTH}, {HEIGHT}]

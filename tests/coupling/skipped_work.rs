@@ -1,6 +1,7 @@
 //! Work that a step does not need is left out.
 
 use crate::fixture::{World, fluid, material};
+use kit::assert_relative;
 use riprap::coupling::Exchanges;
 
 fn exchanges(world: &World) -> Exchanges {
@@ -124,6 +125,6 @@ fn rare_exchanges_settle_a_block_like_frequent_ones() {
     let (often, rarely) = (fall(1), fall(4));
     println!("velocity and way, every step {often:?}, every fourth {rarely:?}");
     assert!(often.0 < -0.02 && often.1 < -0.5, "{often:?}");
-    assert!((rarely.0 / often.0 - 1.0).abs() < 0.02);
-    assert!((rarely.1 / often.1 - 1.0).abs() < 0.05);
+    assert_relative(rarely.0, often.0, 0.02);
+    assert_relative(rarely.1, often.1, 0.05);
 }

@@ -1,6 +1,6 @@
 //! Blocks that slide on what they lie on, under water: nothing but friction holds them.
 
-use crate::fixture::{DENSITY, World, fluid};
+use crate::fixture::{DENSITY, WALLS, World, fluid};
 use glam::DVec3;
 
 /// Of the block, m: 8 × 6 × 5 cells.
@@ -8,9 +8,6 @@ const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
 /// A closed tank of water at rest, with a bed of this height (m) unless that is 0, and on it a stone.
 fn tank(bed: f64, gravity: [f64; 3], friction: f64, stone: &str) -> World {
-    let walls: String = ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
-        .map(|face| format!("{face} = {{ kind = \"wall\" }}\n"))
-        .concat();
     let bed_block = match bed > 0.0 {
         true => format!(
             "[[blocks]]\nname = \"bed\"\nkind = \"box\"\nsize = [14, 10, {bed}]\nposition = [7, 5, {}]\nmotion = \"fixed\"\n",
@@ -20,8 +17,7 @@ fn tank(bed: f64, gravity: [f64; 3], friction: f64, stone: &str) -> World {
     };
     World::new(&format!(
         r#"{}
-        [boundaries]
-        {walls}
+        {WALLS}
         [numerics]
         time_step = 0.25
         velocity_scale = 0.1

@@ -2,6 +2,7 @@
 
 use crate::measure::{assert_sound, difference};
 use glam::{DMat3, DVec3};
+use kit::assert_near;
 use riprap::geometry::{Form, Part, Polyhedron, Shape};
 use std::f64::consts::PI;
 
@@ -24,10 +25,10 @@ fn a_box_has_its_closed_forms() {
     let volume = 6.0;
     let s = e * e * (volume / 12.0);
     let inertia = DMat3::from_diagonal(DVec3::new(s.y + s.z, s.z + s.x, s.x + s.y));
-    assert!((block.volume() - volume).abs() < EXACT * volume);
+    assert_near(block.volume(), volume, EXACT * volume);
     assert!(difference(block.inertia(), inertia) < EXACT * 10.0);
     assert_eq!(block.smallest_distance(), 0.5);
-    assert!((block.radius() - e.length() / 2.0).abs() < EXACT);
+    assert_near(block.radius(), e.length() / 2.0, EXACT);
 }
 
 #[test]
@@ -101,11 +102,11 @@ fn regular_solids_have_their_closed_forms() {
             difference(solid.inertia(), tensor) < 4.0 * EXACT * i,
             "{faces} faces"
         );
-        assert!((solid.radius() - outer * a).abs() < 4.0 * EXACT * a);
-        assert!((solid.smallest_distance() - inner * a).abs() < 4.0 * EXACT * a);
+        assert_near(solid.radius(), outer * a, 4.0 * EXACT * a);
+        assert_near(solid.smallest_distance(), inner * a, 4.0 * EXACT * a);
         for [p, q] in solid.edges() {
             let length = solid.vertices()[*p as usize].distance(solid.vertices()[*q as usize]);
-            assert!((length - a).abs() < 4.0 * EXACT * a);
+            assert_near(length, a, 4.0 * EXACT * a);
         }
     }
 }
@@ -124,7 +125,7 @@ fn any_tetrahedron_has_its_closed_forms() {
     assert!(centre.distance(mean) < EXACT * 10.0);
     let r = corners.map(|c| c - mean);
     let volume = (r[1] - r[0]).dot((r[2] - r[0]).cross(r[3] - r[0])).abs() / 6.0;
-    assert!((solid.volume() - volume).abs() < 4.0 * EXACT * volume);
+    assert_near(solid.volume(), volume, 4.0 * EXACT * volume);
     // ∫x xᵀ dV = V/20 Σ r rᵀ about the centroid (Tonon 2004).
     let square = r.iter().fold(DMat3::ZERO, |s, r| {
         s + DMat3::from_cols(*r * r.x, *r * r.y, *r * r.z)
@@ -138,7 +139,7 @@ fn any_tetrahedron_has_its_closed_forms() {
 fn a_sphere_has_its_closed_forms() {
     let ball = Shape::sphere(0.3).unwrap();
     let volume = 4.0 / 3.0 * PI * 0.027;
-    assert!((ball.volume() - volume).abs() < EXACT * volume);
+    assert_near(ball.volume(), volume, EXACT * volume);
     let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * volume * 0.09));
     assert!(difference(ball.inertia(), inertia) < EXACT * volume);
     assert_eq!((ball.radius(), ball.parts().len()), (0.3, 1));
@@ -154,8 +155,8 @@ fn two_boxes_make_the_box_that_they_fill() {
     let (shape, centre) = Shape::compound(vec![at(0.75), at(2.25)]).unwrap();
     let whole = Polyhedron::cuboid(DVec3::new(1.0, 1.0, 3.0)).unwrap();
     assert!(centre.distance(DVec3::new(5.0, -2.0, 1.5)) < EXACT * 10.0);
-    assert!((shape.volume() - 3.0).abs() < EXACT * 3.0);
+    assert_near(shape.volume(), 3.0, EXACT * 3.0);
     assert!(difference(shape.inertia(), whole.inertia()) < EXACT * 10.0);
-    assert!((shape.radius() - whole.radius()).abs() < EXACT);
+    assert_near(shape.radius(), whole.radius(), EXACT);
     assert_eq!(shape.parts()[0].offset.z, -0.75);
 }

@@ -1,6 +1,7 @@
 //! Independent measures of polyhedra.
 
 use glam::{DMat3, DVec3};
+use kit::assert_near;
 use riprap::geometry::Polyhedron;
 
 /// Largest difference of two matrices' entries.
@@ -30,7 +31,7 @@ pub fn assert_sound_to(p: &Polyhedron, close: f64) {
     let mut closing = DVec3::ZERO;
     let mut uses = std::collections::BTreeMap::new();
     for (face, ring) in p.faces().iter().zip(p.loops()) {
-        assert!((face.normal.length() - 1.0).abs() < 1e-15);
+        assert_near(face.normal.length(), 1.0, 1e-15);
         assert!(ring.len() >= 3);
         let points: Vec<DVec3> = ring.iter().map(|i| p.vertices()[*i as usize]).collect();
         for (i, vertex) in p.vertices().iter().enumerate() {

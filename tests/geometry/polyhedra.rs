@@ -2,6 +2,7 @@
 
 use crate::measure::{assert_sound, difference};
 use glam::{DQuat, DVec3};
+use kit::assert_near;
 use proptest::prelude::*;
 use riprap::geometry::{HalfSpace, Polyhedron};
 
@@ -144,7 +145,7 @@ fn normals_of_any_length_give_the_same_block() {
     let (block, _) = Polyhedron::from_half_spaces(&scaled.collect::<Vec<_>>()).unwrap();
     for (scaled, unit) in block.faces().iter().zip(cube.faces()) {
         assert_eq!(scaled.normal, unit.normal);
-        assert!((scaled.distance - unit.distance).abs() < 1e-15);
+        assert_near(scaled.distance, unit.distance, 1e-15);
     }
 }
 

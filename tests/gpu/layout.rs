@@ -6,7 +6,10 @@ use riprap::{
         layout::check,
         link::{Linked, Program, source},
     },
-    lattice::{C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, single_cells},
+    lattice::{
+        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, collide_stream,
+        single_cells,
+    },
 };
 use std::mem::offset_of;
 
@@ -16,41 +19,26 @@ fn linked(entry: &str) -> Linked {
 }
 
 #[test]
-fn links() {
-    let fields = [
+fn structures_of_the_lattice() {
+    let link = [
         ("scalar_from", offset_of!(Link, from)),
         ("scalar_to", offset_of!(Link, to)),
         ("directions", offset_of!(Link, directions)),
     ];
-    check::<Link>(&linked("links").module, "Link", &fields).unwrap();
-}
-
-#[test]
-fn moving_cells() {
+    check::<Link>(&linked("links").module, "Link", &link).unwrap();
     let through = offset_of!(MovingCell, through);
-    let fields = [
+    let moving = [
         ("cell", offset_of!(MovingCell, cell)),
         ("through_x", through),
         ("through_y", through + 4),
         ("through_z", through + 8),
     ];
-    check::<MovingCell>(&linked("moving_wall").module, "MovingCell", &fields).unwrap();
-}
-
-#[test]
-fn face_cells() {
-    let fields = [
+    check::<MovingCell>(&linked("moving_wall").module, "MovingCell", &moving).unwrap();
+    let cell = [
         ("cell", offset_of!(FaceCell, cell)),
         ("inner", offset_of!(FaceCell, inner)),
         ("entering", offset_of!(FaceCell, entering)),
     ];
-    for entry in ["pressure_face", "outflow"] {
-        check::<FaceCell>(&linked(entry).module, "FaceCell", &fields).unwrap();
-    }
-}
-
-#[test]
-fn uniforms_of_single_cells() {
     let pass = [
         ("odd", offset_of!(CellPass, odd)),
         ("half", offset_of!(CellPass, half)),
@@ -64,10 +52,29 @@ fn uniforms_of_single_cells() {
         ("integral", offset_of!(OpenFace, integral)),
     ];
     for entry in ["pressure_face", "outflow"] {
-        let linked = linked(entry);
-        check::<CellPass>(&linked.module, "CellPass", &pass).unwrap();
-        check::<OpenFace>(&linked.module, "OpenFace", &face).unwrap();
+        let module = linked(entry).module;
+        check::<FaceCell>(&module, "FaceCell", &cell).unwrap();
+        check::<CellPass>(&module, "CellPass", &pass).unwrap();
+        check::<OpenFace>(&module, "OpenFace", &face).unwrap();
     }
+    // The host reads four words: steps after an even one, after an odd one, first bad step and cell.
+    let setup = Setup::periodic([4; 3], 0.1);
+    let step = collide_stream(&setup, 1, BrickKind::All).link().unwrap();
+    let guard = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];
+    check::<[u32; 4]>(&step.module, "Guard", &guard).unwrap();
+    // It reads eight numbers an invocation.
+    let names = [
+        "excess",
+        "momentum_x",
+        "momentum_y",
+        "momentum_z",
+        "kinetic_energy",
+        "enstrophy",
+        "max_speed_squared",
+        "fluid_cells",
+    ];
+    let sums: Vec<_> = names.into_iter().zip((0..).step_by(4)).collect();
+    check::<[f32; 8]>(&linked("sums").module, "Sums", &sums).unwrap();
 }
 
 /// The host counts links along the directions in which the kernels stream.
@@ -89,34 +96,6 @@ fn directions() {
         })
         .collect();
     assert_eq!(there, C);
-}
-
-/// The host reads four words: steps after an even one, after an odd one, first bad step and cell.
-#[test]
-fn the_guard() {
-    let setup = Setup::periodic([4; 3], 0.1);
-    let linked = riprap::lattice::collide_stream(&setup, 1, riprap::lattice::BrickKind::All)
-        .link()
-        .unwrap();
-    let fields = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];
-    check::<[u32; 4]>(&linked.module, "Guard", &fields).unwrap();
-}
-
-/// The host reads eight numbers an invocation.
-#[test]
-fn sums() {
-    let names = [
-        "excess",
-        "momentum_x",
-        "momentum_y",
-        "momentum_z",
-        "kinetic_energy",
-        "enstrophy",
-        "max_speed_squared",
-        "fluid_cells",
-    ];
-    let fields: Vec<_> = names.into_iter().zip((0..).step_by(4)).collect();
-    check::<[f32; 8]>(&linked("sums").module, "Sums", &fields).unwrap();
 }
 
 /// vec3 is aligned to 16 bytes in WGSL and to 4 on the host: the classic mistake is found.

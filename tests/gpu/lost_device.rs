@@ -1,6 +1,6 @@
 //! A device that goes away in the middle of a run: an error that says so, and a state from before that goes on.
 
-use kit::Rig;
+use kit::{Rig, assert_contains};
 use riprap::{
     Error, Result,
     scene::Scene,
@@ -41,9 +41,7 @@ fn lost<T: std::fmt::Debug>(found: Result<T>) {
     let error = found.unwrap_err();
     assert!(matches!(error, Error::DeviceLost(_)), "{error}");
     let text = error.to_string();
-    for word in ["device lost", "checkpoint"] {
-        assert!(text.contains(word), "{word}: {text}");
-    }
+    assert_contains(&text, &["device lost", "checkpoint"]);
 }
 
 /// As [`Rig::wait`], where waiting itself may fail.
@@ -56,9 +54,7 @@ fn wait<T>(rig: &Rig, future: impl Future<Output = Result<T>>) -> Result<T> {
 fn a_flow_with_blocks_says_that_its_device_is_lost() {
     let rig = Rig::new();
     let scene = scene(FLOW);
-    let mut flow = rig
-        .wait(Simulation::new(&rig.device, &rig.queue, &scene))
-        .unwrap();
+    let mut flow = rig.simulation(&scene).unwrap();
     rig.wait(flow.advance(7)).unwrap();
     let saved: Checkpoint = rig.wait(flow.checkpoint()).unwrap();
     rig.wait(flow.advance(3)).unwrap();
@@ -69,9 +65,7 @@ fn a_flow_with_blocks_says_that_its_device_is_lost() {
     lost(wait(&rig, flow.checkpoint()));
     // On another device.
     let rig = Rig::new();
-    let mut flow = rig
-        .wait(Simulation::new(&rig.device, &rig.queue, &scene))
-        .unwrap();
+    let mut flow = rig.simulation(&scene).unwrap();
     flow.restore(&saved).unwrap();
     rig.wait(flow.advance(3)).unwrap();
     assert!(rig.wait(flow.checkpoint()).unwrap() == expected);
@@ -81,8 +75,7 @@ fn a_flow_with_blocks_says_that_its_device_is_lost() {
 fn free_water_says_that_its_device_is_lost() {
     let rig = Rig::new();
     let scene = scene(WATER);
-    let made = Simulation::new(&rig.device, &rig.queue, &scene);
-    let mut water = rig.wait(made).unwrap();
+    let mut water = rig.simulation(&scene).unwrap();
     rig.wait(water.advance(2)).unwrap();
     rig.device.destroy();
     lost(wait(&rig, water.advance(2)));

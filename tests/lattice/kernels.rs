@@ -1,7 +1,10 @@
 //! Every kernel of the lattice against its f64 twin, on random states in poisoned buffers.
 
-use kit::twin::of_setup::{layouts, limit, noise, poison, random_populations, twin_of, walled};
 use kit::{Rig, twin};
+use kit::{
+    assert_near,
+    twin::of_setup::{layouts, limit, noise, poison, random_populations, twin_of, walled},
+};
 use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Lattice, Observer, Setup, State, Storage,
 };
@@ -156,7 +159,7 @@ fn consistent_start_and_macroscopic_fields() {
             let (rho, u) = twin.macroscopic(cell);
             assert!((1.0 + f64::from(seen.excess[cell]) - rho).abs() < limit(&setup));
             for a in 0..3 {
-                assert!((f64::from(seen.velocity[a][cell]) - u[a]).abs() < limit(&setup));
+                assert_near(f64::from(seen.velocity[a][cell]), u[a], limit(&setup));
             }
         }
     }

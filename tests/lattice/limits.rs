@@ -1,7 +1,7 @@
 //! Grids at the limits of devices: few and small bindings, many workgroups, too many cells, and
 //! hardly any; and numbers beyond all limits.
 
-use kit::Rig;
+use kit::{Rig, assert_contains, assert_near};
 use riprap::{
     Error,
     gpu::readback::Readback,
@@ -170,10 +170,7 @@ fn more_workgroups_than_one_dimension_holds() {
     let sums = sums(&rig, &mut lattice);
     assert_eq!(sums.cells, f64::from(NX));
     // 1e-9 a cell: single precision rounds 0.01 to that.
-    assert!(
-        (sums.excess - mass).abs() < 1e-9 * f64::from(NX),
-        "{sums:?}"
-    );
+    assert_near(sums.excess, mass, 1e-9 * f64::from(NX));
 }
 
 /// A duct of one cell, between slip walls: 4.56 million links, again more than 65 535 groups.
@@ -423,10 +420,7 @@ fn a_device_of_few_bindings_is_told_of_them_and_not_of_bytes() {
     let mut setup = Setup::periodic([8; 3], 0.01);
     assert!(found(&setup, 5).is_ok());
     let message = limit(found(&setup, 4).unwrap_err());
-    assert!(
-        message.contains("storage buffers a shader stage"),
-        "{message}"
-    );
+    assert_contains(&message, &["storage buffers a shader stage"]);
     assert!(!message.contains("bytes"), "{message}");
     setup.bindings = Some(3);
     let message = limit(found(&setup, 6).unwrap_err());

@@ -1,5 +1,6 @@
 //! Files written by `riprap::output`: read back by VTK, restarted, and refused by the system.
 
+use kit::assert_contains;
 use riprap::output::{Array, Csv, Image, Pvd, Table, write_vti};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,17 +10,15 @@ use std::process::Command;
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("output_{name}"));
     if folder.exists() {
-        fs::remove_dir_all(&folder).expect("an old test folder can be removed");
+        fs::remove_dir_all(&folder).unwrap();
     }
-    fs::create_dir_all(&folder).expect("a test folder can be made");
+    fs::create_dir_all(&folder).unwrap();
     folder
 }
 
 /// What VTK finds in a `.vti` or `.pvd`.
 fn read_with_vtk(path: &Path) -> serde_json::Value {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .parent()
-        .expect("the folder of builds");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let python = target.join("python/bin/python");
     let script = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -35,7 +34,7 @@ fn read_with_vtk(path: &Path) -> serde_json::Value {
         output.status.success() && complaint.is_empty(),
         "VTK: {complaint}\nif a module is missing, run harness/python.sh"
     );
-    serde_json::from_slice(&output.stdout).expect("the script prints JSON")
+    serde_json::from_slice(&output.stdout).unwrap()
 }
 
 /// An image with different sizes along each axis, so that swapped axes show.
@@ -65,12 +64,12 @@ fn example() -> Image {
 fn vtk_reads_back_shape_position_and_every_array() {
     let path = folder("vti").join("flow.vti");
     let image = example();
-    write_vti(&path, &image).expect("a writable folder");
+    write_vti(&path, &image).unwrap();
     let found = read_with_vtk(&path);
     assert_eq!(found["points"], serde_json::json!([4, 5, 6]));
     assert_eq!(found["origin"], serde_json::json!([-1.5, 0.25, 10.0]));
     assert_eq!(found["spacing"], serde_json::json!([0.125, 0.125, 0.125]));
-    let arrays = found["arrays"].as_object().expect("arrays by name");
+    let arrays = found["arrays"].as_object().unwrap();
     assert_eq!(arrays.len(), image.arrays.len());
     for array in &image.arrays {
         let read = &arrays[&array.name];
@@ -86,7 +85,7 @@ fn vtk_reads_back_shape_position_and_every_array() {
         assert_eq!(read["last"], serde_json::json!(tuples[tuples.len() - 1]));
         for component in 0..array.components {
             let sum: f64 = tuples.iter().map(|tuple| tuple[component]).sum();
-            let read = read["sums"][component].as_f64().expect("a sum");
+            let read = read["sums"][component].as_f64().unwrap();
             // Both add 60 exact f32 values in f64, maybe in another order.
             assert!(
                 (read - sum).abs() <= 60.0 * f64::EPSILON * sum.abs(),
@@ -100,10 +99,10 @@ fn vtk_reads_back_shape_position_and_every_array() {
 fn an_image_is_replaced_whole_and_leaves_no_draft() {
     let folder = folder("replace");
     let path = folder.join("flow.vti");
-    fs::write(&path, "older").expect("a writable folder");
-    write_vti(&path, &example()).expect("a writable folder");
-    assert!(fs::read(&path).expect("the image").starts_with(b"<?xml"));
-    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 1);
+    fs::write(&path, "older").unwrap();
+    write_vti(&path, &example()).unwrap();
+    assert!(fs::read(&path).unwrap().starts_with(b"<?xml"));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
 #[test]
@@ -114,10 +113,7 @@ fn an_array_that_does_not_fill_the_cells_is_refused() {
     let error = write_vti(&path, &image)
         .expect_err("a value is missing")
         .to_string();
-    assert!(
-        error.contains("pressure has 59 values") && error.contains("need 60"),
-        "{error}"
-    );
+    assert_contains(&error, &["pressure has 59 values", "need 60"]);
     assert!(!path.exists());
 }
 
@@ -125,16 +121,15 @@ fn an_array_that_does_not_fill_the_cells_is_refused() {
 fn a_collection_continues_after_a_restart() {
     let folder = folder("pvd");
     let path = folder.join("flow.pvd");
-    let mut pvd = Pvd::create(&path).expect("a writable folder");
+    let mut pvd = Pvd::create(&path).unwrap();
     for step in 0..4_u32 {
         let file = folder.join(format!("flow_{step}.vti"));
-        write_vti(&file, &example()).expect("a writable folder");
-        pvd.add(0.1 * f64::from(step), &file)
-            .expect("a file beside the collection");
+        write_vti(&file, &example()).unwrap();
+        pvd.add(0.1 * f64::from(step), &file).unwrap();
     }
     // The run falls back to step 2, whose time is 0.2 s.
-    let mut pvd = Pvd::resume(&path, 0.2).expect("the collection above");
-    pvd.add(0.2, "flow_2.vti").expect("a relative path");
+    let mut pvd = Pvd::resume(&path, 0.2).unwrap();
+    pvd.add(0.2, "flow_2.vti").unwrap();
     let wants = vec![
         (0.0, "flow_0.vti"),
         (0.1, "flow_1.vti"),
@@ -158,26 +153,24 @@ fn a_table_restarts_without_double_rows_and_keeps_every_digit() {
     let path = folder("csv").join("gauge.csv");
     let columns = ["pressure", "velocity_x"];
     let value = |step: u64| [1.0 / (step as f64 + 3.0), -1e-300 * step as f64];
-    let mut csv = Csv::create(&path, &columns).expect("a writable folder");
+    let mut csv = Csv::create(&path, &columns).unwrap();
     for step in 0..10 {
-        csv.append(step, 0.1 * step as f64, &value(step))
-            .expect("room for a row");
+        csv.append(step, 0.1 * step as f64, &value(step)).unwrap();
     }
     drop(csv);
-    let unbroken = fs::read_to_string(&path).expect("the table");
+    let unbroken = fs::read_to_string(&path).unwrap();
     // A row cut off by the kill, without its line break.
-    fs::write(&path, unbroken.clone() + "10,1.0,0.").expect("a writable folder");
+    fs::write(&path, unbroken.clone() + "10,1.0,0.").unwrap();
 
-    let mut csv = Csv::resume(&path, &columns, 6).expect("the table above");
+    let mut csv = Csv::resume(&path, &columns, 6).unwrap();
     // That step was written by the run before, which knew more.
-    csv.append(6, 0.6, &value(9)).expect("room for a row");
+    csv.append(6, 0.6, &value(9)).unwrap();
     for step in 7..10 {
-        csv.append(step, 0.1 * step as f64, &value(step))
-            .expect("room for a row");
+        csv.append(step, 0.1 * step as f64, &value(step)).unwrap();
     }
-    assert_eq!(fs::read_to_string(&path).expect("the table"), unbroken);
+    assert_eq!(fs::read_to_string(&path).unwrap(), unbroken);
 
-    let table = Table::read(&path).expect("the table");
+    let table = Table::read(&path).unwrap();
     for (index, column) in columns.iter().enumerate() {
         let wants: Vec<f64> = (0..10).map(|step| value(step)[index]).collect();
         assert_eq!(table.column(column), Some(wants.as_slice()));
@@ -187,30 +180,24 @@ fn a_table_restarts_without_double_rows_and_keeps_every_digit() {
 #[test]
 fn a_table_with_other_columns_is_not_continued() {
     let path = folder("csv_columns").join("gauge.csv");
-    Csv::create(&path, &["pressure"]).expect("a writable folder");
+    Csv::create(&path, &["pressure"]).unwrap();
     let error = Csv::resume(&path, &["force_x"], 0)
         .expect_err("other columns")
         .to_string();
-    assert!(
-        error.contains("`step,time,pressure`") && error.contains("move the file"),
-        "{error}"
-    );
+    assert_contains(&error, &["`step,time,pressure`", "move the file"]);
     let error = Csv::create(&path, &["left, low"])
         .expect_err("a comma")
         .to_string();
-    assert!(
-        error.contains("left, low") && error.contains("without comma"),
-        "{error}"
-    );
+    assert_contains(&error, &["left, low", "without comma"]);
 }
 
 #[test]
 fn a_cut_or_wrong_number_is_reported_with_its_line() {
     let path = folder("table").join("gauge.csv");
-    fs::write(&path, "step,time\n0,0.0\n1,x\n").expect("a writable folder");
+    fs::write(&path, "step,time\n0,0.0\n1,x\n").unwrap();
     let error = Table::read(&path).expect_err("x is no number").to_string();
-    assert!(error.contains("line 3") && error.contains("`x`"), "{error}");
-    fs::write(&path, "step,time\n0,0.0\n1\n").expect("a writable folder");
+    assert_contains(&error, &["line 3", "`x`"]);
+    fs::write(&path, "step,time\n0,0.0\n1\n").unwrap();
     let error = Table::read(&path)
         .expect_err("a value is missing")
         .to_string();
@@ -221,8 +208,8 @@ fn a_cut_or_wrong_number_is_reported_with_its_line() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_named_with_its_remedy() {
-    let mut csv = Csv::create(folder("full").join("gauge.csv"), &["p"]).expect("room");
-    csv.append(0, 0.0, &[1.0]).expect("room for a row");
+    let mut csv = Csv::create(folder("full").join("gauge.csv"), &["p"]).unwrap();
+    csv.append(0, 0.0, &[1.0]).unwrap();
     for error in [
         write_vti("/dev/full", &example()).expect_err("no space"),
         Pvd::create("/dev/full").map(|_| ()).expect_err("no space"),
@@ -241,16 +228,16 @@ fn a_full_disk_is_named_with_its_remedy() {
 fn a_disk_that_fills_up_leaves_the_former_image() {
     let folder = folder("fills_up");
     let path = folder.join("flow.vti");
-    write_vti(&path, &example()).expect("room for one image");
-    let former = fs::read(&path).expect("the image");
+    write_vti(&path, &example()).unwrap();
+    let former = fs::read(&path).unwrap();
     // The next draft meets a full device.
-    std::os::unix::fs::symlink("/dev/full", folder.join("flow.vti.part")).expect("a link");
+    std::os::unix::fs::symlink("/dev/full", folder.join("flow.vti.part")).unwrap();
     let error = write_vti(&path, &example())
         .expect_err("no space")
         .to_string();
     assert!(error.contains("free some space"), "{error}");
-    assert_eq!(fs::read(&path).expect("the image"), former);
-    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 1);
+    assert_eq!(fs::read(&path).unwrap(), former);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
 /// A folder below a file can be made by nobody, root included.
@@ -258,7 +245,7 @@ fn a_disk_that_fills_up_leaves_the_former_image() {
 #[test]
 fn a_folder_that_cannot_be_is_named_with_its_remedy() {
     let folder = folder("unwritable");
-    fs::write(folder.join("file"), "").expect("a writable folder");
+    fs::write(folder.join("file"), "").unwrap();
     let path = folder.join("file/flow.vti");
     let error = write_vti(&path, &example())
         .expect_err("no folder")

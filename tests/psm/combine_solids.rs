@@ -1,8 +1,8 @@
 //! The solid of all parts in each cell.
 
-use crate::tiling::{Noise, Placed, Tiling, centre, grid, split};
+use crate::tiling::{Placed, Tiling, centre, grid, split};
 use glam::{DMat3, DVec3};
-use kit::{POISON, Workbench};
+use kit::{POISON, Random, Workbench, assert_near};
 use riprap::psm::{
     INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, WHOLE, Walk,
     combine_parts, constants,
@@ -17,7 +17,7 @@ pub struct Moving {
 }
 
 impl Moving {
-    pub fn new(near: DVec3, noise: &mut Noise) -> Self {
+    pub fn new(near: DVec3, noise: &mut Random) -> Self {
         let mut vector = || noise.point() - 0.5;
         Self {
             centre: near + vector(),
@@ -52,30 +52,30 @@ impl Moving {
 }
 
 /// Balls of several blocks, some of more than one, in a domain of about 20 cells around `middle`.
-pub fn crowd(noise: &mut Noise, blocks: u32, middle: DVec3) -> Vec<Placed> {
+pub fn crowd(noise: &mut Random, blocks: u32, middle: DVec3) -> Vec<Placed> {
     let mut placed = Vec::new();
     for block in 0..blocks {
         for _ in 0..=block % 3 {
             let at = middle + (noise.point() - 0.5) * 10.0;
-            placed.push(Placed::ball(block, 5.0 * noise.next(), at));
+            placed.push(Placed::ball(block, 5.0 * noise.unit(), at));
         }
     }
     placed
 }
 
 /// Marks and fractions in any order.
-pub fn random_shares(tiling: &Tiling, noise: &mut Noise) -> Vec<f32> {
+pub fn random_shares(tiling: &Tiling, noise: &mut Random) -> Vec<f32> {
     let mut shares = Vec::new();
     for tile in &tiling.tiles {
         shares.extend((0..tiling.workgroup()).map(|local| {
-            let any = noise.next();
+            let any = noise.unit();
             match (tiling.cell(tile, local), (9.0 * any) as u32) {
                 (None, _) | (_, 0..3) => 0.0,
                 (_, 8) => TOUCHES,
                 (_, 3) => NEAR,
                 (_, 4) => INTERIOR,
                 (_, 5) => 1.0,
-                _ => noise.next() as f32,
+                _ => noise.unit() as f32,
             }
         }));
     }
@@ -132,7 +132,7 @@ fn shares_add_and_velocities_are_their_mean() {
     let (mut shared, mut empty, mut left) = (0, 0, 0);
     for (seed, (lanes, brick, width)) in (10..).zip(cases) {
         let bench = Workbench::new(width);
-        let mut noise = Noise(seed);
+        let mut noise = Random(seed);
         let middle = DVec3::new(4.0, 18.0, 9.0);
         let placed = crowd(&mut noise, 7, middle);
         let mut tiling = Tiling::new(grid([19, 20, 18], lanes, brick), [-5, 9, 0], placed);
@@ -191,7 +191,7 @@ fn shares_add_and_velocities_are_their_mean() {
                 }
                 let (sum, u) = twin(&tiling, &shares, &moving, [slot, lane, local]);
                 shared += u32::from(sum > 16.0);
-                assert!((f64::from(plane(0)) - sum).abs() < 4e-6, "{sum}");
+                assert_near(f64::from(plane(0)), sum, 4e-6);
                 for (a, expected) in u.to_array().into_iter().enumerate() {
                     let error = f64::from(plane(1 + a as u32)) - expected;
                     // Speeds are below 1.

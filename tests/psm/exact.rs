@@ -1,6 +1,7 @@
 //! Exact volumes in f64: of polyhedra by cutting polygons, of balls by sections.
 
 use glam::{DVec2, DVec3};
+use kit::{assert_near, assert_relative};
 use riprap::geometry::HalfSpace;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -146,15 +147,15 @@ fn cutting_is_exact() {
         distance: d / n.length() + n.normalize().dot(at),
     };
     let share = |planes: &[HalfSpace]| hull_fraction(planes, at);
-    assert!((share(&[]) - 1.0).abs() < 1e-15);
+    assert_near(share(&[]), 1.0, 1e-15);
     // A corner, all but a corner, a wedge, a slab, nothing.
     let corner = plane(DVec3::ONE, -1.0);
-    assert!((share(&[corner]) - 1.0 / 48.0).abs() < 1e-15);
-    assert!((share(&[plane(DVec3::ONE, 1.0)]) - 47.0 / 48.0).abs() < 1e-15);
+    assert_near(share(&[corner]), 1.0 / 48.0, 1e-15);
+    assert_near(share(&[plane(DVec3::ONE, 1.0)]), 47.0 / 48.0, 1e-15);
     let wedge = [plane(DVec3::X + DVec3::Y, 0.0), plane(DVec3::Y, 0.0)];
-    assert!((share(&wedge) - 0.375).abs() < 1e-15);
+    assert_near(share(&wedge), 0.375, 1e-15);
     let slab = [plane(DVec3::X, 0.2), plane(DVec3::NEG_X, -0.1)];
-    assert!((share(&slab) - 0.1).abs() < 1e-15);
+    assert_near(share(&slab), 0.1, 1e-15);
     assert_eq!(
         share(&[plane(DVec3::X, 0.2), plane(DVec3::NEG_X, -0.3)]),
         0.0
@@ -164,7 +165,7 @@ fn cutting_is_exact() {
 #[test]
 fn shares_of_balls_are_exact() {
     let volume = |radius: f64| 4.0 / 3.0 * PI * radius.powi(3);
-    let check = |found: f64, exact: f64| assert!((found - exact).abs() < 1e-13, "{found}, {exact}");
+    let check = |found: f64, exact: f64| assert_near(found, exact, 1e-13);
     // Inside the cell, an octant, half, a cap of height 0.2, without the six caps beyond the faces.
     check(ball_fraction(0.4, DVec3::ZERO), volume(0.4));
     check(ball_fraction(0.8, DVec3::splat(0.5)), volume(0.8) / 8.0);
@@ -187,10 +188,10 @@ fn shares_of_balls_are_exact() {
         let cells = range().flat_map(|x| range().map(move |y| (x, y)));
         let cells = cells.flat_map(|(x, y)| range().map(move |z| DVec3::new(x, y, z)));
         let sum: f64 = cells.map(|cell| ball_fraction(radius, cell + at)).sum();
-        assert!((sum / volume(radius) - 1.0).abs() < 1e-13, "{sum}");
+        assert_relative(sum, volume(radius), 1e-13);
     }
     // So far from its centre that the surface is a plane, to 1 / 8R.
     let share = ball_fraction(1e3, DVec3::new(0.0, 0.0, 1e3 - 0.1));
     let mean_sagitta = 1.0 / (6.0 * 2e3);
-    assert!((share - (0.6 - mean_sagitta)).abs() < 1e-8, "{share}");
+    assert_near(share, 0.6 - mean_sagitta, 1e-8);
 }

@@ -3,11 +3,11 @@
 use crate::{
     combine_solids::{Moving, random_shares},
     shapes::{cuboid, icosahedron, tetrahedron},
-    tiling::{Noise, Placed, Tiling, centre, grid},
+    tiling::{Placed, Tiling, centre, grid, rotation},
     voxelise,
 };
 use glam::{DQuat, DVec3};
-use kit::{POISON, Workbench};
+use kit::{POISON, Random, Workbench, assert_relative};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
     psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces},
@@ -28,7 +28,7 @@ struct Case {
 
 impl Case {
     /// `solid_fractions` as they may be; or exact ones, with fluid around, all of it at a density of 1.03.
-    fn new(tiling: Tiling, shares: Option<Vec<f32>>, noise: &mut Noise) -> Self {
+    fn new(tiling: Tiling, shares: Option<Vec<f32>>, noise: &mut Random) -> Self {
         let blocks = tiling.placed.iter().map(|p| p.block).max().unwrap() + 1;
         let near = tiling.placed[0].centre;
         let moving = (0..blocks).map(|_| Moving::new(near, noise)).collect();
@@ -36,7 +36,7 @@ impl Case {
         let shares = shares.unwrap_or_else(|| {
             let mut shares = random_shares(&tiling, noise);
             for share in shares.iter_mut().filter(|share| **share > 0.0) {
-                *share = if noise.next() > 0.3 { NEAR } else { *share };
+                *share = if noise.unit() > 0.3 { NEAR } else { *share };
             }
             shares
         });
@@ -48,13 +48,13 @@ impl Case {
                 if shares[number * tiling.workgroup() + local] >= 0.0 {
                     continue;
                 }
-                let any = noise.next();
+                let any = noise.unit();
                 let mark = if exact || any > 0.2 { NEAR } else { any as f32 };
                 saturation[tiling.scalar(tile, 0, local)] = mark;
                 let fluid = exact || any > 0.4;
                 saturation[tiling.scalar(tile, 4, local)] = if fluid { 1.0 } else { 0.0 };
                 for plane in 5..PLANES {
-                    let any = 0.1 * (noise.next() - 0.5) as f32;
+                    let any = 0.1 * (noise.unit() - 0.5) as f32;
                     let value = if exact && plane == 5 { 0.03 } else { any };
                     saturation[tiling.scalar(tile, plane, local)] = value;
                 }
@@ -211,7 +211,7 @@ impl Case {
 }
 
 /// Compounds, whose parts lie in each other here, and blocks that do not ask.
-fn blocks(noise: &mut Noise) -> Vec<Placed> {
+fn blocks(noise: &mut Random) -> Vec<Placed> {
     let shapes = [
         (0, cuboid(7.0, 5.0, 6.0)),
         (0, tetrahedron(8.0)),
@@ -221,7 +221,7 @@ fn blocks(noise: &mut Noise) -> Vec<Placed> {
     ];
     let place = |(block, shape): &(u32, Polyhedron)| {
         let at = DVec3::new(8.0, 9.0, 10.0) + noise.point();
-        Placed::hull(*block, shape, at, noise.rotation())
+        Placed::hull(*block, shape, at, rotation(noise))
     };
     shapes.iter().map(place).collect()
 }
@@ -253,7 +253,7 @@ fn loads_on_faces_are_sums_over_the_cells_beside_them() {
         (4, [4, 8, 8], None),
     ];
     for (seed, (lanes, brick, width)) in (30..).zip(cases) {
-        let mut noise = Noise(seed);
+        let mut noise = Random(seed);
         let grid = grid([19, 20, 21], lanes, brick);
         let tiling = Tiling::new(grid, [0; 3], blocks(&mut noise));
         check(&Case::new(tiling, None, &mut noise), width);
@@ -263,13 +263,13 @@ fn loads_on_faces_are_sums_over_the_cells_beside_them() {
 /// A cell of fluid for each unit of area; exactly where faces lie along the grid, also within rounding of it.
 #[test]
 fn the_layer_beside_a_face_has_its_area() {
-    let mut noise = Noise(40);
+    let mut noise = Random(40);
     let shape = cuboid(8.0, 6.0, 5.0);
     for (at, rotation) in [
         (DVec3::new(8.0, 8.0, 8.5), DQuat::IDENTITY),
         (DVec3::new(8.25, 8.0, 8.5), DQuat::IDENTITY),
         (DVec3::new(8.000003, 8.0, 8.5), DQuat::IDENTITY),
-        (DVec3::new(8.1, 8.2, 8.3), noise.rotation()),
+        (DVec3::new(8.1, 8.2, 8.3), rotation(&mut noise)),
     ] {
         let along_grid = rotation == DQuat::IDENTITY;
         let placed = vec![Placed::hull(0, &shape, at, rotation)];
@@ -293,7 +293,7 @@ fn the_layer_beside_a_face_has_its_area() {
             let normal = rotation * face.normal;
             let force = DVec3::new(found[0].into(), found[1].into(), found[2].into());
             let pressure = -force.dot(normal) / cells;
-            assert!((pressure / 0.01 - 1.0).abs() < 1e-5, "{pressure}");
+            assert_relative(pressure, 0.01, 1e-5);
             let half = 0.5 * normal.abs().element_sum();
             let mean = height / cells - half;
             assert!((-1e-5..1.0).contains(&mean), "{mean}");

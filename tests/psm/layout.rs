@@ -1,11 +1,11 @@
 //! What the host writes lies as the kernels have it.
 
+use crate::tiling::grid;
 use riprap::{
     gpu::{
         layout::check,
-        link::{Linked, Program, source},
+        link::{Program, source},
     },
-    lattice::Grid,
     psm::{
         FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
         Tile, WRENCH, reduce_faces,
@@ -13,13 +13,10 @@ use riprap::{
 };
 use std::mem::offset_of;
 
-fn tables() -> Linked {
-    Program::new("tables").link().unwrap()
-}
-
 #[test]
-fn tiles() {
-    let fields = [
+fn structures() {
+    let tables = Program::new("tables").link().unwrap().module;
+    let tile = [
         ("cell", offset_of!(Tile, cell)),
         ("part", offset_of!(Tile, part)),
         ("block", offset_of!(Tile, block)),
@@ -27,12 +24,8 @@ fn tiles() {
         ("lane", offset_of!(Tile, lane)),
         ("inside", offset_of!(Tile, inside)),
     ];
-    check::<Tile>(&tables().module, "Tile", &fields).unwrap();
-}
-
-#[test]
-fn parts() {
-    let fields = [
+    check::<Tile>(&tables, "Tile", &tile).unwrap();
+    let part = [
         ("base", offset_of!(Part, base)),
         ("first_face", offset_of!(Part, first_face)),
         ("fraction", offset_of!(Part, fraction)),
@@ -42,12 +35,8 @@ fn parts() {
         ("high", offset_of!(Part, high)),
         ("block", offset_of!(Part, block)),
     ];
-    check::<Part>(&tables().module, "Part", &fields).unwrap();
-}
-
-#[test]
-fn motions() {
-    let fields = [
+    check::<Part>(&tables, "Part", &part).unwrap();
+    let motion = [
         ("base", offset_of!(Motion, base)),
         ("pad0", offset_of!(Motion, pad0)),
         ("fraction", offset_of!(Motion, fraction)),
@@ -61,23 +50,13 @@ fn motions() {
         ("gradient_z", offset_of!(Motion, gradient_z)),
         ("pad5", offset_of!(Motion, pad5)),
     ];
-    check::<Motion>(&tables().module, "Motion", &fields).unwrap();
-}
-
-#[test]
-fn face_jobs() {
-    let grid = Grid {
-        cells: [8; 3],
-        elements: [8; 3],
-        lanes: 1,
-        brick: [4; 3],
-    };
-    let fields = [
+    check::<Motion>(&tables, "Motion", &motion).unwrap();
+    let job = [
         ("tile", offset_of!(FaceJob, tile)),
         ("face", offset_of!(FaceJob, face)),
     ];
-    let linked = reduce_faces(&grid).link().unwrap();
-    check::<FaceJob>(&linked.module, "FaceJob", &fields).unwrap();
+    let linked = reduce_faces(&grid([8; 3], 1, [4; 3])).link().unwrap();
+    check::<FaceJob>(&linked.module, "FaceJob", &job).unwrap();
 }
 
 /// The marks and sizes that both sides know by name.
@@ -93,13 +72,17 @@ fn constants() {
         let value = values.next().unwrap().trim_end_matches(['u', ';']);
         value.parse().unwrap()
     };
-    assert_eq!(there("INTERIOR"), INTERIOR);
-    assert_eq!(there("NEAR"), NEAR);
-    assert_eq!(there("NEAR_SUM"), NEAR);
-    assert_eq!(there("TOUCHES"), TOUCHES);
-    assert_eq!(there("INTERIOR_SUM"), INTERIOR_SUM);
-    assert_eq!(there("JOINT_SUM"), JOINT_SUM);
-    assert_eq!(there("PLANES"), PLANES as f32);
-    assert_eq!(there("WRENCH"), WRENCH as f32);
-    assert_eq!(there("FACE_LOAD"), FACE_LOAD as f32);
+    for (name, value) in [
+        ("INTERIOR", INTERIOR),
+        ("NEAR", NEAR),
+        ("NEAR_SUM", NEAR),
+        ("TOUCHES", TOUCHES),
+        ("INTERIOR_SUM", INTERIOR_SUM),
+        ("JOINT_SUM", JOINT_SUM),
+        ("PLANES", PLANES as f32),
+        ("WRENCH", WRENCH as f32),
+        ("FACE_LOAD", FACE_LOAD as f32),
+    ] {
+        assert_eq!(there(name), value, "{name}");
+    }
 }

@@ -2,10 +2,10 @@
 
 use crate::{
     combine_solids::{Moving, crowd, random_shares},
-    tiling::{Noise, Tiling, centre, grid},
+    tiling::{Tiling, centre, grid},
 };
 use glam::DVec3;
-use kit::{POISON, Workbench};
+use kit::{POISON, Random, Workbench};
 use riprap::psm::{
     INTERIOR, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
 };
@@ -23,7 +23,7 @@ struct Case {
 impl Case {
     /// Blocks 3 and 8, the last one, have no tile.
     fn new(seed: u64, lanes: u32, brick: [u32; 3]) -> Self {
-        let mut noise = Noise(seed);
+        let mut noise = Random(seed);
         let middle = DVec3::new(17.0, -30.0, 13.0);
         let mut placed = crowd(&mut noise, BLOCKS - 1, middle);
         placed.retain(|part| part.block != 3);
@@ -43,19 +43,19 @@ impl Case {
                 let at = |plane| tiling.scalar(tile, plane, local);
                 if saturation[at(4)].to_bits() == POISON {
                     // Deep cells and walls have no beta.
-                    let fluid = noise.next() > 0.3;
-                    let joint = noise.next() > 0.7;
+                    let fluid = noise.unit() > 0.3;
+                    let joint = noise.unit() > 0.7;
                     // Half of them are only half closed.
-                    let sum = if noise.next() > 0.5 { 1.0 } else { 0.951 };
+                    let sum = if noise.unit() > 0.5 { 1.0 } else { 0.951 };
                     saturation[at(0)] = if joint { sum + JOINT_SUM } else { sum };
                     // Nobody may use the mean velocity elsewhere.
                     for plane in 1..4 {
-                        let any = 0.1 * noise.next() as f32;
+                        let any = 0.1 * noise.unit() as f32;
                         saturation[at(plane)] = if joint { any } else { f32::NAN };
                     }
                     for plane in 4..PLANES {
                         let scale = if plane > 4 { 1e-3 } else { 1.0 };
-                        let any = scale * noise.next() as f32;
+                        let any = scale * noise.unit() as f32;
                         saturation[at(plane)] = if fluid { any } else { 0.0 };
                     }
                 }

@@ -1,7 +1,8 @@
 //! Polyhedra for tests, lengths in cells.
 
-use crate::tiling::Noise;
+use crate::tiling::rotation;
 use glam::{DQuat, DVec3, Vec3Swizzles};
+use kit::Random;
 use riprap::geometry::{HalfSpace, Polyhedron};
 
 fn of(normals: impl IntoIterator<Item = DVec3>, distance: f64) -> Polyhedron {
@@ -53,7 +54,7 @@ pub fn pebble(faces: usize, radius: f64) -> Polyhedron {
 }
 
 /// Rotations that are random, and those in which planes lie along the grid or through its edges.
-pub fn rotations(random: usize, noise: &mut Noise) -> Vec<DQuat> {
+pub fn rotations(random: usize, noise: &mut Random) -> Vec<DQuat> {
     let eighth = std::f64::consts::FRAC_PI_4;
     let mut all = vec![
         DQuat::IDENTITY,
@@ -64,6 +65,6 @@ pub fn rotations(random: usize, noise: &mut Noise) -> Vec<DQuat> {
         DQuat::from_rotation_z(1e-3),
         DQuat::from_rotation_x(2e-4) * DQuat::from_rotation_y(1e-5),
     ];
-    all.extend((0..random).map(|_| noise.rotation()));
+    all.extend((0..random).map(|_| rotation(noise)));
     all
 }

@@ -1,36 +1,19 @@
 //! Parts on a grid, cut into tiles one after the other: slow, and plain enough to be right.
 
 use glam::{DQuat, DVec3};
+use kit::Random;
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
     lattice::Grid,
     psm::{PLANES, Part, Tile},
 };
 
-/// Numbers in 0..1 that look random, the same on every run.
-pub struct Noise(pub u64);
-
-impl Noise {
-    pub fn next(&mut self) -> f64 {
-        // Steele, Lea & Flood 2014, SplitMix64.
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn point(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
-    }
-
-    /// Shoemake 1992: uniform over all rotations.
-    pub fn rotation(&mut self) -> DQuat {
-        let [u, v, w] = self.point().to_array();
-        let [v, w] = [v, w].map(|x| x * std::f64::consts::TAU);
-        let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
-        DQuat::from_xyzw(a * v.sin(), a * v.cos(), b * w.sin(), b * w.cos())
-    }
+/// Uniform over all rotations (Shoemake 1992).
+pub fn rotation(random: &mut Random) -> DQuat {
+    let [u, v, w] = random.point().to_array();
+    let [v, w] = [v, w].map(|x| x * std::f64::consts::TAU);
+    let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
+    DQuat::from_xyzw(a * v.sin(), a * v.cos(), b * w.sin(), b * w.cos())
 }
 
 /// A convex part on the grid, cells.
@@ -202,9 +185,9 @@ impl Tiling {
     }
 
     /// Lets the parts reach any stretch of their tiles.
-    pub fn shorten(&mut self, noise: &mut Noise) {
+    pub fn shorten(&mut self, noise: &mut Random) {
         for tile in &mut self.tiles {
-            let mut any = |most: u32| (noise.next() * f64::from(most)) as u32;
+            let mut any = |most: u32| (noise.unit() * f64::from(most)) as u32;
             let first = any(Tile::EIGHTHS);
             *tile = tile.reaching([first, first + 1 + any(Tile::EIGHTHS - first)]);
         }

@@ -1,8 +1,9 @@
 //! Bonds: faces that touch at the start pull up to σ_t, in the middle or at the edge, and break for good.
 
-use crate::fixture::{blocks, cuboid, run, setup};
+use crate::fixture::{assert_restarts, blocks, cuboid, formulas, run, setup};
 use glam::DVec3;
-use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, Snapshot, law::Joint};
+use kit::assert_relative;
+use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, law::Joint};
 
 /// Of the block that hangs: 0.2 × 0.3 × 0.1 m of 2500 kg/m³.
 const WEIGHT: f64 = 0.006 * 2500.0 * 9.81;
@@ -24,10 +25,6 @@ fn hanging(joint: Joint, overlap: f64) -> Setup {
     let mut setup = setup(vec![ceiling, block], joint);
     setup.gravity = DVec3::ZERO;
     setup
-}
-
-fn formulas(texts: [&str; 3]) -> [riprap::formula::Formula; 3] {
-    texts.map(|text| text.parse().expect("a formula"))
 }
 
 /// Puts the weight on within 0.2 s, without a kink, so that nothing swings beyond it.
@@ -56,7 +53,7 @@ fn a_block_hangs_up_to_its_tensile_strength() {
         };
         let open = of(1.02);
         let exact = WEIGHT / (1e9 * AREA) + overlap;
-        assert!((open / exact - 1.0).abs() < 1e-3, "{open} m of {exact} m");
+        assert_relative(open, exact, 1e-3);
         let fallen = of(0.98);
         assert!(fallen > 1e-3, "{fallen} m");
     }
@@ -93,8 +90,8 @@ fn a_chain_breaks_in_the_middle() {
     };
     let open = WEIGHT / (1e9 * AREA);
     let [upper, lower] = of(1.02);
-    assert!((upper / (2.0 * open) - 1.0).abs() < 1e-3, "{upper} m");
-    assert!((lower / (3.0 * open) - 1.0).abs() < 1e-3, "{lower} m");
+    assert_relative(upper, 2.0 * open, 1e-3);
+    assert_relative(lower, 3.0 * open, 1e-3);
     let [upper, lower] = of(0.98);
     assert!(upper < 3.0 * open && lower > 1e-3, "{upper} m {lower} m");
 }
@@ -119,7 +116,7 @@ fn a_cantilever_breaks_by_the_tension_at_its_edge() {
     // The way of the shear spring, and the turn W a/2/(k_n b h³/12) on half of a.
     let exact = WEIGHT / (1e9 * 0.03) + WEIGHT * 0.1 / (1e9 * 0.3 * 1e-3 / 12.0) * 0.1;
     let held = of(1.02);
-    assert!((held / exact - 1.0).abs() < 0.01, "{held} m of {exact} m");
+    assert_relative(held, exact, 0.01);
     let fallen = of(0.98);
     assert!(fallen > 1e-3, "{fallen} m");
 }
@@ -146,16 +143,13 @@ fn energy_adds_up_over_stretching_and_breaking() {
     let stretched = blocks.ledger();
     // ½F²/(k_n A) at 298 N.
     let held = 0.5 * 298f64.powi(2) / (1e9 * AREA);
-    assert!(
-        (stretched.elastic / held - 1.0).abs() < 0.01,
-        "{stretched:?}"
-    );
+    assert_relative(stretched.elastic, held, 0.01);
     assert!(blocks.contacts().all(|contact| contact.bonded));
     run(&mut blocks, 0.155);
     let end = blocks.ledger();
     assert_eq!(blocks.contacts().count(), 0);
     let released = 0.5 * 300f64.powi(2) / (1e9 * AREA);
-    assert!((end.lost / released - 1.0).abs() < 0.02, "{end:?}");
+    assert_relative(end.lost, released, 0.02);
     let error = (end.balance() - start.balance()).abs();
     assert!(error < 0.01 * released, "{error} J of {end:?}");
 }
@@ -175,19 +169,8 @@ fn what_broke_does_not_hold_again() {
 fn a_restart_goes_on_with_the_same_bits() {
     let mut setup = hanging(tensile(1.02 * WEIGHT / AREA), 0.0);
     slowly(&mut setup);
-    let mut whole = blocks(setup.clone());
-    run(&mut whole, 0.06);
-    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
-    let mut other = blocks(setup);
-    let read = postcard::from_bytes::<Snapshot>(&bytes).expect("it is one");
-    other.restore(&read).expect("the same blocks");
-    run(&mut whole, 0.15);
-    run(&mut other, 0.15);
+    let whole = assert_restarts(&setup, 0.06, 0.15);
     assert!(whole.contacts().all(|contact| contact.bonded));
-    assert_eq!(
-        postcard::to_allocvec(&whole.snapshot()).unwrap(),
-        postcard::to_allocvec(&other.snapshot()).unwrap()
-    );
 }
 
 #[test]
@@ -202,7 +185,7 @@ fn a_sleeper_hangs_on() {
     run(&mut blocks, 1.0);
     assert_eq!(blocks.poses()[1], fell_asleep);
     let pull: f64 = blocks.contacts().map(|contact| contact.force.z).sum();
-    assert!((pull / WEIGHT - 1.0).abs() < 1e-3, "{pull} N");
+    assert_relative(pull, WEIGHT, 1e-3);
 }
 
 /// Faces that meet along an edge alone, within the rounding of scenes, glue nothing.

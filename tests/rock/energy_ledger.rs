@@ -1,7 +1,8 @@
 //! Energy: what is there and what was taken adds up to what was put in.
 
-use crate::fixture::{AllPairs, blocks, cuboid, joint, run, setup, slope};
+use crate::fixture::{blocks, cuboid, formulas, joint, run, setup, slope};
 use glam::{DQuat, DVec3};
+use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::Load,
     rock::{Block, Motion},
@@ -9,7 +10,7 @@ use riprap::{
 
 #[test]
 fn blocks_that_tumble_down_a_slope() {
-    let turn = slope(35f64.to_radians());
+    let turn = slope(35.0);
     let plate = Block::new("plate", cuboid(40.0, 10.0, 1.0), turn * DVec3::Z * -0.5);
     let mut list = vec![plate.fixed().turned(turn)];
     for i in 0..6 {
@@ -45,8 +46,8 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     let floor = Block::new("floor", cuboid(20.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
     let mut ram = Block::new("ram", cuboid(1.0, 1.0, 1.0), DVec3::new(-1.0, 0.0, 0.6));
     ram.motion = Motion::Driven {
-        velocity: ["0.5*sin(pi*t)", "0", "0"].map(|f| f.parse().expect("a formula")),
-        spin: ["0", "0", "0"].map(|f| f.parse().expect("a formula")),
+        velocity: formulas(["0.5*sin(pi*t)", "0", "0"]),
+        spin: formulas(["0"; 3]),
     };
     let pushed = Block::new("pushed", cuboid(1.0, 1.0, 1.0), DVec3::new(0.01, 0.0, 0.5));
     let pulled = Block::new("pulled", cuboid(1.0, 1.0, 1.0), DVec3::new(5.0, 0.0, 0.5));
@@ -63,16 +64,13 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     assert!(error < 0.01 * given, "{error} J of {end:?}");
     // The load works along the way of the point that it pulls, here that of the block.
     let way = blocks.poses()[3].centre.x - 5.0;
-    assert!(
-        (end.loads / (2e4 * way) - 1.0).abs() < 0.01,
-        "{end:?}, {way} m"
-    );
+    assert_relative(end.loads, 2e4 * way, 0.01);
     // The ram moves the block by what is left of 1/π m after the gap, against its friction.
     let way = blocks.poses()[2].centre.x - 0.01;
     assert!(end.driven > 0.9 * 0.577 * 2.45e4 * way, "{end:?}, {way} m");
     // (1 − cos πt)/2π.
     let ram = blocks.poses()[1].centre.x + 1.0;
-    assert!((ram * std::f64::consts::PI - 1.0).abs() < 1e-6, "{ram}");
+    assert_near(ram * std::f64::consts::PI, 1.0, 1e-6);
 }
 
 /// A free block under a load that jumps at every exchange: a step under a constant force gains just what the
@@ -86,10 +84,9 @@ fn a_load_that_jumps_works_from_the_moment_on() {
     for (exchange, force) in (1..).zip([1e4, -3e4, 0.0, 7e4, 2e4]) {
         let load = Load::at(DVec3::X * force, DVec3::ZERO);
         blocks.load(&[load]).expect("one load a block");
-        let until = f64::from(exchange) * 0.01;
-        pollster::block_on(blocks.advance(&mut AllPairs, until)).expect("nothing is in the way");
+        run(&mut blocks, f64::from(exchange) * 0.01);
     }
     let end = blocks.ledger();
     assert!(end.kinetic > 1.0, "{end:?}");
-    assert!((end.loads / end.kinetic - 1.0).abs() < 1e-9, "{end:?}");
+    assert_relative(end.loads, end.kinetic, 1e-9);
 }

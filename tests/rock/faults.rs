@@ -1,62 +1,113 @@
 //! What cannot be computed is refused, by name, and leaves the last good state.
 
-use crate::fixture::{AllPairs, blocks, cuboid, joint, setup, try_run};
+use crate::fixture::{blocks, cube, floor, formulas, joint, setup, try_run};
 use glam::{DQuat, DVec3};
+use kit::{assert_contains, assert_near, assert_relative};
 use riprap::{
     Error,
-    geometry::Load,
-    rock::{Block, Blocks, Motion, Setup},
+    geometry::{Form, Load, Part, Polyhedron, Shape},
+    rock::{
+        Blocks, Deformable, FixedPoint, Motion, PointLoad, Setup, broadphase::HostBroadphase,
+        law::Elastic,
+    },
 };
 
-fn floor() -> Block {
-    Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed()
+/// A cube on a floor.
+fn resting() -> Setup {
+    setup(vec![floor(), cube("cube", 0.5)], joint(1e8, 30.0))
 }
 
-fn cube(z: f64) -> Block {
-    Block::new("cube", cuboid(1.0, 1.0, 1.0), DVec3::Z * z)
+/// A cube that deforms.
+fn elastic() -> Setup {
+    let mut setup = setup(vec![cube("cube", 0.0).deformable()], joint(1e8, 30.0));
+    setup.materials[0].elastic = Some(Elastic {
+        youngs_modulus: 1e9,
+        poissons_ratio: 0.25,
+    });
+    setup
 }
 
-fn refusal(setup: Setup) -> String {
-    Blocks::new(setup)
-        .expect_err("it must be refused")
-        .to_string()
+/// What setups are refused with, a line for each change.
+fn refusals(good: fn() -> Setup, changes: &[fn(&mut Setup)]) -> String {
+    let refusal = |change: &fn(&mut Setup)| {
+        let mut setup = good();
+        change(&mut setup);
+        Blocks::new(setup)
+            .expect_err("it must be refused")
+            .to_string()
+            + "\n"
+    };
+    changes.iter().map(refusal).collect()
 }
 
 #[test]
 fn bad_numbers_are_named() {
-    let good = || setup(vec![floor(), cube(0.5)], joint(1e8, 30.0));
-    let with = |change: &dyn Fn(&mut Setup)| {
-        let mut setup = good();
-        change(&mut setup);
-        refusal(setup)
-    };
-    let text = with(&|s| s.materials[0].density = 0.0);
-    assert!(text.starts_with("materials[0].density:"), "{text}");
-    let text = with(&|s| s.blocks[1].centre.x = f64::NAN);
-    assert!(
-        text.starts_with("blocks[1] (cube):") && text.contains("centre"),
-        "{text}"
-    );
-    let text = with(&|s| s.blocks[1].rotation = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.5));
-    assert!(
-        text.starts_with("blocks[1] (cube):") && text.contains("rotation"),
-        "{text}"
-    );
-    let text = with(&|s| s.blocks[1].material = 3);
-    assert!(text.contains("there is no material 3"), "{text}");
-    let text = with(&|s| s.materials[0].joint.friction_angle = 1.6);
-    assert!(text.starts_with("materials[0].friction_angle:"), "{text}");
-    let text = with(&|s| s.time_step = Some(-1.0));
-    assert!(text.starts_with("time_step:"), "{text}");
+    insta::assert_snapshot!(refusals(
+        resting,
+        &[
+            |s| s.materials[0].density = 0.0,
+            |s| s.blocks[1].centre.x = f64::NAN,
+            |s| s.blocks[1].rotation = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.5),
+            |s| s.blocks[1].material = 3,
+            |s| s.materials[0].joint.friction_angle = 1.6,
+            |s| s.time_step = Some(-1.0),
+        ],
+    ));
+}
+
+/// Spheres, compounds, fixed blocks, rock without elasticity, and deformations that contradict themselves.
+#[test]
+fn what_cannot_deform_is_named() {
+    fn deformable(setup: &mut Setup) -> &mut Deformable {
+        setup.blocks[0].deformable.as_mut().expect("it deforms")
+    }
+    insta::assert_snapshot!(refusals(
+        elastic,
+        &[
+            |s| s.blocks[0].shape = Shape::sphere(0.5).expect("a ball").into(),
+            |s| {
+                let part = |x: f64| Part {
+                    form: Form::Convex(Polyhedron::cuboid(DVec3::ONE).expect("a cube")),
+                    offset: DVec3::X * x,
+                };
+                let two = Shape::compound(vec![part(0.0), part(1.0)]);
+                s.blocks[0].shape = two.expect("two cubes").0.into();
+            },
+            |s| s.blocks[0].motion = Motion::Fixed,
+            |s| s.materials[0].elastic = None,
+            |s| s.materials[0]
+                .elastic
+                .as_mut()
+                .expect("elastic")
+                .youngs_modulus = 0.0,
+            |s| s.materials[0]
+                .elastic
+                .as_mut()
+                .expect("elastic")
+                .poissons_ratio = 0.5,
+            |s| deformable(s).initial_stress.x_axis = DVec3::Y,
+            |s| {
+                deformable(s).fixed_points = vec![FixedPoint {
+                    point: DVec3::X,
+                    axes: [false, true, false],
+                }];
+                s.blocks[0].spin = DVec3::Z;
+            },
+            |s| {
+                s.blocks[0].deformable = None;
+                s.blocks[0].motion = Motion::Fixed;
+                s.blocks[0].point_loads = vec![PointLoad {
+                    point: DVec3::ZERO,
+                    force: formulas(["1", "0", "0"]),
+                }];
+            },
+        ],
+    ));
 }
 
 #[test]
 fn blocks_that_overlap_at_the_start_are_listed_and_can_be_relaxed() {
-    let list = vec![
-        floor(),
-        cube(0.45),
-        Block::new("upper", cuboid(1.0, 1.0, 1.0), DVec3::Z * 1.2),
-    ];
+    let list = vec![floor(), cube("cube", 0.45), cube("upper", 1.2)];
     let mut blocks = blocks(setup(list, joint(1e8, 30.0)));
     let Err(Error::Overlaps { pairs }) = try_run(&mut blocks, 0.1) else {
         panic!("overlaps must be refused");
@@ -75,7 +126,7 @@ fn blocks_that_overlap_at_the_start_are_listed_and_can_be_relaxed() {
     );
     assert!((pairs[0].depth - 0.25).abs() < 1e-9 && (pairs[1].depth - 0.05).abs() < 1e-9);
 
-    let sweeps = pollster::block_on(blocks.relax(&mut AllPairs, 100)).expect("they go apart");
+    let sweeps = pollster::block_on(blocks.relax(&mut HostBroadphase, 100)).expect("they go apart");
     assert!(sweeps > 1);
     try_run(&mut blocks, 0.05).expect("nothing overlaps by more than 1 % now");
     let [_, lower, upper] = blocks.poses()[..] else {
@@ -90,7 +141,7 @@ fn blocks_that_overlap_at_the_start_are_listed_and_can_be_relaxed() {
 
 #[test]
 fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
-    let mut long = setup(vec![floor(), cube(0.499)], joint(1e8, 30.0));
+    let mut long = setup(vec![floor(), cube("cube", 0.499)], joint(1e8, 30.0));
     long.time_step = Some(0.01);
     let mut refused = blocks(long.clone());
     let before = postcard::to_allocvec(&refused.snapshot()).unwrap().len();
@@ -106,8 +157,8 @@ fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
     // Σ(k_n+k_s)A (|r|² + w²/4)/I_min governs: r = ½ m, w = √2 m, I = m/6 of 2500 kg.
     let omega = (2.0f64 * 2e8 * 0.75 / (2500.0 / 6.0)).sqrt();
     assert_eq!(requested, 0.01);
-    assert!((bound / (0.2 * 2.0 / omega) - 1.0).abs() < 0.01, "{bound}");
-    assert!((usual / bound - 0.5).abs() < 1e-12);
+    assert_relative(bound, 0.2 * 2.0 / omega, 0.01);
+    assert_near(usual / bound, 0.5, 1e-12);
     assert_eq!(block, "blocks[1] (cube)");
     assert_eq!(refused.time(), 0.0);
     assert!(postcard::to_allocvec(&refused.snapshot()).unwrap().len() >= before);
@@ -118,13 +169,15 @@ fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
 
 #[test]
 fn a_ram_that_crushes_a_block_is_refused_and_the_last_good_state_is_kept() {
-    let mut ram = Block::new("ram", cuboid(1.0, 1.0, 1.0), DVec3::Z * 1.51);
-    let formula = |text: &str| text.parse().expect("a formula");
+    let mut ram = cube("ram", 1.51);
     ram.motion = Motion::Driven {
-        velocity: [formula("0"), formula("0"), formula("-1")],
-        spin: [formula("0"), formula("0"), formula("0")],
+        velocity: formulas(["0", "0", "-1"]),
+        spin: Default::default(),
     };
-    let mut blocks = blocks(setup(vec![floor(), cube(0.5), ram], joint(1e7, 30.0)));
+    let mut blocks = blocks(setup(
+        vec![floor(), cube("cube", 0.5), ram],
+        joint(1e7, 30.0),
+    ));
     let error = try_run(&mut blocks, 1.0).expect_err("it must be refused");
     let Error::DeepOverlap {
         first,
@@ -155,7 +208,7 @@ fn a_ram_that_crushes_a_block_is_refused_and_the_last_good_state_is_kept() {
 
 #[test]
 fn a_load_that_is_no_number_is_refused_and_one_that_throws_a_block_away_is_found() {
-    let mut blocks = blocks(setup(vec![floor(), cube(0.5)], joint(1e8, 30.0)));
+    let mut blocks = blocks(resting());
     let mut loads = [Load::default(); 2];
     loads[1].force.x = f64::NAN;
     let text = blocks.load(&loads).expect_err("NaN").to_string();
@@ -173,7 +226,7 @@ fn a_load_that_is_no_number_is_refused_and_one_that_throws_a_block_away_is_found
 
 #[test]
 fn pairs_that_are_none_are_refused() {
-    let mut blocks = blocks(setup(vec![floor(), cube(0.5)], joint(1e8, 30.0)));
+    let mut blocks = blocks(resting());
     assert!(blocks.step().is_err(), "pairs first");
     for bad in [vec![[1, 0]], vec![[0, 2]], vec![[0, 1], [0, 1]]] {
         assert!(blocks.set_pairs(bad).is_err());
@@ -184,10 +237,9 @@ fn pairs_that_are_none_are_refused() {
 
 #[test]
 fn a_drive_without_a_value_names_its_formula_and_the_time() {
-    let mut block = Block::new("ram", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
-    let formula = |text: &str| text.parse().expect("a formula");
+    let mut block = cube("ram", 0.0);
     block.motion = Motion::Driven {
-        velocity: [formula("0.1*sqrt(0.02 - t)"), formula("0"), formula("0")],
+        velocity: formulas(["0.1*sqrt(0.02 - t)", "0", "0"]),
         spin: Default::default(),
     };
     let mut blocks = blocks(Setup {
@@ -196,16 +248,14 @@ fn a_drive_without_a_value_names_its_formula_and_the_time() {
     });
     let text = try_run(&mut blocks, 0.1).expect_err("a root of less than nothing");
     let text = text.to_string();
-    for part in ["ram", "0.1*sqrt(0.02 - t)", "t = 0.02"] {
-        assert!(text.contains(part), "{part}: {text}");
-    }
+    assert_contains(&text, &["ram", "0.1*sqrt(0.02 - t)", "t = 0.02"]);
 }
 
 /// A cube above a floor, in steps that are too long to see it.
 #[test]
 fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
     let falling = |dt: f64, velocity: f64| {
-        let mut cube = cube(2.5);
+        let mut cube = cube("cube", 2.5);
         cube.velocity.z = velocity;
         let mut setup = setup(vec![floor(), cube], joint(1e8, 30.0));
         setup.time_step = Some(dt);
@@ -225,14 +275,14 @@ fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
         assert!(try_run(&mut falling(dt, 0.0), 3.0).is_err(), "{dt}");
     }
     // There is nothing that it could pass through.
-    let mut alone = setup(vec![cube(2.5)], joint(1e8, 30.0));
+    let mut alone = setup(vec![cube("cube", 2.5)], joint(1e8, 30.0));
     alone.time_step = Some(1.0);
     try_run(&mut blocks(alone), 3.0).expect("free fall");
 }
 
 #[test]
 fn times_that_are_past_or_none_are_refused() {
-    let mut blocks = blocks(setup(vec![floor(), cube(1.5)], joint(1e8, 30.0)));
+    let mut blocks = blocks(setup(vec![floor(), cube("cube", 1.5)], joint(1e8, 30.0)));
     try_run(&mut blocks, 0.01).expect("it falls");
     let before = blocks.snapshot();
     for until in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -249,8 +299,60 @@ fn times_that_are_past_or_none_are_refused() {
 
 #[test]
 fn a_block_that_is_not_there_has_no_numbers() {
-    let blocks = blocks(setup(vec![floor(), cube(0.5)], joint(1e8, 30.0)));
+    let blocks = blocks(resting());
     assert_eq!((blocks.name(2), blocks.moves(2)), ("", false));
     assert!(blocks.mass(2).is_nan() && blocks.rotation(2).is_nan());
     assert!(blocks.angular_momentum(2).is_nan());
+}
+
+#[test]
+fn a_step_too_long_for_the_elasticity_is_refused_with_the_bound() {
+    let mut long = elastic();
+    // 2/ω = a/√(3(3λ + 2μ)/ρ) with λ = μ = 0.4 GPa.
+    let critical = 1.0 / (3.0 * 5.0 * 4e8 / 2500.0f64).sqrt();
+    long.time_step = Some(0.201 * critical);
+    let mut refused = blocks(long.clone());
+    let Err(Error::TimeStep { bound, usual, .. }) = try_run(&mut refused, 0.1) else {
+        panic!("the step must be refused");
+    };
+    assert_relative(bound, 0.2 * critical, 1e-9);
+    assert_near(usual / bound, 0.5, 1e-12);
+    assert_eq!(refused.time(), 0.0);
+
+    long.time_step = Some(0.199 * critical);
+    try_run(&mut blocks(long.clone()), 0.1).expect("just below the bound");
+    long.time_step = None;
+    let usual = blocks(long).time_step();
+    // Half of the largest, less what contacts on its faces would take.
+    assert!(usual < 0.1 * critical && usual > 0.05 * critical, "{usual}");
+}
+
+#[test]
+fn a_block_that_is_crushed_is_named_and_the_last_state_is_kept() {
+    // Ten times Young's modulus on each face.
+    let crush = |x: f64, f: &str| PointLoad {
+        point: DVec3::X * x,
+        force: formulas([f, "0", "0"]),
+    };
+    let mut setup = elastic();
+    setup.blocks[0].point_loads = vec![crush(0.5, "-1e10"), crush(-0.5, "1e10")];
+    setup.time_step = Some(1e-5);
+    let mut blocks = blocks(setup);
+    let error = loop {
+        if blocks.wants_pairs() {
+            blocks.set_pairs(Vec::new()).expect("it is alone");
+        }
+        if let Err(error) = blocks.step() {
+            break error;
+        }
+        assert!(blocks.time() < 0.1, "nothing was refused");
+    };
+    // Under strain the block stiffens; whichever limit comes first names it.
+    let text = error.to_string();
+    assert!(text.contains("blocks[0] (cube)"), "{text}");
+    assert!(
+        matches!(error, Error::Inverted { .. } | Error::TimeStep { .. }),
+        "{text}"
+    );
+    assert!(blocks.poses()[0].deformation.determinant() > 0.0);
 }

@@ -1,10 +1,11 @@
 //! Films of fluid between blocks that nearly touch: lubrication, without the rest of the fluid.
 
-use crate::fixture::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{assert_restarts, blocks, cuboid, floor, joint, run, setup};
 use glam::{DQuat, DVec3};
+use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::Shape,
-    rock::{Block, Blocks, Setup, Snapshot, law::Film},
+    rock::{Block, Blocks, Setup, law::Film},
 };
 use std::f64::consts::PI;
 
@@ -107,7 +108,7 @@ fn a_film_takes_energy_and_neither_momentum_nor_more_than_there_is() {
 /// A row of plates on a floor, each on a film: all of the row's weight is on the lowest one.
 #[test]
 fn films_in_a_row_carry_what_is_above_them() {
-    let mut list = vec![Block::new("floor", cuboid(9.0, 9.0, 1.0), -0.5 * DVec3::Z).fixed()];
+    let mut list = vec![floor()];
     for k in 0..5 {
         let z = 0.03 + 0.53 * f64::from(k) + 0.25;
         list.push(Block::new(
@@ -120,10 +121,7 @@ fn films_in_a_row_carry_what_is_above_them() {
     run(&mut blocks, 0.02);
     let carried = blocks.film_forces()[0].z;
     let weight = 5.0 * blocks.mass(1) * 9.81;
-    assert!(
-        (-carried / weight - 1.0).abs() < 1e-3,
-        "{carried} of {weight}"
-    );
+    assert_relative(-carried, weight, 1e-3);
     // Each gap closes at its load over its resistance.
     let torsion = 16.0 * 16.0 / (4.0 * PI * PI * 16.0 / 6.0);
     let resistance = 3.0 * 1e8 * torsion * (0.03f64.powi(-3) - 0.1f64.powi(-3));
@@ -141,7 +139,7 @@ fn films_in_a_row_carry_what_is_above_them() {
 #[test]
 fn faces_that_slip_and_films_that_are_off() {
     let list = |slide: f64| {
-        let floor = Block::new("floor", cuboid(9.0, 9.0, 1.0), -0.5 * DVec3::Z).fixed();
+        let floor = floor();
         let mut ball = ball("ball", 1.0, DVec3::Z * 1.05);
         ball.velocity = DVec3::new(slide, 0.0, -0.1);
         vec![floor, ball]
@@ -163,27 +161,18 @@ fn faces_that_slip_and_films_that_are_off() {
         slip: vec![0],
         ..film(1.0)
     }));
-    assert!((stuck / slips - 4.0).abs() < 1e-3, "{stuck} {slips}");
+    assert_near(stuck / slips, 4.0, 1e-3);
     assert_eq!(slowed(None), 0.0);
 }
 
 #[test]
 fn a_restart_amid_films_gives_the_same_bits() {
-    let mut list = vec![Block::new("floor", cuboid(9.0, 9.0, 1.0), -0.5 * DVec3::Z).fixed()];
+    let mut list = vec![floor()];
     for k in 0..3 {
         let at = DVec3::new(0.1 * f64::from(k), 0.0, 0.33 + 0.55 * f64::from(k));
         let tilt = DQuat::from_rotation_x(0.02 * f64::from(k));
         list.push(Block::new(format!("{k}"), cuboid(1.0, 1.0, 0.5), at).turned(tilt));
     }
-    let setup = with_film(list, 1e3, 1e-3);
-    let mut whole = blocks(setup.clone());
-    run(&mut whole, 0.05);
-    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
-    run(&mut whole, 0.2);
-    let mut again = blocks(setup);
-    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
-    again.restore(&snapshot).expect("of the same blocks");
-    run(&mut again, 0.2);
+    let whole = assert_restarts(&with_film(list, 1e3, 1e-3), 0.05, 0.2);
     assert!(whole.ledger().film > 0.0);
-    assert_eq!(again.snapshot(), whole.snapshot());
 }

@@ -1,38 +1,22 @@
-//! What the cases share: shapes, all pairs as candidates, running to a time.
+//! What the cases share: blocks, setups, running to a time, restarts.
 
 use glam::{DQuat, DVec3};
 use riprap::{
     Result,
+    formula::Formula,
     geometry::{Polyhedron, Shape},
-    rock::{
-        Block, Blocks, Material, Setup, Snapshot,
-        broadphase::{Aabb, Broadphase},
-        law::Joint,
-    },
+    rock::{Block, Blocks, Material, Setup, Snapshot, broadphase::HostBroadphase, law::Joint},
 };
 use std::sync::Arc;
-
-/// Every pair of boxes, looked at.
-pub struct AllPairs;
-
-impl Broadphase for AllPairs {
-    async fn pairs(&mut self, items: &[Aabb]) -> Result<Vec<[u32; 2]>> {
-        let n = items.len();
-        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
-        let near =
-            all.filter(|&[i, j]| items[i].group != items[j].group && items[i].overlaps(&items[j]));
-        Ok(near.map(|pair| pair.map(|i| i as u32)).collect())
-    }
-}
 
 pub fn cuboid(x: f64, y: f64, z: f64) -> Arc<Shape> {
     let shape = Polyhedron::cuboid(DVec3::new(x, y, z)).expect("the edges are positive");
     Arc::new(shape.into())
 }
 
-/// A rotation about y that turns x downwards by `angle` (rad).
-pub fn slope(angle: f64) -> DQuat {
-    DQuat::from_rotation_y(angle)
+/// A rotation about y that turns x downwards by `degrees`.
+pub fn slope(degrees: f64) -> DQuat {
+    DQuat::from_rotation_y(degrees.to_radians())
 }
 
 /// Joints of one stiffness in both directions, Pa/m, and the friction angle in degrees.
@@ -66,16 +50,35 @@ pub fn run(blocks: &mut Blocks, until: f64) {
 }
 
 pub fn try_run(blocks: &mut Blocks, until: f64) -> Result<()> {
-    pollster::block_on(blocks.advance(&mut AllPairs, until))
+    pollster::block_on(blocks.advance(&mut HostBroadphase, until))
 }
 
-/// The state to which `setup` settles in `time` (s) under a mass damping that lets nothing swing: what a
-/// slow hand leaves. Another setup of the same blocks may go on from there.
-pub fn settled(setup: &Setup, damping: f64, time: f64) -> Snapshot {
-    let mut blocks = blocks(Setup {
-        damping,
-        ..setup.clone()
-    });
-    run(&mut blocks, time);
-    blocks.snapshot()
+/// A fixed floor of 9 m an edge, its top at z = 0.
+pub fn floor() -> Block {
+    Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed()
+}
+
+/// A cube of 1 m, its centre at the height `z` (m).
+pub fn cube(name: &str, z: f64) -> Block {
+    Block::new(name, cuboid(1.0, 1.0, 1.0), DVec3::Z * z)
+}
+
+pub fn formulas(texts: [&str; 3]) -> [Formula; 3] {
+    texts.map(|text| text.parse().expect("a formula"))
+}
+
+/// Runs to the time `end`, and again from the bytes of a snapshot at the time `cut`: all bits are the same.
+pub fn assert_restarts(setup: &Setup, cut: f64, end: f64) -> Blocks {
+    let mut whole = blocks(setup.clone());
+    run(&mut whole, cut);
+    let bytes = postcard::to_allocvec(&whole.snapshot()).expect("a snapshot");
+    let snapshot: Snapshot = postcard::from_bytes(&bytes).expect("a snapshot");
+    run(&mut whole, end);
+    let mut resumed = blocks(setup.clone());
+    resumed.restore(&snapshot).expect("the same blocks");
+    assert_eq!(resumed.snapshot(), snapshot);
+    run(&mut resumed, end);
+    assert_eq!(resumed.snapshot(), whole.snapshot());
+    assert_eq!(resumed.ledger(), whole.ledger());
+    whole
 }

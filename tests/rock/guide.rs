@@ -1,10 +1,10 @@
 //! Blocks on rails.
 
-use crate::fixture::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{assert_restarts, blocks, cube, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     geometry::Load,
-    rock::{Block, Blocks, Guide, Motion, Snapshot},
+    rock::{Block, Blocks, Guide, Motion},
 };
 
 const AXIS: DVec3 = DVec3::new(3.0, 0.0, -4.0);
@@ -47,16 +47,11 @@ fn it_falls_along_its_rail_as_on_a_slope_without_friction() {
 #[test]
 fn it_strikes_another_and_stays_on_its_rail() {
     let hit = DVec3::new(1.5, 0.0, -2.6);
-    let list = || {
-        let mut cube = Block::new("cube", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
-        cube.velocity = AXIS;
-        vec![cube, Block::new("struck", cuboid(1.0, 1.0, 1.0), hit)]
-    };
-    let mut whole = blocks(guided(list()));
-    let start = whole.ledger();
-    run(&mut whole, 0.3);
-    let middle = whole.snapshot();
-    run(&mut whole, 0.8);
+    let mut cube = cube("cube", 0.0);
+    cube.velocity = AXIS;
+    let setup = guided(vec![cube, Block::new("struck", cuboid(1.0, 1.0, 1.0), hit)]);
+    let start = blocks(setup.clone()).ledger();
+    let whole = assert_restarts(&setup, 0.3, 0.8);
     let [cube, struck] = [0, 1].map(|block| whole.poses()[block]);
     // Rounding adds up over the steps.
     let aside = cube.centre.cross(AXIS.normalize()).length();
@@ -67,18 +62,11 @@ fn it_strikes_another_and_stays_on_its_rail() {
     let ledger = whole.ledger();
     let error = (ledger.balance() - start.balance()).abs();
     assert!(error < 1e-3 * start.kinetic, "{error} J of {ledger:?}");
-    let mut again = blocks(guided(list()));
-    let bytes = postcard::to_allocvec(&middle).unwrap();
-    again
-        .restore(&postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot"))
-        .expect("the same blocks");
-    run(&mut again, 0.8);
-    assert_eq!(again.snapshot(), whole.snapshot());
 }
 
 #[test]
 fn what_cannot_slide_is_refused() {
-    let cube = || Block::new("cube", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
+    let cube = || cube("cube", 0.0);
     let refusal = |block: Block, axis: DVec3| {
         let mut setup = guided(vec![block]);
         setup.guides[0].axis = axis;

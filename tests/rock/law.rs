@@ -1,6 +1,7 @@
 //! The force law on its own.
 
 use glam::{DQuat, DVec3};
+use kit::assert_relative;
 use riprap::rock::law::{Force, History, Joint, Motion, Section, force};
 use std::f64::consts::PI;
 
@@ -58,12 +59,9 @@ fn shear_stops_at_coulombs_cap_and_the_slip_takes_its_work() {
     };
     let found = slid(&joint, 0.1, &History::default());
     let cap = 2e4 + 2e5 * (PI / 6.0).tan();
-    assert!((found.total().x / -cap - 1.0).abs() < 1e-12, "{found:?}");
+    assert_relative(found.total().x, -cap, 1e-12);
     let slip = 0.1 - cap / 1e8;
-    assert!(
-        (found.friction / (cap * slip) - 1.0).abs() < 1e-12,
-        "{found:?}"
-    );
+    assert_relative(found.friction, cap * slip, 1e-12);
 }
 
 #[test]
@@ -137,7 +135,7 @@ fn the_dashpot_in_shear_stays_under_the_cap() {
     };
     let found = force(&JOINT, &SECTION, &motion, &History::default());
     let cap = 2e5 * (PI / 6.0).tan();
-    assert!((found.total().x / -cap - 1.0).abs() < 1e-12, "{found:?}");
+    assert_relative(found.total().x, -cap, 1e-12);
     // The spring keeps what it had: nothing.
     assert_eq!(found.history.shear, DVec3::ZERO);
 }
@@ -166,7 +164,7 @@ fn a_corner_is_as_stiff_as_its_elastic_area_and_as_strong_as_its_own() {
     // cA + f_n tan φ, with 100 N of cohesion.
     let cap = 1e2 + 2.5e4 * (PI / 6.0).tan();
     let held = moved(0.1).x;
-    assert!((held / -cap - 1.0).abs() < 1e-12, "{held} N");
+    assert_relative(held, -cap, 1e-12);
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The same bits, whatever the threads and wherever a run was cut; and nothing done for nothing.
 
-use crate::fixture::{blocks, cuboid, joint, run, setup};
+use crate::fixture::{assert_restarts, blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
+use kit::assert_contains;
 use riprap::{
     geometry::{Form, Part, Polyhedron, Shape},
     rock::{Block, Blocks, Setup, Snapshot},
@@ -29,11 +30,7 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
         pool.expect("threads").install(|| {
             let mut blocks = blocks(wall());
             run(&mut blocks, 0.1);
-            assert!(
-                blocks.contacts().count() > 100,
-                "{}",
-                blocks.contacts().count()
-            );
+            assert!(blocks.contacts().count() > 100);
             blocks.snapshot()
         })
     };
@@ -44,19 +41,9 @@ fn the_bits_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_snapshot_goes_on_with_the_same_bits() {
-    let mut whole = blocks(wall());
-    run(&mut whole, 0.06);
-    let bytes = postcard::to_allocvec(&whole.snapshot()).unwrap();
-    run(&mut whole, 0.12);
-
-    let mut resumed = blocks(wall());
-    let snapshot = postcard::from_bytes::<Snapshot>(&bytes).expect("a snapshot");
-    resumed.restore(&snapshot).expect("the same blocks");
-    assert_eq!(resumed.snapshot(), snapshot);
-    run(&mut resumed, 0.12);
-    assert_eq!(resumed.snapshot(), whole.snapshot());
-    assert_eq!(resumed.ledger(), whole.ledger());
-
+    let whole = assert_restarts(&wall(), 0.06, 0.12);
+    let snapshot = whole.snapshot();
+    let bytes = postcard::to_allocvec(&snapshot).expect("a snapshot");
     assert!(postcard::from_bytes::<Snapshot>(&bytes[..bytes.len() - 1]).is_err());
     let mut other = blocks(Setup {
         blocks: wall().blocks[..7].to_vec(),
@@ -162,10 +149,7 @@ fn a_scene_goes_on_from_a_file_without_a_device() {
     let mut longer = state.clone();
     longer.time_step *= 2.0;
     let error = rest.restore(&longer).expect_err("other steps").to_string();
-    assert!(
-        error.contains("steps of") && error.contains("restart with"),
-        "{error}"
-    );
+    assert_contains(&error, &["steps of", "restart with"]);
     let mut wet = state;
     wet.rock = None;
     let error = rest.restore(&wet).expect_err("no blocks").to_string();

@@ -1,87 +1,135 @@
 //! Factors of safety of blocks that stand on others, by their contacts.
 
-use crate::{
-    fixture::{blocks, cuboid, joint, run, settled, setup},
-    incline::on_incline,
-    toppling::column,
-    wedge,
-};
+use crate::fixture::{blocks, cuboid, formulas, joint, run, setup, slope};
 use glam::DVec3;
+use kit::{assert_near, assert_relative};
 use riprap::{
-    rock::{Block, Period, PointLoad, Setup, law::Joint},
+    geometry::{HalfSpace, Polyhedron},
+    rock::{Block, PairMaterial, Period, PointLoad, Setup, law::Joint},
     safety::{Mode, Standing},
 };
+use std::sync::Arc;
+
+/// A block b long and h high, of a square base, on an incline of `alpha` degrees.
+fn on_incline(alpha: f64, [b, h]: [f64; 2], joint: Joint) -> Setup {
+    let turn = slope(alpha);
+    let plate = Block::new("plate", cuboid(12.0, 3.0, 1.0), turn * DVec3::Z * -0.5);
+    let block = Block::new("block", cuboid(b, b, h), turn * DVec3::Z * (0.5 * h));
+    setup(vec![plate.fixed().turned(turn), block.turned(turn)], joint)
+}
+
+/// A prism on two slabs that meet in a line: each plane has dip, dip direction and friction angle, degrees.
+fn wedge(planes: [[f64; 3]; 2]) -> Setup {
+    // Upward normals; x east, y north.
+    let normals = planes.map(|[dip, direction, _]| {
+        let (dip, direction) = (dip.to_radians(), direction.to_radians());
+        DVec3::new(
+            dip.sin() * direction.sin(),
+            dip.sin() * direction.cos(),
+            dip.cos(),
+        )
+    });
+    let face = |normal: DVec3, distance: f64| HalfSpace { normal, distance };
+    let block = |name: &str, faces: &[HalfSpace]| {
+        let (shape, at) = Polyhedron::from_half_spaces(faces).expect("a block");
+        Block::new(name, Arc::new(shape.into()), at)
+    };
+    let line = normals[0].cross(normals[1]).normalize();
+    let mut list = vec![block(
+        "wedge",
+        &[
+            face(-normals[0], 0.0),
+            face(-normals[1], 0.0),
+            face((normals[0] + normals[1]).normalize(), 1.0),
+            face(line, 1.0),
+            face(-line, 1.0),
+        ],
+    )];
+    for (k, n) in normals.into_iter().enumerate() {
+        let across = line.cross(n);
+        let sides = [line, -line, across, -across].map(|side| face(side, 6.0));
+        let mut slab = block(
+            "slab",
+            &[&sides[..], &[face(n, 0.0), face(-n, 1.0)]].concat(),
+        );
+        slab.material = k + 1;
+        list.push(slab.fixed());
+    }
+    let joints = planes.map(|plane| joint(1e9, plane[2]));
+    let mut setup = setup(list, joints[0]);
+    setup.materials = vec![setup.materials[0]; 3];
+    let pair = |k: usize| PairMaterial {
+        materials: [0, k + 1],
+        joint: joints[k],
+    };
+    setup.pairs = vec![pair(0), pair(1)];
+    setup
+}
 
 /// Of the block of this number, once it has come to rest under mass damping, with a force of a fluid (N).
 fn standing(setup: Setup, block: usize, force: DVec3) -> Standing {
-    let rest = settled(&setup, 50.0, 0.3);
-    let mut blocks = blocks(setup.clone());
-    blocks.restore(&rest).expect("the same blocks");
+    let mut blocks = blocks(Setup {
+        damping: 50.0,
+        ..setup.clone()
+    });
+    run(&mut blocks, 0.3);
     Standing::of(&setup, &blocks, block, [force, DVec3::ZERO])
 }
 
 /// tan φ/tan α and (b/h)/tan α; the contact's normal and area have the tilt by which it gives way, 1e-4.
 #[test]
 fn a_block_on_an_incline() {
+    let lying = || on_incline(30.0, [1.0, 0.4], joint(1e8, 60.0));
     let (tan_alpha, tan_phi) = (30f64.to_radians().tan(), 60f64.to_radians().tan());
-    let still = standing(on_incline(60.0), 1, DVec3::ZERO);
+    let still = standing(lying(), 1, DVec3::ZERO);
     assert_eq!(still.sliding.mode, Mode::OnOne(0));
-    assert!(
-        (still.sliding.factor / (tan_phi / tan_alpha) - 1.0).abs() < 1e-3,
-        "{still:?}"
-    );
-    assert!(
-        (still.toppling * 0.4 * tan_alpha - 1.0).abs() < 1e-3,
-        "{still:?}"
-    );
+    assert_relative(still.sliding.factor, tan_phi / tan_alpha, 1e-3);
+    assert_near(still.toppling * 0.4 * tan_alpha, 1.0, 1e-3);
     assert_eq!(still.uplift, f64::INFINITY);
     // Under water sliding is the same, uplift is the ratio of the densities, and buoyancy, W/2.5, turns over with what the
     // weight holds less what it drives.
     let buoyancy = DVec3::Z * 1000.0 * 9.81 * 0.4;
-    let wet = standing(on_incline(60.0), 1, buoyancy);
-    assert!((wet.sliding.factor / still.sliding.factor - 1.0).abs() < 1e-9);
+    let wet = standing(lying(), 1, buoyancy);
+    assert_relative(wet.sliding.factor, still.sliding.factor, 1e-9);
     let driven = 1.0 / still.toppling;
     let exact = 1.0 / (driven + (1.0 - driven) / 2.5);
-    assert!((wet.toppling / exact - 1.0).abs() < 1e-9, "{wet:?}");
-    assert!((wet.uplift - 2.5).abs() < 1e-9, "{wet:?}");
+    assert_relative(wet.toppling, exact, 1e-9);
+    assert_near(wet.uplift, 2.5, 1e-9);
 }
 
 /// A strip at the upper edge of the base has lifted off; it topples over the other edge.
 #[test]
 fn a_column_topples_over_its_edge() {
-    let found = standing(column(20.0), 1, DVec3::ZERO).toppling;
+    let found = standing(
+        on_incline(20.0, [1.0, 2.0], joint(4e10, 50.0)),
+        1,
+        DVec3::ZERO,
+    )
+    .toppling;
     let exact = 0.5 / 20f64.to_radians().tan();
-    assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+    assert_relative(found, exact, 1e-3);
 }
 
 /// As it was put there, before a step of it: by the faces that lie on others.
 #[test]
 fn before_it_presses_it_stands_on_its_faces() {
     for alpha in [10f64, 20.0] {
-        let setup = column(alpha);
+        let setup = on_incline(alpha, [1.0, 2.0], joint(4e10, 50.0));
         let found = Standing::of(&setup, &blocks(setup.clone()), 1, [DVec3::ZERO; 2]);
         let tan_alpha = alpha.to_radians().tan();
         let tan_phi = 50f64.to_radians().tan();
-        assert!(
-            (found.sliding.factor * tan_alpha / tan_phi - 1.0).abs() < 1e-9,
-            "{found:?}"
-        );
-        assert!(
-            (found.toppling * tan_alpha / 0.5 - 1.0).abs() < 1e-3,
-            "{found:?}"
-        );
+        assert_relative(found.sliding.factor * tan_alpha, tan_phi, 1e-9);
+        assert_relative(found.toppling * tan_alpha, 0.5, 1e-3);
     }
 }
 
 #[test]
 fn a_wedge_on_two_planes() {
+    // The factor of safety of Goodman & Shi 1985.
     let planes = [[45.0, 105.0, 20.0], [70.0, 235.0, 30.0]];
-    let tan_phi = planes.map(|[_, _, phi]: [f64; 3]| phi.to_radians().tan());
-    let setup = wedge::on_planes(&planes, tan_phi);
-    let block = setup.blocks.len() - 1;
-    let found = standing(setup, block, DVec3::ZERO).sliding;
+    let found = standing(wedge(planes), 0, DVec3::ZERO).sliding;
     assert!(matches!(found.mode, Mode::OnTwo(..)), "{found:?}");
-    assert!((found.factor / 1.10662 - 1.0).abs() < 1e-3, "{found:?}");
+    assert_relative(found.factor, 1.10662, 1e-3);
 }
 
 /// A block b wide and h high of weight W on the level: a force P at the height z gives W tan φ/P and W b/(2 P z), an
@@ -92,16 +140,10 @@ fn point_loads_and_accelerations_drive() {
         let floor = Block::new("floor", cuboid(4.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
         let mut block = Block::new("block", cuboid(0.2, 0.3, 0.5), DVec3::Z * 0.25);
         change(&mut block);
-        let setup = Setup {
-            damping: 50.0,
-            ..setup(vec![floor, block], joint(1e9, 45.0))
-        };
-        let mut blocks = blocks(setup.clone());
-        run(&mut blocks, 0.5);
-        let found = Standing::of(&setup, &blocks, 1, [DVec3::ZERO; 2]);
+        let setup = setup(vec![floor, block], joint(1e9, 45.0));
+        let found = standing(setup, 1, DVec3::ZERO);
         [found.sliding.factor, found.toppling, found.uplift]
     };
-    let formulas = |texts: [&str; 3]| texts.map(|text| text.parse().expect("a formula"));
     let weight = 0.03 * 2500.0 * 9.81;
     let pushed = standing(&|block| {
         block.point_loads = vec![PointLoad {
@@ -122,7 +164,7 @@ fn point_loads_and_accelerations_drive() {
         (accelerated[1], 9.81 * 0.2 / (2.0 * 0.5)),
         (lifted[2], 2.0),
     ] {
-        assert!((found / exact - 1.0).abs() < 1e-3, "{found}, exact {exact}");
+        assert_relative(found, exact, 1e-3);
     }
     assert_eq!([pushed[2], accelerated[2]], [f64::INFINITY; 2]);
     assert_eq!(standing(&|_| {}), [f64::INFINITY; 3]);
@@ -141,7 +183,7 @@ fn a_held_block_stands_on_what_is_held_too() {
     let weight = 0.064 * 2500.0 * 9.81;
     let push = DVec3::X * 0.5 * weight;
     let found = Standing::of(&setup, &blocks, 1, [push, DVec3::ZERO]);
-    assert!((found.sliding.factor / 2.0 - 1.0).abs() < 1e-6, "{found:?}");
+    assert_relative(found.sliding.factor, 2.0, 1e-6);
 }
 
 /// The pillar reaches 0.2 m beyond the border, where space repeats, and the block stands on that with its left end.
@@ -164,10 +206,7 @@ fn a_block_stands_on_the_image_of_another() {
     // The block reaches from 1 to 2 m, the image of the pillar from 1.8 m on.
     let exact = (1e4 * 0.2 * 0.4 + weight) / weight;
     // A ten-thousandth of the radius is how far faces may be apart.
-    assert!(
-        (found.sliding.factor / exact - 1.0).abs() < 1e-3,
-        "{found:?}"
-    );
+    assert_relative(found.sliding.factor, exact, 1e-3);
 }
 
 /// A block on the edges of two pillars: its springs count with a corner's area, cohesion with that which is there.
@@ -184,13 +223,9 @@ fn cohesion_counts_with_the_section_and_not_with_the_area_of_corners() {
     };
     let mut setup = setup(vec![pillar(-0.1), pillar(0.1), block], joint);
     setup.corner_area = 1.0;
-    setup.damping = 50.0;
-    let mut blocks = blocks(setup.clone());
-    run(&mut blocks, 0.1);
-    assert_eq!(blocks.contacts().count(), 2);
     let weight = 0.008 * 2500.0 * 9.81;
     let push = DVec3::Y * weight;
-    let found = Standing::of(&setup, &blocks, 2, [push, DVec3::ZERO]).sliding;
+    let found = standing(setup, 2, push).sliding;
     let exact = (1e4 * 0.01 + weight) / weight;
-    assert!((found.factor / exact - 1.0).abs() < 1e-3, "{found:?}");
+    assert_relative(found.factor, exact, 1e-3);
 }

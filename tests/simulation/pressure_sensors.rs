@@ -1,7 +1,7 @@
 //! Pressure sensors on walls: water at rest presses by its depth, in corners too, and what strikes a block presses on a patch
 //! over its face as it pushes the block.
 
-use kit::Rig;
+use kit::{Rig, assert_contains, assert_relative};
 use riprap::simulation::Simulation;
 
 const TANK: &str = r#"
@@ -20,8 +20,7 @@ const TANK: &str = r#"
 
 fn pool(rig: &Rig, rest: &str) -> Simulation {
     let scene = kit::scene::read(&format!("{TANK}{rest}")).unwrap();
-    rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
-        .unwrap()
+    rig.simulation(&scene).unwrap()
 }
 
 #[test]
@@ -123,7 +122,7 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let load = pool.sensor("patch").unwrap();
     let patch = load.impulse * 0.8 * 0.1;
     assert!(pushed > 1.0, "nothing has struck: {pushed}");
-    assert!((patch / pushed - 1.0).abs() < 0.1, "{patch} {pushed}");
+    assert_relative(patch, pushed, 0.1);
     // From the state on the way to the same bits.
     let (step, state) = cut.unwrap();
     let last = pool.step();
@@ -135,8 +134,5 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let (without, _) = DAM.split_once("[[probes]]\n    name = \"patch\"").unwrap();
     let mut without = self::pool(&rig, without);
     let refused = without.restore(&state).unwrap_err().to_string();
-    assert!(
-        refused.contains("1 pressure sensors and the scene 0"),
-        "{refused}"
-    );
+    assert_contains(&refused, &["1 pressure sensors and the scene 0"]);
 }

@@ -1,5 +1,6 @@
 //! Probes on images whose values are formulas.
 
+use kit::{assert_contains, assert_near};
 use riprap::output::{Array, Image};
 use riprap::scene::{Axis, Scene};
 use riprap::simulation::probe::{Gauge, Layer};
@@ -88,7 +89,7 @@ fn refusal(probe: &str) -> String {
 fn near(found: &[f64], expected: &[f64]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-5, "{found} for {expected}");
+        assert_near(*found, *expected, 1e-5);
     }
 }
 
@@ -203,10 +204,7 @@ fn a_face_has_the_force_on_the_solid_and_its_stagnation_point() {
 #[test]
 fn a_probe_without_fluid_is_refused_with_a_remedy() {
     let void = refusal("kind = \"box\"\nmin = [2.1, 0.1, 0]\nmax = [3, 0.9, 1]");
-    assert!(
-        void.contains("probes.p") && void.contains("0.5 m wide"),
-        "{void}"
-    );
+    assert_contains(&void, &["probes.p", "0.5 m wide"]);
     let face = "kind = \"face\"\nmin = [1, 0, 0]\nmax = [2, 1, 2]\nnormal = \"+x\"";
     let void = refusal(face);
     assert!(void.contains("normal +x"), "{void}");

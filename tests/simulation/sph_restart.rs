@@ -67,8 +67,7 @@ const CUT: u64 = 6;
 
 fn pool(rig: &Rig) -> Simulation {
     let scene = kit::scene::read(SCENE).unwrap();
-    rig.wait(Simulation::new(&rig.device, &rig.queue, &scene))
-        .unwrap()
+    rig.simulation(&scene).unwrap()
 }
 
 fn state(rig: &Rig, pool: &mut Simulation) -> Checkpoint {

@@ -1,7 +1,10 @@
 //! Boundary particles of walls and blocks.
 
-use crate::start::{DX, Initial, error_of, is_on_lattice, least_distance, scene, tank};
+use crate::start::{
+    DX, Initial, distance_to_nearest, error_of, is_on_lattice, least_distance, scene, tank,
+};
 use glam::{DQuat, DVec3};
+use kit::{assert_contains, assert_near, assert_relative};
 use riprap::{
     geometry::Form,
     scene::{
@@ -53,7 +56,7 @@ fn walls_of_a_tank_are_four_layers_of_the_lattice_with_corners() {
         20 * (40 * 4 + 2 * 6)
     );
     let all = initial.all_boundary();
-    assert!((least_distance(&all) - DX).abs() < 1e-9);
+    assert_near(least_distance(&all), DX, 1e-9);
     let aligned = |x: &DVec3| (0..3).all(|a| is_on_lattice(x[a], 0.0));
     assert!(all.iter().all(aligned));
     assert!(all.iter().all(|x| x.y > 0.0 && x.y < 1.0));
@@ -72,7 +75,7 @@ fn a_box_on_the_lattice_has_exactly_its_layers() {
     assert_eq!(particles.len(), 14 * 12 * 10 - 6 * 4 * 2);
     let aligned = |x: &DVec3| (0..3).all(|a| is_on_lattice(x[a], 0.0));
     assert!(particles.iter().all(aligned));
-    assert!((least_distance(&particles) / DX - 1.0).abs() < 1e-6);
+    assert_relative(least_distance(&particles), DX, 1e-6);
 }
 
 #[test]
@@ -236,10 +239,7 @@ fn blocks_too_thin_or_not_planar_are_refused() {
         ))
         .unwrap(),
     );
-    assert!(
-        words.contains("block b: is thinner than the spacing"),
-        "{words}"
-    );
+    assert_contains(&words, &["block b: is thinner than the spacing"]);
     for (keys, part) in [
         ("kind = \"sphere\"\nradius = 0.2", "is a sphere"),
         (
@@ -299,11 +299,7 @@ fn internal_faces_of_a_compound_leave_no_holes() {
             for layer in [0.5, 1.5] {
                 let x = a.lerp(b, (f64::from(n) + 0.5) / 40.0) + down * layer * DX;
                 let x = x + DVec3::Y * 0.475;
-                let near = boundary
-                    .iter()
-                    .map(|s| s.distance(x))
-                    .fold(f64::INFINITY, f64::min);
-                widest = widest.max(near);
+                widest = widest.max(distance_to_nearest(x, &boundary));
             }
         }
     }
@@ -314,10 +310,7 @@ fn internal_faces_of_a_compound_leave_no_holes() {
     for i in -4..6 {
         for k in -2..2 {
             let place = DVec3::new(f64::from(i) + 0.5, 9.5, f64::from(k) + 0.5) * DX;
-            let near = boundary
-                .iter()
-                .map(|s| s.distance(place))
-                .fold(f64::INFINITY, f64::min);
+            let near = distance_to_nearest(place, &boundary);
             assert!(near < 1e-6 * DX, "{i} {k}: {} spacings", near / DX);
         }
     }
@@ -432,10 +425,7 @@ fn layers_of_blocks_that_meet_leave_no_gaps() {
         let at_wall = (0..20).map(|k| DVec3::new(0.0, -0.5 * DX, (f64::from(k) - 5.0) * 0.01));
         places.extend(behind.chain(at_wall).map(|x| surface + x));
     }
-    let far = |x: &DVec3| {
-        let distances = boundary.iter().map(|s| s.distance_squared(*x));
-        distances.fold(f64::INFINITY, f64::min).sqrt() / DX
-    };
+    let far = |x: &DVec3| distance_to_nearest(*x, &boundary) / DX;
     let widest = places.iter().map(far).fold(0.0, f64::max);
     // Half the diagonal of a square is 0.71; gaps of 1.6 spacings have 0.94.
     assert!(widest < 0.8, "{widest} spacings");

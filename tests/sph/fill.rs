@@ -2,6 +2,7 @@
 
 use crate::start::{DX, Initial, error_of, is_on_lattice, scene, tank};
 use glam::DVec3;
+use kit::assert_relative;
 
 #[test]
 fn a_box_of_water_in_a_tank_loses_no_particle_to_its_walls() {
@@ -67,11 +68,7 @@ fn blocks_displace_as_much_water_as_they_have_volume() {
     // The block and a clearance of a tenth of a spacing displace the water; along y they take six rows.
     let missing = (8000 - initial.start.positions.len()) as f64 * DX.powi(3);
     let displaced = 0.41 * 0.3 * 0.21;
-    assert!(
-        (missing / displaced - 1.0).abs() < 0.03,
-        "{}",
-        missing / displaced
-    );
+    assert_relative(missing, displaced, 0.03);
 }
 
 #[test]
@@ -93,10 +90,7 @@ fn water_of_any_shape_is_on_the_lattice() {
     let initial = Initial::of(&tank(wedge).unwrap());
     let count = initial.start.positions.len() - 8000;
     let volume = count as f64 * DX.powi(3);
-    assert!(
-        (volume / (0.5 * 0.4 * 0.5 * 0.9) - 1.0).abs() < 0.1,
-        "{volume}"
-    );
+    assert_relative(volume, 0.5 * 0.4 * 0.5 * 0.9, 0.1);
     let aligned = |x: &DVec3| (0..3).all(|a| is_on_lattice(x[a], 0.0));
     assert!(initial.start.positions.iter().all(aligned));
 }

@@ -2,6 +2,7 @@
 
 use crate::start::DX;
 use glam::{DVec3, Vec3};
+use kit::{assert_near, assert_relative};
 use riprap::scene::Field;
 use riprap::{
     simulation::point_cloud,
@@ -41,7 +42,7 @@ fn drops_do_not_count_and_dry_ground_has_no_level() {
     positions.push(DVec3::new(0.2, 0.5, 0.9));
     let gauges = Gauges::new(&setup, &positions);
     let level = gauges.level([0.2, 0.5]).unwrap();
-    assert!((level - 0.3).abs() < 0.1 * DX, "{level}");
+    assert_near(level, 0.3, 0.1 * DX);
     assert_eq!(gauges.level([0.9, 0.5]), None);
 }
 
@@ -60,7 +61,7 @@ fn the_level_follows_a_slope() {
 fn the_level_of_a_film_is_the_top_of_its_particles() {
     let (setup, positions) = water(|_, _| DX);
     let level = Gauges::new(&setup, &positions).level([0.5, 0.5]).unwrap();
-    assert!((level - DX).abs() < 1e-12, "{level}");
+    assert_near(level, DX, 1e-12);
 }
 
 #[test]
@@ -68,8 +69,8 @@ fn the_water_fraction_is_one_inside_and_a_half_at_the_surface() {
     let (setup, positions) = water(|_, _| 0.8);
     let gauges = Gauges::new(&setup, &positions);
     let fraction = |z| gauges.water_fraction(DVec3::new(0.525, 0.525, z));
-    assert!((fraction(0.5) - 1.0).abs() < 0.01, "{}", fraction(0.5));
-    assert!((fraction(0.8) - 0.5).abs() < 0.01, "{}", fraction(0.8));
+    assert_near(fraction(0.5), 1.0, 0.01);
+    assert_near(fraction(0.8), 0.5, 0.01);
     assert_eq!(fraction(1.01), 0.0);
 }
 
@@ -88,7 +89,7 @@ fn the_pressure_of_still_water_is_exact_also_at_walls() {
     ] {
         let at = DVec3::from(at);
         let mean = gauges.mean(at, &values, weight).unwrap();
-        assert!((mean / pressure(at) - 1.0).abs() < 1e-9, "{at}: {mean}");
+        assert_relative(mean, pressure(at), 1e-9);
     }
     assert_eq!(
         gauges.mean(DVec3::new(0.5, 0.5, 0.9), &values, weight),
@@ -102,7 +103,7 @@ fn gauges_see_periodic_images() {
     setup.faces[0] = [Side::Periodic; 2];
     let gauges = Gauges::new(&setup, &positions);
     let [end, middle] = [0.0, 0.5].map(|x| gauges.water_fraction(DVec3::new(x, 0.525, 0.225)));
-    assert!((end - middle).abs() < 1e-12, "{end} {middle}");
+    assert_near(end, middle, 1e-12);
 }
 
 #[test]
@@ -112,11 +113,11 @@ fn run_up_ignores_drops() {
     let gauges = Gauges::new(&setup, &positions);
     let [low, high] = [DVec3::ZERO, DVec3::ONE];
     let front = gauges.farthest(low, high, DVec3::X).unwrap();
-    assert!((front.x - 0.575).abs() < 1e-12, "{front}");
+    assert_near(front.x, 0.575, 1e-12);
     let part = gauges
         .farthest(low, DVec3::new(0.4, 1.0, 1.0), DVec3::X)
         .unwrap();
-    assert!((part.x - 0.375).abs() < 1e-12, "{part}");
+    assert_near(part.x, 0.375, 1e-12);
     assert_eq!(
         gauges.farthest(DVec3::new(0.7, 0.0, 0.0), high, DVec3::X),
         None
@@ -137,11 +138,11 @@ fn totals_sum_all_particles() {
     };
     let totals = Totals::of(&setup, &water);
     // 500 kg with the centre of mass at a height of 0.25 m.
-    assert!((totals.mass - 500.0).abs() < 1e-9);
+    assert_near(totals.mass, 500.0, 1e-9);
     assert!((totals.momentum[2] + 1000.0).abs() < 1e-9 && totals.momentum[1] == 0.0);
-    assert!((totals.kinetic_energy - 0.5 * 500.0 * 5.0).abs() < 1e-9);
-    assert!((totals.potential_energy - 500.0 * 9.81 * 0.25).abs() < 1e-8);
-    assert!((totals.max_speed - 5.0_f64.sqrt()).abs() < 1e-12);
+    assert_near(totals.kinetic_energy, 0.5 * 500.0 * 5.0, 1e-9);
+    assert_near(totals.potential_energy, 500.0 * 9.81 * 0.25, 1e-8);
+    assert_near(totals.max_speed, 5.0_f64.sqrt(), 1e-12);
     let cloud = point_cloud(
         &water,
         &[Field::Velocity, Field::Pressure, Field::Vorticity],

@@ -1,6 +1,6 @@
 //! Boundary particles at the internal faces of compounds.
 
-use crate::start::{DX, Initial, least_distance, scene};
+use crate::start::{DX, Initial, distance_to_nearest, least_distance, scene};
 use glam::{DVec2, DVec3};
 
 /// Two corners of a rectangle of a section, x and z, m.
@@ -181,8 +181,7 @@ fn the_foot_of_a_box_on_a_plate_has_no_holes() {
                     let side = 0.5 * foot - layer * DX;
                     let z = 0.1 + 0.25 * f64::from(up) * DX;
                     for x in [DVec3::new(side, along, z), DVec3::new(along, -side, z)] {
-                        let distances = boundary.iter().map(|s| s.distance(x));
-                        widest = widest.max(distances.fold(f64::INFINITY, f64::min));
+                        widest = widest.max(distance_to_nearest(x, &boundary));
                     }
                 }
             }

@@ -2,20 +2,16 @@
 
 mod advice;
 mod boundary_particles;
-mod containment;
 mod energy;
 mod fill;
+mod flows;
 mod gauges;
 mod internal_faces;
 mod mueller;
-mod penalty;
-mod planar;
 mod programs;
 mod refusals;
-mod restart;
 mod start;
 mod step;
-mod still_water;
 mod tank;
 mod twin;
 mod wendland;

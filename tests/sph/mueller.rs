@@ -1,13 +1,12 @@
 //! The scheme of Müller, Charypar & Gross (2003) and Geraili Mikola & Sitar (2014) against its twin in f64 and SI.
 
 use crate::{
-    penalty::{Spring, penalty},
-    step::Noise,
-    tank::{lattice, resting},
-    twin::wrench,
+    step::noise_vector,
+    tank::{Tank, lattice, resting},
+    twin::{Spring, penalty, wrench},
 };
 use glam::{DQuat, DVec3};
-use kit::Rig;
+use kit::{Random, Rig, assert_contains};
 use riprap::{
     geometry::{Polyhedron, Pose, Shape},
     sph::{Body, NeighbourSearch, Scheme, Setup, Side, Solid, SphSolver, Water},
@@ -111,7 +110,7 @@ fn check(plane: bool) {
         DVec3::splat(0.17)
     };
     let cube = |half: DVec3| Shape::from(Polyhedron::cuboid(2.0 * half).unwrap());
-    let mut noise = Noise(11);
+    let mut noise = Random(11);
     let setup = |neighbours| {
         let mut setup = Setup::tank(size, spacing, 20.0);
         setup.plane = plane;
@@ -146,33 +145,27 @@ fn check(plane: bool) {
     let one = setup(NeighbourSearch::Cells);
     let positions: Vec<DVec3> = lattice(&one, [0; 3], [cells[0], cells[1], cells[2] - 2])
         .into_iter()
-        .map(|x| x + 0.03 * noise.vector(plane) - 0.05 * DVec3::Z)
+        .map(|x| x + 0.03 * noise_vector(&mut noise, plane) - 0.05 * DVec3::Z)
         .collect();
     let velocities: Vec<DVec3> = positions
         .iter()
-        .map(|_| 0.5 * noise.vector(plane))
+        .map(|_| 0.5 * noise_vector(&mut noise, plane))
         .collect();
-    let rig = Rig::new();
-    let (device, queue) = (&rig.device, &rig.queue);
     for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
         let setup = setup(neighbours);
         let pressures = vec![0.0; positions.len()];
-        let mut particles = SphSolver::new(
-            device,
-            queue,
+        let mut tank = Tank::moving(
             setup.clone(),
+            poses.to_vec(),
             &positions,
             &velocities,
             &pressures,
-        )
-        .unwrap();
-        let before = rig.wait(particles.water(device, queue)).unwrap();
-        let dt = 0.5 * particles.step_limit();
-        let done = rig
-            .wait(particles.advance(device, queue, &poses, dt))
-            .unwrap();
+        );
+        let before = tank.water();
+        let dt = 0.5 * tank.particles.step_limit();
+        let done = tank.advance(dt);
         assert_eq!(done.steps, 1);
-        let after = rig.wait(particles.water(device, queue)).unwrap();
+        let after = tank.water();
         let twin = Twin {
             setup: &setup,
             poses: &poses,
@@ -218,7 +211,7 @@ fn a_step_in_space() {
 /// Invocations of software adapters end loops after 65 535 iterations; each of these would need 200 times 1200.
 #[test]
 fn loads_of_many_parts_and_particles_are_complete() {
-    let mut noise = Noise(5);
+    let mut noise = Random(5);
     let mut setup = Setup::tank(DVec3::new(16.0, 0.1, 8.0), 0.1, 20.0);
     setup.plane = true;
     setup.smoothing = 1.3;
@@ -226,7 +219,7 @@ fn loads_of_many_parts_and_particles_are_complete() {
         viscosity: VISCOSITY,
     };
     let solid = |_| Solid::Sphere {
-        centre: noise.vector(true) * DVec3::new(7.5, 0.0, 3.5),
+        centre: noise_vector(&mut noise, true) * DVec3::new(7.5, 0.0, 3.5),
         radius: 0.15,
     };
     setup.bodies = vec![Body {
@@ -237,23 +230,9 @@ fn loads_of_many_parts_and_particles_are_complete() {
     }];
     let poses = [resting(0.5 * setup.size)];
     let positions = lattice(&setup, [0; 3], [160, 1, 80]);
-    let velocities = vec![DVec3::ZERO; positions.len()];
-    let pressures = vec![0.0; positions.len()];
-    let rig = Rig::new();
-    let (device, queue) = (&rig.device, &rig.queue);
-    let mut particles = SphSolver::new(
-        device,
-        queue,
-        setup.clone(),
-        &positions,
-        &velocities,
-        &pressures,
-    )
-    .unwrap();
-    let dt = 0.5 * particles.step_limit();
-    let done = rig
-        .wait(particles.advance(device, queue, &poses, dt))
-        .unwrap();
+    let mut tank = Tank::new(setup.clone(), poses.to_vec(), &positions, |_| 0.0);
+    let dt = 0.5 * tank.particles.step_limit();
+    let done = tank.advance(dt);
     assert_eq!(done.steps, 1);
     let twin = Twin {
         setup: &setup,
@@ -286,8 +265,5 @@ fn more_parts_than_a_software_adapter_can_loop_over_are_refused() {
     }];
     let result = SphSolver::new(&rig.device, &rig.queue, setup, &[], &[], &[]);
     let message = result.unwrap_err().to_string();
-    assert!(
-        message.contains("20000 convex parts") && message.contains("use a GPU"),
-        "{message}"
-    );
+    assert_contains(&message, &["20000 convex parts", "use a GPU"]);
 }

@@ -3,7 +3,6 @@
 use crate::tank::resting;
 use glam::{DMat3, DVec3};
 use riprap::{
-    geometry::Pose,
     sph::{Body, EquationOfState, Scheme, Setup, Solid, SphSolver},
     wgpu,
 };
@@ -31,110 +30,91 @@ fn tank() -> Setup {
 
 const MIDDLE: DVec3 = DVec3::splat(0.5);
 
+/// What the solver is refused with, a line.
+fn refusal(setup: Setup, at: DVec3, velocity: DVec3, pressure: f64) -> String {
+    let refused = solver(setup, at, velocity, pressure);
+    refused
+        .map(|_| ())
+        .expect_err("it must be refused")
+        .to_string()
+        + "\n"
+}
+
 #[test]
 fn invalid_parameters_are_refused_by_name() {
-    const NAN: f64 = f64::NAN;
-    let refused = |place: &str, change: &dyn Fn(&mut Setup)| {
+    assert!(solver(tank(), MIDDLE, DVec3::ZERO, 0.0).is_ok());
+    let mut told = String::new();
+    let mut refuse = |change: &dyn Fn(&mut Setup)| {
         let mut setup = tank();
         change(&mut setup);
-        let error = solver(setup, MIDDLE, DVec3::ZERO, 0.0).unwrap_err();
-        let message = error.to_string();
-        assert!(
-            message.starts_with(&format!("{place}: ")),
-            "{place}: {message}"
-        );
+        told += &refusal(setup, MIDDLE, DVec3::ZERO, 0.0);
     };
-    assert!(solver(tank(), MIDDLE, DVec3::ZERO, 0.0).is_ok());
-    for bad in [NAN, -1.0, f64::INFINITY, 1e300] {
-        refused("artificial_viscosity", &|s| {
-            s.artificial_viscosity = bad;
-        });
-        refused("density_diffusion", &|s| s.density_diffusion = bad);
-        refused("laminar_viscosity", &|s| s.laminar_viscosity = bad);
-        refused("scheme.viscosity", &|s| {
-            s.scheme = Scheme::Mueller { viscosity: bad };
-        });
+    for bad in [f64::NAN, -1.0, f64::INFINITY, 1e300] {
+        refuse(&|s| s.artificial_viscosity = bad);
+        refuse(&|s| s.density_diffusion = bad);
+        refuse(&|s| s.laminar_viscosity = bad);
+        refuse(&|s| s.scheme = Scheme::Mueller { viscosity: bad });
     }
-    for bad in [NAN, 0.0, -1.0, 1.5, f64::INFINITY] {
-        refused("courant", &|s| s.courant = bad);
+    for bad in [f64::NAN, 0.0, -1.0, 1.5, f64::INFINITY] {
+        refuse(&|s| s.courant = bad);
     }
-    refused("bodies[0].boundary[1]", &|s| {
-        s.bodies[0].boundary.push(DVec3::NAN);
-    });
-    refused("bodies[0].solids[0]", &|s| {
+    refuse(&|s| s.bodies[0].boundary.push(DVec3::NAN));
+    refuse(&|s| {
         s.bodies[0].solids = vec![Solid::Sphere {
             centre: DVec3::ZERO,
-            radius: NAN,
+            radius: f64::NAN,
         }];
     });
+    insta::assert_snapshot!(told);
 }
 
 #[test]
 fn invalid_particles_are_refused() {
     let (device, queue) = noop();
     let none = SphSolver::new(&device, &queue, tank(), &[], &[], &[]);
-    let message = none.unwrap_err().to_string();
-    assert!(
-        message.starts_with("positions: there is no particle"),
-        "{message}"
-    );
-    let message = |state: EquationOfState, at: DVec3, velocity: DVec3, pressure: f64| {
-        let mut setup = tank();
-        setup.equation_of_state = state;
-        let result = solver(setup, at, velocity, pressure);
-        result.map_err(|error| error.to_string()).err()
-    };
+    let mut told = none.unwrap_err().to_string() + "\n";
     let still = DVec3::ZERO;
     for state in [EquationOfState::Linear, EquationOfState::Tait] {
-        assert_eq!(message(state, MIDDLE, still, -1e4), None);
+        let mut setup = tank();
+        setup.equation_of_state = state;
+        assert!(solver(setup.clone(), MIDDLE, still, -1e4).is_ok());
         // ρ₀ c₀² is 400 kPa; Tait's equation has minus a seventh of it at zero density.
-        let message = message(state, MIDDLE, still, -5e5).unwrap();
-        let least = match state {
-            EquationOfState::Linear => "-4.000e5",
-            EquationOfState::Tait => "-5.714e4",
-        };
-        assert!(
-            message.contains("no density") && message.contains(least),
-            "{message}"
-        );
+        told += &refusal(setup, MIDDLE, still, -5e5);
     }
     for (at, velocity) in [
         (DVec3::NAN, still),
         (MIDDLE, DVec3::NAN),
         (MIDDLE, DVec3::X * 1e300),
     ] {
-        let message = message(EquationOfState::Linear, at, velocity, 0.0).unwrap();
-        assert!(message.contains("particle 0"), "{message}");
+        told += &refusal(tank(), at, velocity, 0.0);
     }
+    insta::assert_snapshot!(told);
 }
 
 #[test]
 fn invalid_exchanges_are_refused() {
     let (device, queue) = noop();
     let still = [DVec3::ZERO];
-    let mut particles = SphSolver::new(&device, &queue, tank(), &[MIDDLE], &still, &[0.0]).unwrap();
+    let particles = SphSolver::new(&device, &queue, tank(), &[MIDDLE], &still, &[0.0]);
+    let mut particles = particles.unwrap();
     let good = resting(DVec3::ZERO);
-    let mut begin = |poses: &[Pose], time: f64| {
-        let begun = particles.begin(&queue, poses, time);
-        begun.map_err(|error| error.to_string()).err()
-    };
-    for poses in [&[][..], &[good, good]] {
-        let message = begin(poses, 0.01).unwrap();
-        assert!(message.starts_with("poses: "), "{message}");
-    }
     let (mut lost, mut flat) = (good, good);
     lost.velocity.y = f64::NAN;
     flat.deformation = DMat3::ZERO;
-    for (pose, word) in [(lost, "not finite"), (flat, "determinant")] {
-        let message = begin(&[pose], 0.01).unwrap();
-        assert!(
-            message.starts_with("poses[0]: ") && message.contains(word),
-            "{message}"
-        );
+    let mut told = String::new();
+    for (poses, time) in [
+        (&[][..], 0.01),
+        (&[good, good], 0.01),
+        (&[lost], 0.01),
+        (&[flat], 0.01),
+        (&[good], 0.0),
+        (&[good], -1.0),
+        (&[good], f64::NAN),
+        (&[good], f64::INFINITY),
+    ] {
+        let begun = particles.begin(&queue, poses, time);
+        told += &(begun.map(|_| ()).unwrap_err().to_string() + "\n");
     }
-    for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let message = begin(&[good], time).unwrap();
-        assert!(message.starts_with("time: "), "{message}");
-    }
-    assert_eq!(begin(&[good], 0.01), None);
+    assert!(particles.begin(&queue, &[good], 0.01).is_ok());
+    insta::assert_snapshot!(told);
 }

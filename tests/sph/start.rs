@@ -120,3 +120,9 @@ pub fn least_distance(points: &[DVec3]) -> f64 {
     }
     least
 }
+
+/// Distance of a point from the nearest of others, m.
+pub fn distance_to_nearest(point: DVec3, others: &[DVec3]) -> f64 {
+    let squares = others.iter().map(|x| x.distance_squared(point));
+    squares.fold(f64::INFINITY, f64::min).sqrt()
+}

@@ -87,30 +87,27 @@ impl Tank {
         positions: &[DVec3],
         pressure: impl Fn(DVec3) -> f64,
     ) -> Self {
-        let rig = Rig::new();
         let still = vec![DVec3::ZERO; positions.len()];
         let pressures: Vec<f64> = positions.iter().map(|x| pressure(*x)).collect();
-        let particles = SphSolver::new(
-            &rig.device,
-            &rig.queue,
-            setup,
-            positions,
-            &still,
-            &pressures,
-        )
-        .unwrap();
-        Self {
-            rig,
-            particles,
-            poses,
-        }
+        Self::moving(setup, poses, positions, &still, &pressures)
     }
 
-    pub fn set_probes(&mut self, positions: &[DVec3]) {
-        let Rig { device, queue } = &self.rig;
-        self.particles
-            .set_probes(device, queue, positions, &[])
-            .unwrap();
+    /// Water in motion.
+    pub fn moving(
+        setup: Setup,
+        poses: Vec<Pose>,
+        positions: &[DVec3],
+        velocities: &[DVec3],
+        pressures: &[f64],
+    ) -> Self {
+        let rig = Rig::new();
+        let Rig { device, queue } = &rig;
+        let particles = SphSolver::new(device, queue, setup, positions, velocities, pressures);
+        Self {
+            particles: particles.unwrap(),
+            poses,
+            rig,
+        }
     }
 
     pub fn advance(&mut self, time: f64) -> ExchangeResult {

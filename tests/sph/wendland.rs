@@ -2,6 +2,7 @@
 
 use crate::start::{DX, Initial, scene, tank};
 use glam::DVec3;
+use kit::assert_near;
 use riprap::sph::Wendland;
 use std::f64::consts::PI;
 
@@ -60,12 +61,12 @@ fn inner() -> f64 {
 #[test]
 fn the_support_at_lattice_walls_and_corners_is_that_of_the_interior() {
     let initial = Initial::of(&tank("").unwrap());
-    assert!((inner() - 1.0).abs() < 2e-3, "{}", inner());
+    assert_near(inner(), 1.0, 2e-3);
     // The lowest layers, in the corner and away from it, beyond the support of the surface.
     let all = sums(&initial, |x| x.y < DX && x.z < 0.25);
     assert_eq!(all.len(), 40 * 5);
     for sum in all {
-        assert!((sum - inner()).abs() < 1e-9, "{sum}");
+        assert_near(sum, inner(), 1e-9);
     }
 }
 
@@ -87,7 +88,7 @@ fn the_support_at_a_slope_is_near_that_of_the_interior() {
         "slope: {} particles, mean {mean}, {least} to {most}",
         all.len()
     );
-    assert!((mean - 1.0).abs() < 0.03, "{mean}");
+    assert_near(mean, 1.0, 0.03);
     assert!(least > 0.85 && most < 1.08, "{least} to {most}");
 }
 
@@ -100,7 +101,7 @@ fn the_support_at_a_rotated_block_is_near_that_of_the_interior() {
         (x - DVec3::new(1.0, 0.5, 0.25)).length() < 0.3 && x.z < 0.3
     });
     let mean = all.iter().sum::<f64>() / all.len() as f64;
-    assert!((mean - 1.0).abs() < 0.05, "{mean}");
+    assert_near(mean, 1.0, 0.05);
 }
 
 #[test]
@@ -111,5 +112,5 @@ fn a_planar_scene_has_its_own_normalisation() {
     all.extend(initial.all_boundary());
     let corner = DVec3::new(0.025, 0.5, 0.025);
     let sum: f64 = all.iter().map(|x| kernel.at(x.distance(corner))).sum();
-    assert!((sum * DX * DX - 1.0).abs() < 2e-3, "{}", sum * DX * DX);
+    assert_near(sum * DX * DX, 1.0, 2e-3);
 }

@@ -2,8 +2,11 @@
 
 use crate::gpu;
 use riprap::{
+    Result,
     gpu::{kernel::Kernel, link::Program, readback::Readback},
     lattice::{Lattice, Observer, Populations, Setup, State},
+    scene::Scene,
+    simulation::Simulation,
     wgpu::{self, util::DeviceExt},
 };
 use std::time::Duration;
@@ -44,6 +47,14 @@ impl Rig {
     /// The value of a future; panics if it takes more than 300 s.
     pub fn wait<T>(&self, future: impl Future<Output = T>) -> T {
         gpu::drive(&self.device, Duration::from_secs(300), "a test", future).unwrap()
+    }
+
+    /// A simulation of a scene.
+    ///
+    /// # Errors
+    /// What the scene or the device lack.
+    pub fn simulation(&self, scene: &Scene) -> Result<Simulation> {
+        self.wait(Simulation::new(&self.device, &self.queue, scene))
     }
 
     /// A lattice started from a state.

@@ -1,5 +1,7 @@
 //! What the rock part of the bench writes, and how it fits exponents. No time is looked at.
 
+use kit::assert_near;
+
 use riprap_harness::bench::{
     Machine,
     rock::{self, Plan, exponent},
@@ -7,28 +9,19 @@ use riprap_harness::bench::{
 use serde_json::Value;
 
 #[test]
-fn exponents_of_power_laws() {
-    let counts = [1e2, 1e3, 1e4, 1e5];
-    for p in [0.0, 1.0, 1.1, 2.0] {
-        let points = counts.map(|n: f64| (n, 3e-7 * n.powf(p)));
-        // Logarithms of at most 25 are rounded to 2e-16 of that, and their range is 7.
-        assert!((exponent(&points).unwrap() - p).abs() < 1e-14, "{p}");
-    }
-}
-
-/// ln y = 0, 0, 3 over ln x = 0, 1, 2: by hand, the slope is ((-1)(-1) + (1)(2)) / 2.
-#[test]
 fn exponents_are_of_least_squares() {
+    for p in [0.0, 1.1, 2.0] {
+        let points = [1e2, 1e3, 1e5].map(|n: f64| (n, 3e-7 * n.powf(p)));
+        // Logarithms of at most 25 are rounded to 2e-16 of that, and their range is 7.
+        assert_near(exponent(&points).unwrap(), p, 1e-14);
+    }
+    // ln y = 0, 0, 3 over ln x = 0, 1, 2: by hand, the slope is ((-1)(-1) + (1)(2)) / 2.
     let e = std::f64::consts::E;
     let points = [(1.0, 1.0), (e, 1.0), (e * e, e.powi(3))];
-    assert!((exponent(&points).unwrap() - 1.5).abs() < 1e-14);
-}
-
-#[test]
-fn one_count_has_no_exponent() {
-    assert_eq!(exponent(&[]), None);
-    assert_eq!(exponent(&[(10.0, 1.0)]), None);
-    assert_eq!(exponent(&[(10.0, 1.0), (10.0, 2.0)]), None);
+    assert_near(exponent(&points).unwrap(), 1.5, 1e-14);
+    for one_count in [&[][..], &[(10.0, 1.0)], &[(10.0, 1.0), (10.0, 2.0)]] {
+        assert_eq!(exponent(one_count), None);
+    }
 }
 
 fn rows() -> Vec<Value> {

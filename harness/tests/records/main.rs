@@ -1,4 +1,5 @@
-//! Records of speed and validation. No time is looked at.
+//! Records of speed and validation, and the short cases of validation. No time is looked at.
 
 mod bench;
+mod cases;
 mod validate;

@@ -1,5 +1,7 @@
 //! How cases are named and selected, and what their records say.
 
+use kit::assert_near;
+
 use riprap_harness::validate::{CASES, Trial, list, record, select};
 
 fn names(pattern: Option<&str>) -> Vec<&'static str> {
@@ -83,7 +85,7 @@ fn a_record_has_the_fields_that_readers_of_the_json_look_for() {
     );
     assert_eq!(json["cells"], 512);
     assert_eq!(json["passed"], false);
-    assert!((json["error"].as_f64().unwrap() - 0.02).abs() < 1e-12);
+    assert_near(json["error"].as_f64().unwrap(), 0.02, 1e-12);
 }
 
 #[test]

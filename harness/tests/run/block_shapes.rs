@@ -1,14 +1,10 @@
 //! Blocks that a scene cuts by joints that are not open everywhere, or takes from meshes, from the scene to
 //! the forces.
 
-use riprap::output::Table;
-use riprap_harness::run::{Args, Summary, run};
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-    sync::atomic::AtomicBool,
-};
+use crate::fixture::{args, check, folder, go, last, restarted};
+use kit::{assert_contains, assert_relative};
+use riprap_harness::run::run;
+use std::{fs, path::Path, sync::atomic::AtomicBool};
 
 /// kg/m³.
 const DENSITY: f64 = 2700.0;
@@ -23,49 +19,12 @@ normal_stiffness = 1e8
 friction = 30
 "#;
 
-/// An empty folder for one test.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("shapes_{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// Arguments for the scene `text` with the material in `folder`, writing to `folder/NAME`.
-fn args(folder: &Path, text: &str, out: &str) -> Args {
-    let scene = folder.join(format!("{out}.toml"));
-    fs::write(&scene, format!("{MATERIAL}{text}")).unwrap();
-    Args {
-        scene,
-        out: Some(folder.join(out)),
-        ..Args::default()
-    }
-}
-
-fn go(args: &Args) -> Summary {
-    let summary = run(args, &AtomicBool::new(false)).unwrap();
-    assert!(summary.complete && !summary.diverged, "{summary}");
-    summary
-}
-
-/// What `riprap check` says of a scene.
-fn check(args: &Args) -> serde_json::Value {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_riprap"));
-    let output = command
-        .args(["check", "--json"])
-        .arg(&args.scene)
-        .output()
-        .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{told}");
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
 /// 64 columns of 1 m × 1 m × 2 m, crossed at three quarters of their height by one joint of which `open`
 /// says how much is open. What is as low as the middle of a whole column is fixed, gravity points upwards.
 fn columns(open: &str) -> String {
     format!(
         r#"
+{MATERIAL}
 [rock]
 gravity = [0, 0, {GRAVITY}]
 [[rock_masses]]
@@ -97,48 +56,35 @@ every = 0.025
 /// Free blocks on 64 columns, and the kinetic energy of all that has come off.
 fn come_off(open: &str, name: &str) -> usize {
     let folder = folder(name);
-    let args = args(&folder, &columns(open), "out");
-    let told = check(&args);
+    let text = columns(open);
+    let (told, _) = check(&folder, &text);
     let free = told["free"].as_u64().unwrap() as usize - 1;
     assert_eq!(told["blocks"].as_u64().unwrap() as usize, 65 + free);
     // Nothing holds what the joint has cut off: ½m(gt)², of half a cubic metre each and of `alone`.
-    let summary = go(&args);
+    let summary = go(&args(&folder, &text, "out"));
     let mass = DENSITY * (0.5 * free as f64 + 1.0);
-    assert!((told["mass"].as_f64().unwrap() / mass - 1.0).abs() < 1e-9);
+    assert_relative(told["mass"].as_f64().unwrap(), mass, 1e-9);
     let exact = 0.5 * mass * (GRAVITY * 0.05f64).powi(2);
-    let kinetic = summary.rocks.as_ref().unwrap().ledger.kinetic;
-    assert!(
-        (kinetic / exact - 1.0).abs() < 1e-9,
-        "{kinetic} J, {exact} J"
-    );
+    assert_relative(summary.rocks.as_ref().unwrap().ledger.kinetic, exact, 1e-9);
     free
 }
 
 #[test]
 fn rock_comes_off_where_a_joint_is_open() {
-    assert_eq!(come_off("", "open"), 64);
+    assert_eq!(come_off("", "shapes_open"), 64);
     let share = |fraction: f64| format!(", persistence = {{ fraction = {fraction}, length = 1 }}");
-    assert_eq!(come_off(&share(1.0), "all"), 64);
-    assert_eq!(come_off(&share(0.0), "none"), 0);
+    assert_eq!(come_off(&share(1.0), "shapes_all"), 64);
+    assert_eq!(come_off(&share(0.0), "shapes_none"), 0);
     // A square for each column: 32 ± 4 of 64.
-    let half = come_off(&share(0.5), "half");
+    let half = come_off(&share(0.5), "shapes_half");
     assert!((16..=48).contains(&half), "{half}");
 }
 
 #[test]
 fn a_mass_of_partly_open_joints_restarts_to_the_same_bits() {
-    let folder = folder("restart");
     let text = columns(", persistence = { fraction = 0.5, length = 1 }")
         .replace("duration = 0.05", "steps = 20");
-    go(&args(&folder, &text, "whole"));
-    let mut parts = args(&folder, &text, "parts");
-    parts.steps = Some(7);
-    parts.restart = run(&parts, &AtomicBool::new(false)).unwrap().checkpoint;
-    parts.steps = None;
-    go(&parts);
-    let [one, two] =
-        ["whole", "parts"].map(|out| fs::read(folder.join(out).join("checkpoint.riprap")).unwrap());
-    assert!(one == two);
+    restarted(&folder("shapes_restart"), &text, 7, &["checkpoint.riprap"]);
 }
 
 /// Outline of an L of 3 m × 2 m, counter-clockwise, and its triangles.
@@ -180,6 +126,7 @@ fn write_l(folder: &Path) {
 fn lying(hull: bool, more: &str) -> String {
     format!(
         r#"
+{MATERIAL}
 [rock]
 mass_damping = 60
 [[solids]]
@@ -216,26 +163,20 @@ size = [0.4, 0.4, 0.4]
 position = [1.25, 0.5, 1.2]
 "#;
 
-fn last(path: &Path, column: &str) -> f64 {
-    let table = Table::read(path).unwrap();
-    *table.column(column).unwrap().last().unwrap()
-}
-
 #[test]
 fn a_mesh_and_its_hull_lie_on_a_floor_with_their_own_weights() {
     // Six square metres less the angle, and less half of it.
     for (hull, area, parts) in [(false, 4.0, 2), (true, 5.0, 1)] {
-        let folder = folder(&format!("lying_{hull}"));
+        let folder = folder(&format!("shapes_lying_{hull}"));
         write_l(&folder);
-        let args = args(&folder, &lying(hull, ""), "out");
-        let told = check(&args);
+        let (told, _) = check(&folder, &lying(hull, ""));
         assert_eq!(told["parts"], 1 + parts);
-        assert!((told["mass"].as_f64().unwrap() / (DENSITY * area) - 1.0).abs() < 1e-9);
-        go(&args);
+        assert_relative(told["mass"].as_f64().unwrap(), DENSITY * area, 1e-9);
+        go(&args(&folder, &lying(hull, ""), "out"));
         let table = folder.join("out/l.csv");
         let weight = DENSITY * area * GRAVITY;
         let held = last(&table, "force_z");
-        assert!((held / weight - 1.0).abs() < 1e-4, "{held} N, {weight} N");
+        assert_relative(held, weight, 1e-4);
         // Nothing pushes it aside: the pressure is centred under the centroid.
         let turned = last(&table, "rotation_y").abs();
         assert!(turned < 0.01, "{turned}°");
@@ -244,24 +185,23 @@ fn a_mesh_and_its_hull_lie_on_a_floor_with_their_own_weights() {
 
 #[test]
 fn a_block_fits_into_the_angle_of_a_mesh_but_not_of_its_hull() {
-    let folder = folder("angle");
+    let folder = folder("shapes_angle");
     write_l(&folder);
     go(&args(&folder, &lying(false, CUBE), "mesh"));
     let hull = args(&folder, &lying(true, CUBE), "hull");
     let Err(refused) = run(&hull, &AtomicBool::new(false)) else {
         panic!("the cube is in the hull");
     };
-    let told = refused.to_string();
-    for word in ["overlap", "cube", "(l)"] {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
-    }
+    assert_contains(refused, &["overlap", "cube", "(l)"]);
 }
 
 #[test]
 fn a_rock_mass_in_the_hull_of_a_mesh_is_cut_without_loss() {
-    let folder = folder("mass");
+    let folder = folder("shapes_mass");
     write_l(&folder);
-    let text = r#"
+    let text = format!(
+        r#"
+{MATERIAL}
 [[rock_masses]]
 name = "m"
 kind = "mesh"
@@ -269,24 +209,26 @@ file = "l.stl"
 scale = 1e-3
 translate = [0, 0, 5]
 joints = [
-  { dip = 0, dip_direction = 0, spacing = 0.7, origin = [0, 0, 5.3] },
-  { dip = 60, dip_direction = 90, spacing = 0.8, origin = [1, 0, 5] },
+  {{ dip = 0, dip_direction = 0, spacing = 0.7, origin = [0, 0, 5.3] }},
+  {{ dip = 60, dip_direction = 90, spacing = 0.8, origin = [1, 0, 5] }},
 ]
 [run]
 duration = 0.05
 [output]
 every = 0.05
-"#;
-    let args = args(&folder, text, "out");
-    let told = check(&args);
+"#
+    );
+    let (told, _) = check(&folder, &text);
     assert!(told["free"].as_u64().unwrap() > 6);
     let mass = DENSITY * 5.0;
-    assert!((told["mass"].as_f64().unwrap() / mass - 1.0).abs() < 1e-9);
+    assert_relative(told["mass"].as_f64().unwrap(), mass, 1e-9);
     // In free fall the pieces do not press on each other.
-    let kinetic = go(&args).rocks.as_ref().unwrap().ledger.kinetic;
+    let kinetic = go(&args(&folder, &text, "out"))
+        .rocks
+        .as_ref()
+        .unwrap()
+        .ledger
+        .kinetic;
     let exact = 0.5 * mass * (GRAVITY * 0.05f64).powi(2);
-    assert!(
-        (kinetic / exact - 1.0).abs() < 1e-9,
-        "{kinetic} J, {exact} J"
-    );
+    assert_relative(kinetic, exact, 1e-9);
 }

@@ -1,10 +1,13 @@
 //! `riprap run` and `riprap check` on small scenes of blocks in a fluid.
 
-use crate::fixture::{args, folder, go};
-use riprap::output::Table;
-use riprap_harness::run::{Args, run};
+use crate::fixture::{
+    args, assert_refused, assert_same_files, check, column, folder, go, json, last, read_with_vtk,
+    restarted, riprap, said,
+};
+use kit::{assert_contains, assert_near, assert_relative};
+use riprap_harness::run::Args;
 use serde_json::Value;
-use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
+use std::fs;
 
 /// A stone that lies on the bed of a short channel and a ball that sinks, driven along by the flow.
 const CHANNEL: &str = r#"
@@ -101,31 +104,6 @@ kind = "block"
 block = "cube"
 "#;
 
-fn column(path: &Path, name: &str) -> Vec<f64> {
-    let table = Table::read(path).unwrap();
-    table.column(name).unwrap().to_vec()
-}
-
-fn last(path: &Path, name: &str) -> f64 {
-    *column(path, name).last().unwrap()
-}
-
-/// What VTK finds in a `.vtu` or `.pvd`.
-fn read_with_vtk(path: &Path) -> Value {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
-    let output = Command::new(target.join("python/bin/python"))
-        .arg(concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/tests/run/read_blocks.py"
-        ))
-        .arg(path)
-        .output()
-        .expect("run harness/python.sh");
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "VTK: {complaint}");
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
 #[test]
 fn a_coupled_run_writes_what_both_write() {
     let folder = folder("coupled_files");
@@ -153,7 +131,7 @@ fn a_coupled_run_writes_what_both_write() {
     let stone = out.join("stone.csv");
     assert!(column(&stone, "fluid_force_x")[1] > 0.0);
     let buoyancy = last(&stone, "buoyancy_z");
-    assert!((buoyancy / 0.31392 - 1.0).abs() < 0.01, "{buoyancy} N");
+    assert_relative(buoyancy, 0.31392, 0.01);
     // Contacts carry the weight of 0.832 N less that, in the mean: the stone was put down at once.
     let held: Vec<f64> = column(&stone, "force_z");
     assert!(held.iter().any(|force| *force > 0.2), "{held:?}");
@@ -169,14 +147,13 @@ fn a_coupled_run_writes_what_both_write() {
     assert_eq!(blocks["cells"].as_array().unwrap().len(), 2);
     let arrays = &blocks["arrays"];
     let force = arrays["fluid_force"][0][0].as_f64().unwrap();
-    assert!((force / last(&stone, "fluid_force_x") - 1.0).abs() < 1e-5);
+    assert_relative(force, last(&stone, "fluid_force_x"), 1e-5);
     // The ball's volume times ρ g.
     let ball = arrays["buoyancy"][1][2].as_f64().unwrap();
-    assert!((ball / 0.041_09 - 1.0).abs() < 0.02, "{ball} N");
+    assert_relative(ball, 0.041_09, 0.02);
     assert!(arrays["velocity"][1][2].as_f64().unwrap() < 0.0);
 
-    let json: Value =
-        serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let json = json(&out.join("summary.json"));
     for key in ["mlups", "cells", "tau", "y_plus_walls", "y_plus_blocks"] {
         assert!(json[key].is_number() || json[key].is_array(), "{key}");
     }
@@ -186,10 +163,7 @@ fn a_coupled_run_writes_what_both_write() {
     assert_eq!(coupling["readings"], 40);
     assert_eq!(coupling["readings_skipped"], 0);
     assert!(coupling["saturated_bricks"].as_u64().unwrap() > 0);
-    let told = summary.to_string();
-    for word in ["MLUPS", "y⁺", "2 blocks in the fluid", "awake"] {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
-    }
+    assert_contains(summary, &["MLUPS", "y⁺", "2 blocks in the fluid", "awake"]);
 }
 
 #[test]
@@ -199,25 +173,28 @@ fn a_coupled_restart_goes_on_to_the_same_bits() {
     let text = CHANNEL.replace("every = 0.02", "every = 0.01");
     let text = text.replace("[0.1, 0.04, 0.01]", "[0.119, 0.04, 0.05]");
     let text = &text[..text.find("[[views]]").unwrap()];
-    assert!(go(&args(&folder, text, "whole")).complete);
-    let mut parts = args(&folder, text, "parts");
-    // At that step fields and probes are due.
-    parts.steps = Some(28);
-    let first = go(&parts);
-    assert_eq!(first.checkpoint_step, Some(28));
+    // At the step of the cut fields and probes are due.
+    let files = [
+        "checkpoint.riprap",
+        "blocks_000040.vtu",
+        "fields_000028.vti",
+        "fields_000040.vti",
+        "stone.csv",
+        "wake.csv",
+        "history.csv",
+        "blocks.pvd",
+    ];
+    restarted(&folder, text, 28, &files);
     // In a folder where nothing of the first part is.
     let mut elsewhere = args(&folder, text, "elsewhere");
-    elsewhere.restart = first.checkpoint.clone();
+    elsewhere.restart = Some(folder.join("cut.riprap"));
     assert!(go(&elsewhere).complete);
-    for name in [
+    let files = [
         "fields_000028.vti",
         "fields_000040.vti",
         "blocks_000028.vtu",
-    ] {
-        let [one, two] =
-            ["whole", "elsewhere"].map(|out| fs::read(folder.join(out).join(name)).unwrap());
-        assert!(one == two, "{name} differs elsewhere");
-    }
+    ];
+    assert_same_files(&folder, ["whole", "elsewhere"], &files);
     for name in ["stone.csv", "wake.csv"] {
         let [one, two] = ["whole", "elsewhere"]
             .map(|out| fs::read_to_string(folder.join(out).join(name)).unwrap());
@@ -227,26 +204,8 @@ fn a_coupled_restart_goes_on_to_the_same_bits() {
             "{name} differs elsewhere"
         );
     }
-    parts.restart = first.checkpoint;
-    parts.steps = None;
-    let second = go(&parts);
-    assert_eq!((second.first_step, second.steps), (28, 40));
     let energy = last(&folder.join("whole/history.csv"), "block_kinetic_energy");
     assert!(energy > 1e-5, "nothing moves: {energy} J");
-    for name in [
-        "checkpoint.riprap",
-        "blocks_000040.vtu",
-        "fields_000028.vti",
-        "fields_000040.vti",
-        "stone.csv",
-        "wake.csv",
-        "history.csv",
-        "blocks.pvd",
-    ] {
-        let [one, two] =
-            ["whole", "parts"].map(|out| fs::read(folder.join(out).join(name)).unwrap());
-        assert!(one == two, "{name} differs");
-    }
 }
 
 #[test]
@@ -256,7 +215,7 @@ fn a_held_block_tells_its_buoyancy_and_feels_no_flow_where_there_is_none() {
     let cube = folder.join("out/cube.csv");
     // ρ g V = 1000 · 9.81 · 0.08³ N.
     let buoyancy = last(&cube, "buoyancy_z");
-    assert!((buoyancy / 5.022_72 - 1.0).abs() < 1e-4, "{buoyancy} N");
+    assert_relative(buoyancy, 5.022_72, 1e-4);
     for axis in ["x", "y", "z"] {
         for what in ["fluid_force", "fluid_torque"] {
             let flow = last(&cube, &format!("{what}_{axis}"));
@@ -280,7 +239,7 @@ fn a_block_tells_its_faces_and_how_safely_it_stands() {
     assert!(told.contains(line), "{told}");
     let cube = folder.join("out/cube.csv");
     assert_eq!(last(&cube, "safety_sliding"), f64::INFINITY);
-    assert!((last(&cube, "safety_uplift") / 2.65 - 1.0).abs() < 1e-4);
+    assert_relative(last(&cube, "safety_uplift"), 2.65, 1e-4);
     // The water is weightless and at rest, also at the rim of the joint.
     assert!(last(&cube, "joint_pressure").abs() < 1e-3);
     let faces = folder.join("out/cube_faces.csv");
@@ -297,11 +256,11 @@ fn a_block_tells_its_faces_and_how_safely_it_stands() {
     assert_eq!(normal.len(), 6);
     for face in 0..6 {
         let base = normal[face] < -0.5;
-        assert!((area[face] / 0.0064 - 1.0).abs() < 1e-12);
+        assert_relative(area[face], 0.0064, 1e-12);
         assert_eq!(wetted[face], if base { 0.0 } else { area[face] });
         assert_eq!(joint[face], f64::from(u8::from(base)));
         assert!(pressure[face].is_nan() == base && (base || pressure[face].abs() < 1e-3));
-        assert!((closed[face] - if base { area[face] } else { 0.0 }).abs() < 1e-12);
+        assert_near(closed[face], if base { area[face] } else { 0.0 }, 1e-12);
         assert!(inside[face].is_nan() != base && (!base || inside[face].abs() < 1e-3));
     }
     let shown = read_with_vtk(&folder.join("out/faces.pvd"));
@@ -355,27 +314,18 @@ fn a_crushed_block_names_the_last_checkpoint_and_loses_nothing() {
     let summary = go(&args);
     assert!(summary.diverged && !summary.complete, "{summary}");
     let told = summary.divergence.as_deref().unwrap();
-    for part in ["cube", "overlap by"] {
-        assert!(told.contains(part), "`{part}` is not in: {told}");
-    }
+    assert_contains(told, &["cube", "overlap by"]);
     let checkpoint = summary.checkpoint.clone().unwrap();
     let step = summary.checkpoint_step.unwrap();
     assert!(step > 0 && step < summary.steps && checkpoint.is_file());
     let told = summary.to_string();
     assert!(told.contains(&format!("--restart {}", checkpoint.display())));
     assert!(column(&folder.join("out/cube.csv"), "time").len() > 2);
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .args(["run", "--json", "--out"])
-        .arg(folder.join("again"))
-        .arg(&args.scene)
-        .output()
-        .unwrap();
+    let program = riprap(&folder, &["run", "--json", "--out", "again", "scene.toml"]);
     assert_eq!(program.status.code(), Some(1));
-    let told = String::from_utf8(program.stderr).unwrap();
-    assert!(told.contains("overlap by"), "{told}");
-    assert!(
-        told.contains("--restart") && told.contains(&format!("step {step}")),
-        "{told}"
+    assert_contains(
+        said(&program),
+        &["overlap by", "--restart", &format!("step {step}")],
     );
     // The state goes on from there.
     let rest = Args {
@@ -383,7 +333,7 @@ fn a_crushed_block_names_the_last_checkpoint_and_loses_nothing() {
         steps: Some(step + 2),
         ..args
     };
-    assert!(run(&rest, &AtomicBool::new(false)).unwrap().complete);
+    assert!(go(&rest).complete);
 }
 
 #[test]
@@ -406,22 +356,8 @@ fn shear_that_is_not_resolved_is_told_with_numbers() {
     for block in ["beside a wall", "beside block"] {
         let told = summary.warnings.iter().find(|told| told.contains(block));
         let told = told.unwrap();
-        for word in ["y⁺", "no wall model", "Cells of"] {
-            assert!(told.contains(word), "`{word}` is not in: {told}");
-        }
+        assert_contains(told, &["y⁺", "no wall model", "Cells of"]);
     }
-}
-
-fn check(name: &str, text: &str, more: &[&str]) -> std::process::Output {
-    let scene = folder(name).join("scene.toml");
-    fs::write(&scene, text).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_riprap"));
-    command
-        .arg("check")
-        .arg(&scene)
-        .args(more)
-        .output()
-        .unwrap()
 }
 
 #[test]
@@ -432,10 +368,7 @@ fn check_says_what_blocks_in_a_fluid_will_run() {
         "[[blocks]]\nname = \"brick\"\nkind = \"box\"\nsize = [0.02, 0.04, 0.02]\n\
          position = [0.091, 0.04, 0.01]\n[[blocks]]\nname = \"ball\"",
     );
-    let output = check("coupled_check", &text, &["--json"]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let (json, told) = check(&folder("coupled_check"), &text);
     let kernels = json["kernels"].as_array().unwrap();
     let named = |entry: &str| kernels.iter().find(|kernel| kernel["entry"] == entry);
     for entry in ["voxelise", "combine_parts", "reduce_tiles", "reduce_blocks"] {
@@ -453,116 +386,92 @@ fn check_says_what_blocks_in_a_fluid_will_run() {
     assert_eq!(blocks["closed_gaps"], 2);
     let gap = &blocks["narrowest"][0];
     assert_eq!(gap["blocks"], serde_json::json!(["stone", "brick"]));
-    assert!((gap["cells"].as_f64().unwrap() - 0.2).abs() < 1e-9, "{gap}");
+    assert_near(gap["cells"].as_f64().unwrap(), 0.2, 1e-9);
     let warnings = json["warnings"].to_string();
-    for word in [
-        "3 blocks are fewer than 8 cells across",
-        "1 gaps between blocks are narrower than a cell",
-        "between stone and brick",
-    ] {
-        assert!(warnings.contains(word), "`{word}` is not in: {warnings}");
-    }
+    assert_contains(
+        &warnings,
+        &[
+            "3 blocks are fewer than 8 cells across",
+            "1 gaps between blocks are narrower than a cell",
+            "between stone and brick",
+        ],
+    );
     assert!(!warnings.contains("lighter"), "{warnings}");
-    let text = check("coupled_check_text", &text, &[]);
-    let text = String::from_utf8(text.stdout).unwrap();
-    for word in [
+    let words = [
         "in the fluid",
         "sub-steps",
         "stone and brick",
         "0.20 cells",
         "warning",
-    ] {
-        assert!(text.contains(word), "`{word}` is not in:\n{text}");
-    }
+    ];
+    assert_contains(told, &words);
 }
 
 #[test]
 fn blocks_lighter_than_the_fluid_are_told() {
-    let output = check(
-        "coupled_light",
-        &CHANNEL.replace("2650", "600"),
-        &["--json"],
-    );
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let warnings = json["warnings"].to_string();
-    assert!(
-        warnings.contains("2 blocks are lighter than the fluid") && warnings.contains("0.60"),
-        "{warnings}"
-    );
-}
-
-/// Both commands refuse the scene with `from` replaced by `to`, with `words`.
-#[track_caller]
-fn refused(name: &str, from: &str, to: &str, words: &[&str]) {
-    assert!(CHANNEL.contains(from));
-    let scene = folder(name).join("scene.toml");
-    fs::write(&scene, CHANNEL.replace(from, to)).unwrap();
-    for command in ["check", "run"] {
-        let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-            .arg(command)
-            .arg(&scene)
-            .current_dir(folder(&format!("{name}_out")))
-            .output()
-            .unwrap();
-        let told = String::from_utf8(program.stderr).unwrap();
-        assert_eq!(program.status.code(), Some(2), "{command}: {told}");
-        for word in words {
-            assert!(told.contains(word), "`{word}` is not in: {told}");
-        }
-    }
+    let (json, _) = check(&folder("coupled_light"), &CHANNEL.replace("2650", "600"));
+    let words = ["2 blocks are lighter than the fluid", "0.60"];
+    assert_contains(&json["warnings"], &words);
 }
 
 #[test]
 fn what_cannot_be_is_refused_with_what_to_change() {
-    refused(
-        "coupled_outside",
-        "position = [0.11, 0.04, 0.05]",
-        "position = [0.11, 0.04, 0.5]",
-        &["ball", "outside the domain", "move it"],
-    );
-    refused(
-        "coupled_overlap",
-        "position = [0.11, 0.04, 0.05]",
-        "position = [0.06, 0.04, 0.025]",
-        &["overlap at the start", "stone", "ball", "relax"],
-    );
-    refused(
-        "coupled_in_wall",
-        "position = [0.06, 0.04, 0.01]",
-        "position = [0.06, 0.04, 0.005]",
-        &["overlap at the start", "stone", "wall_z_min"],
-    );
-    refused(
-        "coupled_probe",
-        "block = \"stone\"",
-        "block = \"stoen\"",
-        &["probes[0].block", "did you mean `stone`"],
-    );
-    refused(
-        "coupled_interval",
-        "[run]",
-        "[coupling]\ninterval = 0\n[run]",
-        &["coupling.interval", "at least 1"],
-    );
+    let ball = "position = [0.11, 0.04, 0.05]";
+    let stone = "position = [0.06, 0.04, 0.01]";
+    for (name, from, to, words) in [
+        (
+            "outside",
+            ball,
+            "position = [0.11, 0.04, 0.5]",
+            &["ball", "outside the domain", "move it"][..],
+        ),
+        (
+            "overlap",
+            ball,
+            "position = [0.06, 0.04, 0.025]",
+            &["overlap at the start", "stone", "ball", "relax"],
+        ),
+        (
+            "in_wall",
+            stone,
+            "position = [0.06, 0.04, 0.005]",
+            &["overlap at the start", "stone", "wall_z_min"],
+        ),
+        (
+            "probe",
+            "block = \"stone\"",
+            "block = \"stoen\"",
+            &["probes[0].block", "did you mean `stone`"],
+        ),
+        (
+            "interval",
+            "[run]",
+            "[coupling]\ninterval = 0\n[run]",
+            &["coupling.interval", "at least 1"],
+        ),
+    ] {
+        assert!(CHANNEL.contains(from));
+        assert_refused(
+            &format!("coupled_{name}"),
+            &CHANNEL.replace(from, to),
+            words,
+        );
+    }
 }
 
 #[test]
 fn phases_of_a_step_are_timed_by_name_and_change_no_bits() {
     let folder = folder("timings");
-    let plain = args(&folder, CHANNEL, "plain");
-    go(&plain);
-    let run = |out: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_riprap"))
-            .args(["run", plain.scene.to_str().unwrap(), "--timings", "--out"])
-            .arg(folder.join(out))
-            .output()
-            .unwrap();
-        String::from_utf8(output.stderr).unwrap()
-    };
-    let text = run("timed");
-    for phase in ["readback wait", "broadphase", "contact", "integrate"] {
-        assert!(text.contains(phase), "{phase}: {text}");
-    }
+    go(&args(&folder, CHANNEL, "plain"));
+    let timed = riprap(
+        &folder,
+        &["run", "scene.toml", "--timings", "--out", "timed"],
+    );
+    let text = said(&timed);
+    assert_contains(
+        &text,
+        &["readback wait", "broadphase", "contact", "integrate"],
+    );
     // Passes are timed where the device has timestamps: all or none of them.
     let passes = [
         "voxelise",
@@ -573,6 +482,5 @@ fn phases_of_a_step_are_timed_by_name_and_change_no_bits() {
     ];
     let timed = passes.map(|pass| text.lines().any(|line| line.starts_with(pass)));
     assert!(timed == [true; 5] || timed == [false; 5], "{text}");
-    let history = |out: &str| fs::read(folder.join(out).join("history.csv")).unwrap();
-    assert_eq!(history("plain"), history("timed"));
+    assert_same_files(&folder, ["plain", "timed"], &["history.csv"]);
 }

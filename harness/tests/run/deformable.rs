@@ -1,8 +1,8 @@
 //! `riprap run` on blocks that deform, dry and in a fluid: stresses in files and tables, restarts, refusals.
 
-use crate::fixture::{args, folder, go};
-use riprap::output::Table;
-use std::{fs, path::Path};
+use crate::fixture::{folder, last, restarted};
+use kit::{assert_contains, assert_relative};
+use std::fs;
 
 /// A deformable cube on a rigid one on a floor, and a bar that hangs.
 const DRY: &str = r#"
@@ -109,46 +109,30 @@ block = "cube"
 every = 0.005
 "#;
 
-fn last(path: &Path, column: &str) -> f64 {
-    let table = Table::read(path).unwrap();
-    *table.column(column).unwrap().last().unwrap()
-}
-
-/// Runs it whole, and in two parts cut after `steps`; the files named are the same, bit for bit.
-fn cut(name: &str, text: &str, steps: u64, files: &[&str]) -> std::path::PathBuf {
-    let folder = folder(name);
-    assert!(go(&args(&folder, text, "whole")).complete);
-    let mut parts = args(&folder, text, "parts");
-    parts.steps = Some(steps);
-    parts.restart = go(&parts).checkpoint;
-    parts.steps = None;
-    assert_eq!(go(&parts).first_step, steps);
-    for file in files {
-        let [one, two] =
-            ["whole", "parts"].map(|out| fs::read(folder.join(out).join(file)).unwrap());
-        assert!(one == two, "{file} differs");
-    }
-    folder.join("whole")
-}
-
 #[test]
 fn stresses_are_in_files_and_tables_and_survive_a_restart() {
     let files = ["checkpoint.riprap", "soft.csv", "bar.csv", "history.csv"];
-    let out = cut("deformable_dry", DRY, 41, &files);
+    let folder = folder("deformable_dry");
+    restarted(&folder, DRY, 41, &files);
+    let out = folder.join("whole");
     let weight = 2500.0 * 9.81;
     let soft = last(&out.join("soft.csv"), "stress_zz");
-    assert!((soft / (-0.5 * weight) - 1.0).abs() < 1e-3, "{soft}");
+    assert_relative(soft, -0.5 * weight, 1e-3);
     let mises = last(&out.join("soft.csv"), "von_mises");
-    assert!((mises / (0.5 * weight) - 1.0).abs() < 1e-3, "{mises}");
+    assert_relative(mises, 0.5 * weight, 1e-3);
     let bar = last(&out.join("bar.csv"), "stress_zz");
-    assert!((bar / weight - 1.0).abs() < 1e-3, "{bar}");
+    assert_relative(bar, weight, 1e-3);
     let support = last(&out.join("bar.csv"), "support_z");
-    assert!((support / (2.0 * weight) - 1.0).abs() < 1e-3, "{support}");
+    assert_relative(support, 2.0 * weight, 1e-3);
     // σ²/2E over the volume.
     let energy = last(&out.join("history.csv"), "strain_energy");
     let exact = (0.25 + 2.0) * weight * weight / 2e9;
-    assert!((energy / exact - 1.0).abs() < 2e-3, "{energy}, {exact}");
-    assert!((last(&out.join("history.csv"), "max_von_mises") / weight - 1.0).abs() < 1e-3);
+    assert_relative(energy, exact, 2e-3);
+    assert_relative(
+        last(&out.join("history.csv"), "max_von_mises"),
+        weight,
+        1e-3,
+    );
     assert!(last(&out.join("history.csv"), "energy_error").abs() < 0.01);
     let rigid = fs::read_to_string(out.join("rigid.csv")).unwrap();
     assert!(
@@ -164,30 +148,27 @@ fn stresses_are_in_files_and_tables_and_survive_a_restart() {
         .max()
         .unwrap();
     let text = String::from_utf8_lossy(&fs::read(vtu).unwrap()).into_owned();
-    for array in [
-        "\"stress\" NumberOfComponents=\"6\"",
-        "\"von_mises\"",
-        "\"strain_energy\"",
-    ] {
-        assert!(text.contains(array), "{array}");
-    }
+    assert_contains(
+        &text,
+        &[
+            "\"stress\" NumberOfComponents=\"6\"",
+            "\"von_mises\"",
+            "\"strain_energy\"",
+        ],
+    );
 }
 
 #[test]
 fn a_cube_in_water_bears_its_weight_less_its_buoyancy() {
     let files = ["cube.csv", "checkpoint.riprap"];
-    let out = cut("deformable_wet", WET, 5, &files).join("cube.csv");
+    let folder = folder("deformable_wet");
+    restarted(&folder, WET, 5, &files);
+    let out = folder.join("whole/cube.csv");
     // (ρ − ρ_w) g h/2, from the points below: the water at rest adds nothing but rounding of its loads.
     let exact = -(2650.0 - 1000.0) * 9.81 * 0.04;
     let stress = last(&out, "stress_zz");
-    assert!(
-        (stress / exact - 1.0).abs() < 0.02,
-        "{stress} Pa, not {exact} Pa"
-    );
+    assert_relative(stress, exact, 0.02);
     let support = last(&out, "support_z");
     let weight = (2650.0 - 1000.0) * 9.81 * 0.08f64.powi(3);
-    assert!(
-        (support / weight - 1.0).abs() < 0.02,
-        "{support} N, not {weight} N"
-    );
+    assert_relative(support, weight, 0.02);
 }

@@ -1,9 +1,12 @@
 //! `riprap run` on small scenes of blocks: what it writes, how it ends, and what it refuses.
 
-use crate::fixture::{args, folder, go};
-use riprap::output::Table;
-use riprap_harness::run::{Args, run};
-use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
+use crate::fixture::{
+    args, assert_refused, assert_same_files, check, folder, go, json, last, read_with_vtk,
+    restarted, riprap,
+};
+use kit::{assert_contains, assert_near};
+use riprap_harness::run::run;
+use std::{fs, sync::atomic::AtomicBool};
 
 /// Two cubes that lie on each other on a floor, a ball that falls on them, and a cube that is driven
 /// past them.
@@ -51,32 +54,6 @@ block = "cube_2"
 every = 0.01
 "#;
 
-/// What VTK finds in a `.vtu`, `.vtp` or `.pvd`.
-fn read_with_vtk(path: &Path) -> serde_json::Value {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/run/read_blocks.py");
-    let output = Command::new(target.join("python/bin/python"))
-        .arg(script)
-        .arg(path)
-        .output()
-        .expect("run harness/python.sh");
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        output.status.success() && complaint.is_empty(),
-        "VTK: {complaint}"
-    );
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-fn last(path: &Path, column: &str) -> f64 {
-    *Table::read(path)
-        .unwrap()
-        .column(column)
-        .unwrap()
-        .last()
-        .unwrap()
-}
-
 #[test]
 fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     let folder = folder("dry_files");
@@ -112,7 +89,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
         .map(|e| e[0].as_f64().unwrap())
         .collect();
     assert_eq!(times.len(), 3);
-    assert!((times[2] - 0.1).abs() < 1e-9, "{times:?}");
+    assert_near(times[2], 0.1, 1e-9);
     let cells = blocks["cells"].as_array().unwrap();
     assert_eq!(cells.len(), 5);
     assert!(cells.iter().all(|cell| cell["type"] == 42));
@@ -123,10 +100,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     // VTK's volumes: two cubes, the ball between meridians (2 % short), the sledge, the floor.
     for (cell, volume) in cells.iter().zip([1.0, 1.0, 0.1131 * 0.97, 0.125, 36.0]) {
         let found = cell["volume"].as_f64().unwrap();
-        assert!(
-            (found - volume).abs() < 0.02 * volume,
-            "{found} for {volume}"
-        );
+        assert_near(found, volume, 0.02 * volume);
     }
     let arrays = blocks["arrays"].as_object().unwrap();
     let fixed: Vec<f64> = arrays["fixed"]
@@ -137,7 +111,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
         .collect();
     assert_eq!(fixed, [0.0, 0.0, 0.0, 0.0, 1.0]);
     let sledge = arrays["velocity"][3][0].as_f64().unwrap();
-    assert!((sledge - 0.05).abs() < 1e-6, "{sledge}");
+    assert_near(sledge, 0.05, 1e-6);
     let floor = cells[4]["bounds"].as_array().unwrap();
     assert_eq!(floor[5].as_f64().unwrap(), 0.0);
 
@@ -164,10 +138,9 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     assert!(header.starts_with(
         "step,time,position_x,position_y,position_z,velocity_x,velocity_y,velocity_z,rotation_x,"
     ));
-    assert!((last(&out.join("top.csv"), "position_z") - 1.5).abs() < 2e-3);
+    assert_near(last(&out.join("top.csv"), "position_z"), 1.5, 2e-3);
     assert_eq!(last(&out.join("history.csv"), "awake_blocks"), 4.0);
-    let json: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let json = json(&out.join("summary.json"));
     for key in [
         "steps",
         "seconds",
@@ -189,42 +162,25 @@ fn a_restart_of_blocks_goes_on_to_the_same_bits() {
     let text = PILE
         .replace("duration = 0.1", "steps = 60")
         .replace("every = 0.05", "every = 0.01");
-    assert!(go(&args(&folder, &text, "whole")).complete);
-    let mut parts = args(&folder, &text, "parts");
-    parts.steps = Some(23);
-    let first = go(&parts);
-    assert_eq!(first.checkpoint_step, Some(23));
-    parts.restart = first.checkpoint;
-    parts.steps = None;
-    let second = go(&parts);
-    assert_eq!((second.first_step, second.steps), (23, 60));
-    for name in [
+    let files = [
         "checkpoint.riprap",
         "blocks_000060.vtu",
         "top.csv",
         "history.csv",
         "blocks.pvd",
         "contacts_000060.vtp",
-    ] {
-        let [one, two] =
-            ["whole", "parts"].map(|out| fs::read(folder.join(out).join(name)).unwrap());
-        assert!(one == two, "{name} differs");
-    }
+    ];
+    restarted(&folder, &text, 23, &files);
 }
 
 #[test]
 fn a_run_that_searches_pairs_on_a_device_is_the_same() {
     let folder = folder("dry_device");
-    let on_host = args(&folder, PILE, "host");
-    go(&on_host);
+    go(&args(&folder, PILE, "host"));
     let title = "title = \"pile\"\n";
     let text = PILE.replace(title, &format!("{title}[rock]\nbroadphase = \"device\"\n"));
-    let on_device = args(&folder, &text, "device");
-    go(&on_device);
-    for table in ["history.csv", "top.csv"] {
-        let read = |args: &Args| fs::read(args.out.as_ref().unwrap().join(table)).unwrap();
-        assert!(read(&on_host) == read(&on_device), "{table}");
-    }
+    go(&args(&folder, &text, "device"));
+    assert_same_files(&folder, ["host", "device"], &["history.csv", "top.csv"]);
 }
 
 #[test]
@@ -267,81 +223,27 @@ fn a_block_that_is_crushed_ends_the_run_with_names_and_a_state() {
         [run]
         duration = 1
     "#;
-    let args = args(&folder, text, "out");
-    let summary = go(&args);
+    let summary = go(&args(&folder, text, "out"));
     assert!(summary.diverged && !summary.complete);
     let told = summary.divergence.as_deref().unwrap();
-    for part in ["victim", "ram", "overlap by"] {
-        assert!(told.contains(part), "`{part}` is not in: {told}");
-    }
+    assert_contains(told, &["victim", "ram", "overlap by"]);
     let at = summary.steps;
     assert!(at > 0);
     assert_eq!(summary.checkpoint_step, Some(at));
     assert!(folder.join(format!("out/blocks_{at:06}.vtu")).is_file());
     assert!(summary.to_string().contains("--restart"), "{summary}");
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .args(["run", "--json", "--out"])
-        .arg(folder.join("program"))
-        .arg(&args.scene)
-        .output()
-        .unwrap();
+    let program = riprap(
+        &folder,
+        &["run", "--json", "--out", "program", "scene.toml"],
+    );
     assert_eq!(program.status.code(), Some(1));
     let json: serde_json::Value = serde_json::from_slice(&program.stdout).unwrap();
     assert_eq!(json["diverged"], true);
 }
 
-/// What the program says when it refuses `command` on a scene.
-fn refusal(command: &str, name: &str, text: &str) -> String {
-    let scene = folder(&format!("dry_{name}")).join("scene.toml");
-    fs::write(&scene, text).unwrap();
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .arg(command)
-        .arg(&scene)
-        .arg("--json")
-        .current_dir(folder(&format!("dry_{name}_out")))
-        .output()
-        .unwrap();
-    let told = String::from_utf8(program.stderr).unwrap();
-    assert_eq!(program.status.code(), Some(2), "{told}");
-    assert!(!told.contains("panicked"), "{told}");
-    told
-}
-
-#[track_caller]
-fn refused(name: &str, from: &str, to: &str, words: &[&str]) {
-    assert!(PILE.contains(from));
-    for command in ["check", "run"] {
-        let told = refusal(command, name, &PILE.replace(from, to));
-        for word in words {
-            assert!(told.contains(word), "`{word}` is not in: {told}");
-        }
-    }
-}
-
 #[test]
-fn blocks_that_overlap_at_the_start_are_named_with_depths() {
-    refused(
-        "overlap",
-        "step = [0, 0, 1]",
-        "step = [0, 0, 0.9]",
-        &["cube_1", "cube_2", "1.000e-1 m", "relax"],
-    );
-}
-
-#[test]
-fn a_time_step_beyond_the_bound_is_refused_with_the_bound() {
-    refused(
-        "step",
-        "[run]",
-        "[rock]\ntime_step = 0.01\n[run]",
-        &["time_step", "at most", "cube"],
-    );
-}
-
-#[test]
-fn meshes_that_enclose_nothing_are_refused() {
-    let dir = folder("dry_mesh_files");
-    let file = dir.join("open.stl");
+fn what_cannot_be_is_refused_with_what_to_change() {
+    let file = folder("dry_mesh_files").join("open.stl");
     fs::write(
         &file,
         "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
@@ -349,12 +251,29 @@ fn meshes_that_enclose_nothing_are_refused() {
     )
     .unwrap();
     let mesh = format!("kind = \"mesh\"\nfile = {:?}", file.display().to_string());
-    refused(
-        "mesh",
-        "kind = \"sphere\"\nradius = 0.3",
-        &mesh,
-        &["open.stl", "boundary edges", "close its holes"],
-    );
+    for (name, from, to, words) in [
+        (
+            "overlap",
+            "step = [0, 0, 1]",
+            "step = [0, 0, 0.9]",
+            &["cube_1", "cube_2", "1.000e-1 m", "relax"][..],
+        ),
+        (
+            "step",
+            "[run]",
+            "[rock]\ntime_step = 0.01\n[run]",
+            &["time_step", "at most", "cube"],
+        ),
+        (
+            "mesh",
+            "kind = \"sphere\"\nradius = 0.3",
+            &mesh,
+            &["open.stl", "boundary edges", "close its holes"],
+        ),
+    ] {
+        assert!(PILE.contains(from));
+        assert_refused(&format!("dry_{name}"), &PILE.replace(from, to), words);
+    }
 }
 
 #[test]
@@ -374,24 +293,7 @@ fn blocks_that_overlap_can_be_pushed_apart() {
 
 #[test]
 fn check_says_what_will_run() {
-    let scene = folder("dry_check").join("scene.toml");
-    fs::write(&scene, PILE).unwrap();
-    let check = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_riprap"));
-        let output = command
-            .arg("check")
-            .arg(&scene)
-            .args(more)
-            .output()
-            .unwrap();
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        String::from_utf8(output.stdout).unwrap()
-    };
-    let json: serde_json::Value = serde_json::from_str(&check(&["--json"])).unwrap();
+    let (json, text) = check(&folder("dry_check"), PILE);
     for (key, value) in [
         ("blocks", 5),
         ("free", 3),
@@ -406,14 +308,12 @@ fn check_says_what_will_run() {
     }
     assert!(json["sub_steps"].as_u64().unwrap() >= 10);
     let steps = json["steps"].as_f64().unwrap() * json["time_step"].as_f64().unwrap();
-    assert!((steps - 0.1).abs() < 1e-3);
-    let text = check(&[]);
-    for word in [
+    assert_near(steps, 0.1, 1e-3);
+    let words = [
         "5: 3 free, 1 driven, 1 fixed",
         "sub-steps",
         "pairs on the host",
         "ball",
-    ] {
-        assert!(text.contains(word), "`{word}` is not in:\n{text}");
-    }
+    ];
+    assert_contains(text, &words);
 }

@@ -1,7 +1,7 @@
 //! `riprap run --error-estimate`: what it compares, and what it refuses.
 
-use crate::fixture::{args, folder, go};
-use kit::scene::STILL_WATER;
+use crate::fixture::{args, column, folder, go, json, last};
+use kit::{assert_contains, assert_near, scene::STILL_WATER};
 use riprap_harness::run::{Args, Estimate, Headline, run};
 use std::{path::Path, sync::atomic::AtomicBool};
 
@@ -81,10 +81,9 @@ fn a_flow_is_compared_with_cells_twice_as_wide() {
     let wide = CHANNEL.replace("cell = 0.125", "cell = 0.25");
     go(&args(&folder, &wide, "wide"));
     let mean = |path: &str| {
-        let table = riprap::output::Table::read(folder.join(path)).unwrap();
-        let (times, values) = (table.column("time"), table.column("velocity_x"));
-        let rows = times.unwrap().iter().zip(values.unwrap());
-        let last: Vec<f64> = rows.filter(|(t, _)| **t >= 1.5).map(|(_, u)| *u).collect();
+        let [times, values] = ["time", "velocity_x"].map(|name| column(&folder.join(path), name));
+        let rows = times.into_iter().zip(values);
+        let last: Vec<f64> = rows.filter(|(t, _)| *t >= 1.5).map(|(_, u)| u).collect();
         last.iter().sum::<f64>() / last.len() as f64
     };
     let velocity = find(&estimate, "middle", "velocity");
@@ -100,12 +99,8 @@ fn a_flow_is_compared_with_cells_twice_as_wide() {
     assert!(estimate.headlines.iter().all(|h| h.table != "profile"));
 
     let told = estimate.to_string();
-    assert!(
-        told.contains("middle: velocity (") && told.contains(" m/s ± "),
-        "{told}"
-    );
-    let json = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_contains(told, &["middle: velocity (", " m/s ± "]);
+    let json = json(&folder.join("out/summary.json"));
     let all = json["error_estimate"]["headlines"].as_array().unwrap();
     assert_eq!(all.len(), estimate.headlines.len());
 }
@@ -114,14 +109,13 @@ fn a_flow_is_compared_with_cells_twice_as_wide() {
 fn an_odd_number_of_cells_is_refused_with_what_would_do() {
     let text = CHANNEL.replace("size = [1, 1, 1]", "size = [1, 1.125, 1]");
     let error = refused(&folder("estimate_odd"), &text);
-    for part in [
+    let parts = [
         "9 cells",
         "along y",
         "1.000000 or 1.250000 m",
         "--error-estimate",
-    ] {
-        assert!(error.contains(part), "{part}: {error}");
-    }
+    ];
+    assert_contains(error, &parts);
 }
 
 #[test]
@@ -160,14 +154,11 @@ fn both_runs_of_water_end_together() {
         "\"potential_energy\"]\n        every = 0.05",
     );
     let estimate = estimated(&folder, &text);
-    let end = |folder: &Path| {
-        let table = riprap::output::Table::read(folder.join("history.csv")).unwrap();
-        *table.column("time").unwrap().last().unwrap()
-    };
+    let end = |folder: &Path| last(&folder.join("history.csv"), "time");
     let ends = [&folder.join("out"), &estimate.folder].map(|folder| end(folder));
     // Three steps an interval.
-    assert!((ends[0] - 8.0 * 0.05 / 3.0).abs() < 1e-9, "{ends:?}");
-    assert!((ends[0] - ends[1]).abs() < 1e-9, "{ends:?}");
+    assert_near(ends[0], 8.0 * 0.05 / 3.0, 1e-9);
+    assert_near(ends[0], ends[1], 1e-9);
 }
 
 #[test]

@@ -1,9 +1,13 @@
-//! What tests of `riprap run` share: a folder of their own, and a scene in it.
+//! What tests of `riprap run` share: a folder of their own, a scene in it, and reading what was written.
 
+use kit::assert_contains;
+use riprap::output::Table;
 use riprap_harness::run::{Args, Summary, run};
+use serde_json::Value;
 use std::{
     fs,
     path::{Path, PathBuf},
+    process::{Command, Output},
     sync::atomic::AtomicBool,
 };
 
@@ -29,4 +33,101 @@ pub fn args(folder: &Path, text: &str, out: &str) -> Args {
 /// The whole run.
 pub fn go(args: &Args) -> Summary {
     run(args, &AtomicBool::new(false)).unwrap()
+}
+
+/// Runs the scene whole, into `whole`, and in two parts that are cut after `steps` steps, into `parts`; the named files
+/// are the same, bit for bit. The state of the cut is left in `cut.riprap`. Returns the summary of the whole.
+pub fn restarted(folder: &Path, text: &str, steps: u64, files: &[&str]) -> Summary {
+    let whole = go(&args(folder, text, "whole"));
+    assert!(whole.complete, "{whole}");
+    let mut parts = args(folder, text, "parts");
+    parts.steps = Some(steps);
+    let first = go(&parts);
+    assert_eq!(first.checkpoint_step, Some(steps));
+    let state = folder.join("cut.riprap");
+    fs::copy(first.checkpoint.unwrap(), &state).unwrap();
+    parts.restart = Some(state);
+    parts.steps = None;
+    let second = go(&parts);
+    assert_eq!((second.first_step, second.steps), (steps, whole.steps));
+    assert_same_files(folder, ["whole", "parts"], files);
+    whole
+}
+
+/// Two runs have left the same bits.
+pub fn assert_same_files(folder: &Path, runs: [&str; 2], files: &[&str]) {
+    for file in files {
+        let [one, two] = runs.map(|run| fs::read(folder.join(run).join(file)).unwrap());
+        assert!(one == two, "{file} differs");
+    }
+}
+
+/// A column of a table.
+pub fn column(path: &Path, name: &str) -> Vec<f64> {
+    let table = Table::read(path).unwrap();
+    table.column(name).unwrap().to_vec()
+}
+
+/// The last number of a column.
+pub fn last(path: &Path, name: &str) -> f64 {
+    *column(path, name).last().unwrap()
+}
+
+/// A file of JSON.
+pub fn json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// What VTK finds in a `.vtu`, `.vtp` or `.pvd`.
+pub fn read_with_vtk(path: &Path) -> Value {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/run/read_blocks.py");
+    let output = Command::new(target.join("python/bin/python"))
+        .arg(script)
+        .arg(path)
+        .output()
+        .expect("run harness/python.sh");
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success() && complaint.is_empty(),
+        "VTK: {complaint}"
+    );
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The program with these arguments, in a folder.
+pub fn riprap(folder: &Path, args: &[&str]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_riprap"));
+    program.args(args).current_dir(folder).output().unwrap()
+}
+
+/// What the program has written to its error output.
+pub fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What `riprap check` says of a scene, as JSON and as text.
+pub fn check(folder: &Path, text: &str) -> (Value, String) {
+    fs::write(folder.join("scene.toml"), text).unwrap();
+    let json = riprap(folder, &["check", "scene.toml", "--json"]);
+    assert!(json.status.success(), "{}", said(&json));
+    let text = riprap(folder, &["check", "scene.toml"]);
+    (
+        serde_json::from_slice(&json.stdout).unwrap(),
+        String::from_utf8(text.stdout).unwrap(),
+    )
+}
+
+/// Both `check` and `run` refuse a scene, with these words.
+#[track_caller]
+pub fn assert_refused(name: &str, text: &str, words: &[&str]) {
+    let folder = folder(name);
+    fs::write(folder.join("scene.toml"), text).unwrap();
+    for command in ["check", "run"] {
+        let output = riprap(&folder, &[command, "scene.toml"]);
+        let told = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{command}: {told}");
+        assert!(!told.contains("panicked"), "{told}");
+        assert_contains(told, words);
+    }
 }

@@ -1,13 +1,14 @@
 //! Runs that end in the middle: killed, or on a disk that is full. What is on disk leads on to the same bits. Runs that
 //! memory has no room for say so.
 
-use crate::fixture::folder;
+use crate::fixture::{assert_same_files, folder, said};
+use kit::assert_contains;
 use riprap::wgpu;
 use riprap_harness::gpu;
 use std::{
     fs,
     path::Path,
-    process::{Command, Output},
+    process::Command,
     time::{Duration, Instant},
 };
 
@@ -57,10 +58,6 @@ fn riprap(folder: &Path, steps: u64, out: &str) -> Command {
     command
 }
 
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
 #[test]
 fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     let folder = folder("killed");
@@ -83,19 +80,16 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     child.wait().unwrap();
     let saved = riprap::simulation::checkpoint::Checkpoint::read(&state).unwrap();
     let last = saved.step + 37;
-    let steps = last.to_string();
     let mut more = riprap(&folder, last, "cut");
     let more = more.arg("--restart").arg(&state).output().unwrap();
     assert!(more.status.success(), "{}", said(&more));
     let whole = riprap(&folder, last, "whole").output().unwrap();
     assert!(whole.status.success(), "{}", said(&whole));
-    let of = |out: &str, file: &str| fs::read(folder.join(out).join(file)).unwrap();
-    for file in ["checkpoint.riprap", "history.csv"] {
-        assert!(
-            of("cut", file) == of("whole", file),
-            "{file} at step {steps}"
-        );
-    }
+    assert_same_files(
+        &folder,
+        ["cut", "whole"],
+        &["checkpoint.riprap", "history.csv"],
+    );
 }
 
 /// `/dev/full` answers every write with ENOSPC, as a full disk does.
@@ -117,15 +111,14 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
     let full = riprap(&folder, 60, "full").output().unwrap();
     let text = said(&full);
     assert_eq!(full.status.code(), Some(1), "{text}");
-    for word in [
+    let words = [
         last.as_str(),
         "No space left",
         "free some space",
         "checkpoint.riprap",
         "--restart",
-    ] {
-        assert!(text.contains(word), "{word}: {text}");
-    }
+    ];
+    assert_contains(text, &words);
     // That state is whole, and with more space leads to the same end.
     let state = folder.join("full/checkpoint.riprap");
     let _ = fs::remove_file(folder.join("full").join(format!("{last}.part")));
@@ -133,10 +126,7 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
     let more = more.arg("--restart").arg(&state).output().unwrap();
     assert!(more.status.success(), "{}", said(&more));
     assert!(!said(&more).contains("another scene"), "{}", said(&more));
-    let of = |out: &str, file: &str| fs::read(folder.join(out).join(file)).unwrap();
-    for file in ["checkpoint.riprap", last] {
-        assert!(of("full", file) == of("good", file), "{file}");
-    }
+    assert_same_files(&folder, ["full", "good"], &["checkpoint.riprap", last]);
 }
 
 /// Lavapipe has the memory that the process may have: 1.8 GB do not hold 216³ cells of 108 bytes and what they start
@@ -167,12 +157,11 @@ fn a_run_without_memory_for_its_cells_says_how_much_they_take() {
     let output = command.output().unwrap();
     let text = said(&output);
     assert_eq!(output.status.code(), Some(2), "{text}");
-    for word in [
+    let words = [
         "10077696 cells",
         "1088391184 bytes",
         "memory",
         "larger cell or 16-bit",
-    ] {
-        assert!(text.contains(word), "{word}: {text}");
-    }
+    ];
+    assert_contains(text, &words);
 }

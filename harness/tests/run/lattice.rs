@@ -1,10 +1,10 @@
 //! `riprap run` on small scenes: what it writes, and how it ends.
 
-use crate::fixture::{args, folder, go};
+use crate::fixture::{args, column, folder, go, json, restarted, riprap, said};
+use kit::assert_contains;
 use riprap::Error;
-use riprap::output::Table;
 use riprap_harness::run::{Args, Schedule, Unfinished, run};
-use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
+use std::{fs, path::Path, sync::atomic::AtomicBool};
 
 /// The first line of a table.
 fn header(path: &Path) -> String {
@@ -117,8 +117,7 @@ fn the_couette_scene_writes_what_it_asks_for() {
         header(&out.join("history.csv")),
         "step,time,kinetic_energy,momentum_x"
     );
-    let profile = Table::read(out.join("profile.csv")).unwrap();
-    let speed = profile.column("velocity_x").unwrap();
+    let speed = column(&out.join("profile.csv"), "velocity_x");
     assert_eq!(speed.len(), 32);
     assert!(speed.is_sorted(), "the plate drags the fluid along");
     assert_eq!(
@@ -133,8 +132,7 @@ fn the_couette_scene_writes_what_it_asks_for() {
         "{}",
         summary.max_mach
     );
-    let json = fs::read_to_string(out.join("summary.json")).unwrap();
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = json(&out.join("summary.json"));
     for key in [
         "steps",
         "seconds",
@@ -146,26 +144,12 @@ fn the_couette_scene_writes_what_it_asks_for() {
     ] {
         assert!(!json[key].is_null(), "{key}");
     }
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_restart_goes_on_to_the_same_bits() {
     let folder = folder("run_restart");
-    let whole = args(&folder, STEP, "whole");
-    assert!(go(&whole).complete);
-    let mut parts = args(&folder, STEP, "parts");
-    parts.steps = Some(13);
-    let first = go(&parts);
-    assert_eq!(first.checkpoint_step, Some(13));
-    parts.restart = first.checkpoint;
-    parts.steps = None;
-    let second = go(&parts);
-    assert_eq!(
-        (second.first_step, second.steps, second.complete),
-        (13, 24, true)
-    );
-    for name in [
+    let files = [
         "checkpoint.riprap",
         "front.csv",
         "above.csv",
@@ -173,16 +157,12 @@ fn a_restart_goes_on_to_the_same_bits() {
         "history.csv",
         "fields_000024.vti",
         "fields.pvd",
-    ] {
-        let [one, two] =
-            ["whole", "parts"].map(|out| fs::read(folder.join(out).join(name)).unwrap());
-        assert!(one == two, "{name} differs");
-    }
+    ];
+    restarted(&folder, STEP, 13, &files);
     assert_eq!(
         header(&folder.join("whole/front.csv")),
         "step,time,area,pressure_mean,pressure_min,pressure_max,force,x_of_max,y_of_max,z_of_max"
     );
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -200,38 +180,29 @@ fn a_stopped_run_leaves_its_state_and_all_its_outputs() {
     );
     assert_eq!(summary.checkpoint_step, Some(7));
     assert!(fs::read(summary.checkpoint.unwrap()).unwrap() == before);
-    let table = Table::read(folder.join("out/along.csv")).unwrap();
-    assert_eq!(table.column("step").unwrap(), [7.0; 5]);
-    fs::remove_dir_all(folder).unwrap();
+    assert_eq!(column(&folder.join("out/along.csv"), "step"), [7.0; 5]);
 }
 
 #[test]
 fn a_flow_that_diverges_says_where_and_why_and_keeps_what_there_is() {
     let folder = folder("run_diverge");
-    let args = args(&folder, RUNAWAY, "out");
-    let summary = go(&args);
+    let summary = go(&args(&folder, RUNAWAY, "out"));
     assert!(summary.diverged && !summary.complete);
     let told = summary.divergence.as_deref().unwrap();
-    for part in ["diverged at step ", "in cell (", " m: ", "; "] {
-        assert!(told.contains(part), "{part} in {told}");
-    }
+    assert_contains(told, &["diverged at step ", "in cell (", " m: ", "; "]);
     let last_good = summary.checkpoint_step.unwrap();
     assert!(0 < last_good && last_good < summary.steps);
     assert!(folder.join("out/checkpoint.riprap").is_file());
     assert!(folder.join("out/summary.json").is_file());
     assert!(summary.to_string().contains("--restart"), "{summary}");
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .args(["run", "--json", "--out"])
-        .arg(folder.join("program"))
-        .arg(&args.scene)
-        .output()
-        .unwrap();
+    let program = riprap(
+        &folder,
+        &["run", "--json", "--out", "program", "scene.toml"],
+    );
     assert_eq!(program.status.code(), Some(1));
     let json: serde_json::Value = serde_json::from_slice(&program.stdout).unwrap();
     assert_eq!(json["diverged"], true);
-    let told = String::from_utf8_lossy(&program.stderr);
-    assert!(told.contains("\nerror: diverged at step "), "{told}");
-    fs::remove_dir_all(folder).unwrap();
+    assert_contains(said(&program), &["\nerror: diverged at step "]);
 }
 
 #[test]
@@ -251,7 +222,6 @@ fn a_flow_that_diverges_unprepared_has_a_state_to_go_on_from() {
     args.steps = Some(step + 2);
     let rest = go(&args);
     assert!(rest.complete && rest.first_step == step, "{rest}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 /// The message of a run that is refused before it starts.
@@ -269,7 +239,6 @@ fn a_folder_that_cannot_be_made_is_refused() {
     fs::write(folder.join("file"), "").unwrap();
     let told = refusal(&args(&folder, STEP, "file/out"));
     assert!(told.contains("--out"), "{told}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -286,47 +255,36 @@ fn a_checkpoint_that_does_not_fit_is_refused() {
     restart.steps = Some(2);
     restart.restart = go(&restart).checkpoint;
     let told = refusal(&restart);
-    assert!(
-        told.contains("step 2") && told.contains("--steps"),
-        "{told}"
-    );
+    assert_contains(&told, &["step 2", "--steps"]);
     fs::write(&restart.scene, STEP.replace("[0.24,", "[0.25,")).unwrap();
     restart.steps = Some(9);
     let told = refusal(&restart);
     assert!(told.contains("cells"), "{told}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 fn a_probe_cannot_take_the_name_of_the_history() {
-    let folder = folder("run_name");
-    let told = refusal(&args(
-        &folder,
-        &STEP.replace("\"along\"", "\"history\""),
-        "out",
-    ));
-    assert!(told.contains("probes.history"), "{told}");
-    fs::remove_dir_all(folder).unwrap();
+    let text = STEP.replace("\"along\"", "\"history\"");
+    let told = refusal(&args(&folder("run_name"), &text, "out"));
+    assert_contains(told, &["probes.history"]);
 }
 
 #[test]
 fn wrong_input_ends_the_program_with_2_and_one_line() {
     let folder = folder("run_input");
-    let scene = folder.join("scene.toml");
-    fs::write(&scene, STEP.replace("viscosity = 1e-4", "viscocity = 1e-4")).unwrap();
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .arg("run")
-        .arg(&scene)
-        .output()
-        .unwrap();
+    args(
+        &folder,
+        &STEP.replace("viscosity = 1e-4", "viscocity = 1e-4"),
+        "out",
+    );
+    let program = riprap(&folder, &["run", "scene.toml"]);
     assert_eq!(program.status.code(), Some(2));
-    let told = String::from_utf8_lossy(&program.stderr);
+    let told = said(&program);
     assert!(
         told.starts_with("error: ") && told.lines().count() == 1,
         "{told}"
     );
     assert!(told.contains("viscosity"), "{told}");
-    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

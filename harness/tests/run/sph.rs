@@ -1,13 +1,12 @@
 //! Runs of free water: what they write, and whether it is what the water does.
 
-use crate::fixture::{args, folder, go};
-use kit::scene::STILL_WATER;
-use riprap::output::Table;
+use crate::fixture::{self, args, column, folder, go};
+use kit::{assert_contains, assert_near, assert_relative, scene::STILL_WATER};
 use riprap_harness::{
     render::Picture,
     run::{Args, run},
 };
-use std::{fs, sync::atomic::AtomicBool};
+use std::{fs, path::Path, sync::atomic::AtomicBool};
 
 const MEASURED: &str = r#"
     [output]
@@ -56,9 +55,8 @@ const MEASURED: &str = r#"
     strip = 2
 "#;
 
-fn last(folder: &std::path::Path, table: &str, column: &str) -> f64 {
-    let table = Table::read(folder.join(table)).unwrap();
-    *table.column(column).unwrap().last().unwrap()
+fn last(folder: &Path, table: &str, column: &str) -> f64 {
+    fixture::last(&folder.join(table), column)
 }
 
 #[test]
@@ -73,38 +71,36 @@ fn still_water_is_measured_where_it_is() {
     assert_eq!((pool.particles, pool.escaped), (96, 0));
     assert_eq!(pool.shell, 2 * 4 * 20 + 4 * 12);
     assert!(pool.max_mach < 0.01, "{}", pool.max_mach);
-    assert!((last(&out, "level.csv", "level") - 0.8).abs() < 0.01);
+    assert_near(last(&out, "level.csv", "level"), 0.8, 0.01);
     let bottom = 1000.0 * 9.81 * 0.8;
     let pressure = last(&out, "bed.csv", "pressure");
-    assert!((pressure / bottom - 1.0).abs() < 0.03, "{pressure}");
-    assert!((last(&out, "edge.csv", "x") - 1.15).abs() < 0.01);
-    let column = Table::read(out.join("column.csv")).unwrap();
-    let [places, pressures] = ["z", "pressure"].map(|name| column.column(name).unwrap());
+    assert_relative(pressure, bottom, 0.03);
+    assert_near(last(&out, "edge.csv", "x"), 1.15, 0.01);
+    let [places, pressures] = ["z", "pressure"].map(|name| column(&out.join("column.csv"), name));
     assert_eq!(places, [0.1, 0.3, 0.5]);
-    for (z, pressure) in places.iter().zip(pressures) {
+    for (z, pressure) in places.iter().zip(&pressures) {
         let still = 1000.0 * 9.81 * (0.8 - z);
         assert!((pressure - still).abs() < 0.03 * bottom, "{z}: {pressure}");
     }
     // Half of the particles, those of the upper layer with the least pressure.
-    assert!((last(&out, "left.csv", "volume") - 0.48).abs() < 1e-9);
+    assert_near(last(&out, "left.csv", "volume"), 0.48, 1e-9);
     let [mean, least, most] =
         ["mean", "min", "max"].map(|what| last(&out, "left.csv", &format!("pressure_{what}")));
     assert!((mean / bottom - 0.5).abs() < 0.03 && least < 0.15 * bottom && most > 0.85 * bottom);
     assert!(last(&out, "left.csv", "velocity_y_max").abs() < 1e-6);
-    assert!((last(&out, "history.csv", "mass") - 960.0).abs() < 1e-9);
+    assert_near(last(&out, "history.csv", "mass"), 960.0, 1e-9);
     // At rest, to what the start of a lattice beside walls leaves.
     assert!(last(&out, "history.csv", "kinetic_energy") < 1e-4 * 960.0 * 9.81 * 0.4);
     let cloud = fs::read(out.join("water_000000.vtp")).unwrap();
     let text = String::from_utf8_lossy(&cloud);
-    for part in [
+    let parts = [
         "NumberOfPoints=\"96\"",
         "velocity",
         "pressure",
         "density",
         "id",
-    ] {
-        assert!(text.contains(part), "{part}");
-    }
+    ];
+    assert_contains(text, &parts);
     let picture = Picture::load(&out.join("tank_000000.png")).unwrap();
     let blue = picture
         .rgba
@@ -203,10 +199,7 @@ fn a_restart_goes_on_to_the_same_bits() {
         ..args(&folder, &longer, "other")
     };
     let refused = run(&other, &AtomicBool::new(false)).unwrap_err();
-    let told = refused.to_string();
-    for part in ["restart", "[1.2, 1, 1.2] m", "[1.3, 1, 1.2] m"] {
-        assert!(told.contains(part), "{part}: {told}");
-    }
+    assert_contains(refused, &["restart", "[1.2, 1, 1.2] m", "[1.3, 1, 1.2] m"]);
 }
 
 #[test]
@@ -229,10 +222,7 @@ fn what_leaves_through_an_open_face_is_counted() {
     assert!(summary.to_string().contains("have left the domain"));
     // 40 kg each that move at 10 m/s.
     let taken = summary.water_energies.unwrap().left / (10.0 * f64::from(pool.escaped));
-    assert!(
-        (taken / (0.5 * 100.0 + 9.81 * 0.4) - 1.0).abs() < 0.1,
-        "{taken}"
-    );
+    assert_relative(taken, 0.5 * 100.0 + 9.81 * 0.4, 0.1);
 }
 
 #[test]
@@ -273,7 +263,7 @@ fn a_block_falls_into_water_and_its_books_close() {
     let energies = summary.water_energies.unwrap();
     let given = -rocks.ledger.loads;
     assert!(given > 100.0, "{given} J");
-    assert!((energies.blocks - given).abs() < 1e-3 * given, "{energies}");
+    assert_near(energies.blocks, given, 1e-3 * given);
     assert!(energies.unmatched.abs() < 0.05 * given, "{energies}");
     assert!(energies.dissipated > 0.0, "{energies}");
     let part = Args {
@@ -346,9 +336,9 @@ fn energies_of_water_and_blocks_close_together() {
     every = 0.05
 "#;
     let summary = go(&args(&folder, text, "out"));
-    let table = Table::read(folder.join("out/history.csv")).unwrap();
     let columns = ["kinetic_energy", "potential_energy", "outside_work"];
-    let [kinetic, potential, work] = columns.map(|name| table.column(name).unwrap());
+    let [kinetic, potential, work] =
+        columns.map(|name| column(&folder.join("out/history.csv"), name));
     let start = kinetic[0] + potential[0];
     let lost = -work.last().unwrap();
     assert!(lost > 500.0, "{lost} J");
@@ -359,11 +349,11 @@ fn energies_of_water_and_blocks_close_together() {
     }
     assert_eq!(summary.pool.unwrap().escaped, 0);
     let energies = summary.water_energies.unwrap();
-    assert!((energies.blocks - lost).abs() < 1e-3 * lost, "{energies}");
+    assert_near(energies.blocks, lost, 1e-3 * lost);
     assert!(energies.unmatched.abs() < 0.02 * lost, "{energies}");
     assert!(energies.dissipated > 0.0, "{energies}");
     let kept = gained(work.len() - 1) + energies.compression + energies.dissipated;
-    assert!((kept - lost).abs() < 0.03 * lost, "{kept} J of {lost}");
+    assert_near(kept, lost, 0.03 * lost);
 }
 
 /// It meets the water more often than sound alone would want, or each wave of its own would throw it farther.
@@ -391,17 +381,16 @@ fn a_block_of_cork_floats() {
     )
     .replace("steps = 12", "duration = 2");
     let summary = go(&args(&folder, &text, "out"));
-    let path = Table::read(folder.join("out/path.csv")).unwrap();
-    let times = path.column("time").unwrap();
+    let times = column(&folder.join("out/path.csv"), "time");
     assert_eq!(times.len(), 41);
     for (n, time) in times.iter().enumerate() {
-        assert!((time - 0.05 * n as f64).abs() < 1e-9, "{time} s");
+        assert_near(*time, 0.05 * n as f64, 1e-9);
     }
     let fastest = summary.rocks.unwrap().max_speed_seen;
     assert!(fastest < 0.8, "{fastest} m/s");
     // Its draft is a fifth of a spacing, the surface within one.
     let height = last(&folder.join("out"), "path.csv", "position_z");
-    assert!((height - 0.88).abs() < 0.1, "{height} m");
+    assert_near(height, 0.88, 0.1);
 }
 
 #[test]

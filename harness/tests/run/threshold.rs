@@ -1,8 +1,9 @@
 //! `riprap threshold` on scenes whose threshold is known, and what it refuses.
 
-use crate::fixture::folder;
+use crate::fixture::{folder, json, riprap, said};
+use kit::{assert_contains, assert_near};
 use riprap_harness::threshold::{Args, Report, run};
-use std::{fs, path::Path, process::Command, sync::atomic::AtomicBool};
+use std::{fs, path::Path, sync::atomic::AtomicBool};
 
 /// A cube on a plane under gravity with a part along the plane: it slides once that is more than the
 /// friction of 30° holds, g tan 30° = 5.664 m/s².
@@ -94,12 +95,11 @@ fn a_block_slides_where_its_friction_gives_way() {
     let first = report.trials[1].moved.as_ref().unwrap();
     assert_eq!(first.block, "cube");
     // From rest at 8 − 5.664 m/s²: a millimetre after √(2 · 0.001/2.336) s, in looks of a 200th of the run.
-    assert!((first.time - 0.02926).abs() < 0.0015, "{first:?}");
+    assert_near(first.time, 0.02926, 0.0015);
     assert!(report.trials[0].moved.is_none());
     let table = fs::read_to_string(folder.join("out/threshold.csv")).unwrap();
     assert_eq!(table.lines().count(), 9);
-    let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = json(&folder.join("out/threshold.json"));
     assert_eq!(json["bracket"][0], still);
     assert!(report.to_string().contains("the threshold is"), "{report}");
 }
@@ -134,10 +134,7 @@ fn a_block_that_was_under_way_at_the_end_is_said() {
     let [still, _] = report.bracket.unwrap();
     assert!((6.9..7.1).contains(&still), "{report}");
     let told = report.to_string();
-    assert!(
-        told.contains("cube was under way") && told.contains("lower the threshold"),
-        "{told}"
-    );
+    assert_contains(&told, &["cube was under way", "lower the threshold"]);
     assert!(!report.trials[0].under_way && report.trials.iter().any(|trial| trial.under_way));
     let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
     assert!(json.contains("\"warning\": \"at "), "{json}");
@@ -181,43 +178,42 @@ fn a_formula_at_the_key_is_multiplied() {
     assert!(report.trials[1].moved.is_some() && report.trials[0].moved.is_none());
 }
 
-/// What the program says when it refuses.
-#[track_caller]
-fn refused(args: &[&str], words: &[&str]) {
-    let folder = folder("threshold_refused");
-    let scene = folder.join("scene.toml");
-    fs::write(&scene, SLIDE).unwrap();
-    let program = Command::new(env!("CARGO_BIN_EXE_riprap"))
-        .arg("threshold")
-        .arg(&scene)
-        .args(args)
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    let told = String::from_utf8(program.stderr).unwrap();
-    assert_eq!(program.status.code(), Some(2), "{told}");
-    for word in words {
-        assert!(told.contains(word), "`{word}` is not in: {told}");
-    }
-}
-
 #[test]
 fn what_cannot_be_searched_is_refused() {
-    let ends = ["--from", "4", "--to", "8", "--tolerance", "0.5"];
-    let with = |more: &[&'static str]| [&ends[..], more].concat();
-    let key = ["--key", "rock.gravity[0]"];
-    refused(&with(&["--key", "rock.gravity[5]"]), &["no [5] among 3"]);
-    refused(&with(&["--key", "rock.gravty[0]"]), &["no `gravty`"]);
-    refused(
-        &with(&["--key", "materials[0].name"]),
-        &["neither a number nor a formula", "rock"],
-    );
-    refused(
-        &with(&["--key", "rock.gravity[0]", "--block", "held"]),
-        &["--block", "cube"],
-    );
-    let both = |from, to| [&key[..], &["--from", from, "--to", to, "--tolerance", "1"]].concat();
-    refused(&both("7", "8"), &["moves at 7 already", "--from"]);
-    refused(&both("-1", "2"), &["no block moves at 2", "--to"]);
-    refused(&both("3", "3"), &["nothing between"]);
+    let folder = folder("threshold_refused");
+    fs::write(folder.join("scene.toml"), SLIDE).unwrap();
+    let gravity = "rock.gravity[0]";
+    for (key, from, to, more, words) in [
+        (
+            "rock.gravity[5]",
+            "4",
+            "8",
+            &[][..],
+            &["no [5] among 3"][..],
+        ),
+        ("rock.gravty[0]", "4", "8", &[], &["no `gravty`"]),
+        (
+            "materials[0].name",
+            "4",
+            "8",
+            &[],
+            &["neither a number nor a formula", "rock"],
+        ),
+        (
+            gravity,
+            "4",
+            "8",
+            &["--block", "held"],
+            &["--block", "cube"],
+        ),
+        (gravity, "7", "8", &[], &["moves at 7 already", "--from"]),
+        (gravity, "-1", "2", &[], &["no block moves at 2", "--to"]),
+        (gravity, "3", "3", &[], &["nothing between"]),
+    ] {
+        let ends = ["--from", from, "--to", to, "--tolerance", "0.5"];
+        let search = ["threshold", "scene.toml", "--key", key];
+        let program = riprap(&folder, &[&search[..], &ends, more].concat());
+        assert_eq!(program.status.code(), Some(2), "{}", said(&program));
+        assert_contains(said(&program), words);
+    }
 }

@@ -1,5 +1,6 @@
 //! Where errors are found, and that unrolled loops are the loops.
 
+use kit::assert_contains;
 use riprap::{Error, gpu::link::Program};
 
 /// The place of an error and its message.
@@ -52,10 +53,7 @@ fn what_is_missing_is_named_where_it_is_needed() {
     let program = |text: &str| Program::new("entry").text("entry", text);
     let (file, line, message) = place(program("// First.\n// needs grid, $eddy\n"));
     assert_eq!((file.as_str(), line), ("grid", 3), "{message}");
-    assert!(
-        message.contains("$lanes") && message.contains("Program::slot"),
-        "{message}"
-    );
+    assert_contains(&message, &["$lanes", "Program::slot"]);
     let (file, line, message) = place(program("// First.\n// needs velocities\n"));
     assert_eq!((file.as_str(), line), ("entry", 2), "{message}");
     assert!(message.contains("velocities"), "{message}");

@@ -7,12 +7,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use kit::twin::domain::Link;
 use kit::twin::lattice::{OPPOSITE, Q, W, c_dot};
 use kit::twin::rates::{moment_rates, odd_rate};
 use kit::twin::{
     self, Config, Domain, Equilibrium, Face, Force, OddClass, Operator, Profile, Rates, Twin,
 };
+use kit::{assert_near, assert_relative, twin::domain::Link};
 
 const REST: Face = Face::Wall([0.0; 3]);
 
@@ -126,7 +126,7 @@ fn odd_rates_of_hermite_follow_lambda_and_those_of_suga_do_not() {
 
 #[test]
 fn odd_rate_stops_at_its_floor() {
-    assert!((odd_rate(1.0, 0.25, 0.8) - 1.0).abs() < 1e-15);
+    assert_near(odd_rate(1.0, 0.25, 0.8), 1.0, 1e-15);
     assert_eq!(odd_rate(0.5001, 3.0 / 16.0, 0.8), 0.8);
 }
 
@@ -142,10 +142,10 @@ fn couette_is_linear_between_wall_and_lid() {
         let exact = lid * (y as f64 + 0.5) / h as f64;
         let u = flow.macroscopic(flow.domain.index([1, y, 0])).1;
         // u² of the equilibrium feeds ρ through the bulk rate, which differs from the shear rate.
-        assert!((u[0] - exact).abs() < 1e-5 * lid, "{} for {exact}", u[0]);
+        assert_near(u[0], exact, 1e-5 * lid);
     }
     // A tangential lid moves no mass.
-    assert!((mass(&flow) - before).abs() < 1e-11);
+    assert_near(mass(&flow), before, 1e-11);
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn velocity_face_reflects_with_the_density_that_results() {
         for i in 0..Q {
             if let Link::Moving(u_w) = flow.domain.link(cell, i) {
                 let expected = collided[cell][i] - 6.0 * W[i] * rho * c_dot(i, u_w);
-                assert!((flow.f[cell][OPPOSITE[i]] - expected).abs() < 1e-16);
+                assert_near(flow.f[cell][OPPOSITE[i]], expected, 1e-16);
                 moving_links += 1;
             }
         }
@@ -205,9 +205,9 @@ fn uniform_stream_between_velocity_faces_and_mirrors_stays_uniform() {
     flow.run(50);
     for cell in 0..72 {
         let (rho, velocity) = flow.macroscopic(cell);
-        assert!((rho - 1.0).abs() < 1e-13);
+        assert_near(rho, 1.0, 1e-13);
         for axis in 0..3 {
-            assert!((velocity[axis] - u[axis]).abs() < 1e-13);
+            assert_near(velocity[axis], u[axis], 1e-13);
         }
     }
 }
@@ -343,5 +343,5 @@ fn shear_wave_decays_viscously_from_the_first_step() {
     flow.step();
     let loss = 1.0 - flow.macroscopic(n / 4).1[0] / u[n / 4][0];
     // A start in equilibrium would lose k²/6, as if τ were 1: 5/3 of this. Central differences err by k²/6.
-    assert!((loss / (config.nu() * k * k) - 1.0).abs() < 0.01, "{loss}");
+    assert_relative(loss, config.nu() * k * k, 0.01);
 }

@@ -1,8 +1,11 @@
-//! Boxes in one place, without size, far away, huge: the list is still that of every pair tried.
+//! Boxes in one place, without size, far away, huge: the list is still that of every pair tried; and boxes that are none.
 
-use super::finders::Finders;
-use kit::broadphase::{Random, brute_force, item};
-use riprap::rock::broadphase::Aabb;
+use super::{Finders, on_host};
+use kit::{
+    assert_contains,
+    broadphase::{Random, brute_force, item, scattered},
+};
+use riprap::rock::broadphase::{Aabb, Broadphase};
 
 fn agree(items: &[Aabb]) -> usize {
     let found = Finders::new().pairs(items);
@@ -100,4 +103,30 @@ fn plates_and_needles() {
         })
         .collect();
     agree(&boxes);
+}
+
+/// Boxes that are none are refused by every finder with the same message.
+#[test]
+fn corners_that_are_none_are_refused() {
+    let mut finders = Finders::new();
+    let mut refusal = |spoil: &dyn Fn(&mut Aabb)| {
+        let mut messages = Vec::new();
+        for count in [20, 200] {
+            let mut items = scattered(count, 1.0, 4);
+            spoil(&mut items[17]);
+            let device = finders.rig.wait(finders.device.pairs(&items));
+            messages.push(device.unwrap_err().to_string());
+            messages.push(on_host(&items).unwrap_err().to_string());
+        }
+        assert!(messages.iter().all(|m| m.starts_with("items[17]: ")));
+        messages.remove(0)
+    };
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 2e30] {
+        for (axis, name) in ["along x", "along y", "along z"].into_iter().enumerate() {
+            assert_contains(refusal(&|item| item.min[axis] = bad), &[name]);
+            assert_contains(refusal(&|item| item.max[axis] = bad), &["finite"]);
+        }
+    }
+    let turned = refusal(&|item| std::mem::swap(&mut item.min, &mut item.max));
+    assert_contains(turned, &["exchange the corners"]);
 }

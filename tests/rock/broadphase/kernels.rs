@@ -7,12 +7,13 @@ use kit::{
 use riprap::{
     gpu::{
         bins::{DeviceBox, Level},
+        layout::check,
         link::Program,
     },
     rock::broadphase::{Aabb, Boxes, Header, Search},
     wgpu,
 };
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, mem::offset_of};
 
 /// The cell of a lower corner, from the edge of a cell in m.
 fn cell(corner: [f32; 3], level: &Level) -> [i64; 3] {
@@ -223,4 +224,38 @@ fn pairs_are_counted_and_written_in_slices_and_parts() {
         );
         assert!(found.len() <= expected.len() + 1, "{} pairs", found.len());
     }
+}
+
+/// What the host writes and reads lies as the kernels have it.
+#[test]
+fn layouts() {
+    let boxes = [
+        ("min", offset_of!(DeviceBox, min)),
+        ("group", offset_of!(DeviceBox, group)),
+        ("max", offset_of!(DeviceBox, max)),
+        ("tag", offset_of!(DeviceBox, tag)),
+    ];
+    for entry in ["bin_count", "bin_scatter"] {
+        let linked = Program::new(entry).link().unwrap();
+        check::<DeviceBox>(&linked.module, "Box", &boxes).unwrap();
+    }
+    let program = Program::new("pairs").slot("found", "found_count");
+    let pairs = program.link().unwrap().module;
+    check::<DeviceBox>(&pairs, "Box", &boxes).unwrap();
+    let levels = [
+        ("scale", offset_of!(Level, scale)),
+        ("extent", offset_of!(Level, extent)),
+    ];
+    check::<Level>(&pairs, "Level", &levels).unwrap();
+    let searches = [
+        ("levels", offset_of!(Search, levels)),
+        ("slices", offset_of!(Search, slices)),
+        ("first_pair", offset_of!(Search, first_pair)),
+    ];
+    check::<Search>(&pairs, "Search", &searches).unwrap();
+    let headers = [
+        ("candidates", offset_of!(Header, candidates)),
+        ("pairs", offset_of!(Header, pairs)),
+    ];
+    check::<Header>(&pairs, "Header", &headers).unwrap();
 }

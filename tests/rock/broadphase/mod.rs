@@ -1,10 +1,49 @@
 //! Every finder of pairs gives the list that follows from the definition.
 
 mod degenerate;
-mod device;
-mod finders;
-mod host;
 mod kernels;
-mod layout;
-mod refusals;
 mod scan;
+mod search;
+
+use kit::Rig;
+use riprap::{
+    Result,
+    rock::broadphase::{Aabb, Broadphase, DeviceBroadphase, HostBroadphase},
+    wgpu,
+};
+
+/// The finders side by side.
+struct Finders {
+    rig: Rig,
+    device: DeviceBroadphase,
+}
+
+impl Finders {
+    fn new() -> Self {
+        Self::on(Rig::new())
+    }
+
+    fn with_limits(limits: wgpu::Limits) -> Self {
+        Self::on(Rig::with_limits(limits))
+    }
+
+    fn on(rig: Rig) -> Self {
+        Self {
+            device: DeviceBroadphase::new(&rig.device, &rig.queue).unwrap(),
+            rig,
+        }
+    }
+
+    /// The list of the device, which is that of the host.
+    fn pairs(&mut self, items: &[Aabb]) -> Vec<[u32; 2]> {
+        let found = self.rig.wait(self.device.pairs(items)).unwrap();
+        let host = on_host(items).unwrap();
+        let counts = (found.len(), host.len());
+        assert!(found == host, "device and host: {counts:?} pairs");
+        found
+    }
+}
+
+fn on_host(items: &[Aabb]) -> Result<Vec<[u32; 2]>> {
+    pollster::block_on(HostBroadphase.pairs(items))
+}

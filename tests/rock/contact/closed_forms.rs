@@ -1,21 +1,12 @@
 //! Overlap, area, pressure centre and width against geometry that one can write down.
 
+use super::contact;
 use glam::{DQuat, DVec3};
-use kit::contact::{Random, Solid};
-use riprap::rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict};
+use kit::{
+    assert_near,
+    contact::{Random, Solid},
+};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, SQRT_2};
-
-fn resolve(a: &Placed, b: &Placed) -> ContactGeometry {
-    let mut resolver = Resolver::new(Options::default());
-    match resolver.resolve(a, b, &mut Cache::default()).unwrap() {
-        Verdict::Contact(contact) => contact,
-        other => panic!("{other:?}"),
-    }
-}
-
-fn near(a: f64, b: f64, limit: f64) {
-    assert!((a - b).abs() <= limit, "{a} for {b}, off by {}", a - b);
-}
 
 /// Two boxes, all edges parallel: the common rectangle.
 #[test]
@@ -25,15 +16,15 @@ fn box_on_box_with_partial_overlap() {
         let a = Solid::cuboid(below).at(DVec3::ZERO, DQuat::IDENTITY);
         let centre = DVec3::new(0.8, -0.45, 0.75 - u);
         let b = Solid::cuboid(above).at(centre, DQuat::IDENTITY);
-        let contact = resolve(&a, &b);
+        let found = contact(&a, &b);
         // x from 0.3 to 1, y from −0.75 to 0.05.
-        near(contact.area, 0.7 * 0.8, 1e-12);
-        near(contact.overlap, u, 1e-14);
-        near(contact.width, 0.7f64.hypot(0.8), 1e-12);
+        assert_near(found.area, 0.7 * 0.8, 1e-12);
+        assert_near(found.overlap, u, 1e-14);
+        assert_near(found.width, 0.7f64.hypot(0.8), 1e-12);
         let middle = DVec3::new(0.65, -0.35, 0.5 - 0.5 * u);
-        assert!((contact.pressure_centre - middle).length() < 1e-11);
-        assert!((contact.normal - DVec3::Z).length() < 1e-11);
-        near(contact.limit, 0.025, 1e-15);
+        assert!((found.pressure_centre - middle).length() < 1e-11);
+        assert!((found.normal - DVec3::Z).length() < 1e-11);
+        assert_near(found.limit, 0.025, 1e-15);
     }
 }
 
@@ -43,11 +34,11 @@ fn turned_square_on_square() {
     let cube = Solid::cube();
     let a = cube.at(DVec3::ZERO, DQuat::IDENTITY);
     let b = cube.at(DVec3::Z * (1.0 - 1e-5), DQuat::from_rotation_z(FRAC_PI_4));
-    let contact = resolve(&a, &b);
-    near(contact.area, 2.0 * (SQRT_2 - 1.0), 1e-12);
-    near(contact.width, 1.0 / FRAC_PI_8.cos(), 1e-12);
-    near(contact.overlap, 1e-5, 1e-15);
-    assert!(contact.pressure_centre.truncate().length() < 1e-12);
+    let found = contact(&a, &b);
+    assert_near(found.area, 2.0 * (SQRT_2 - 1.0), 1e-12);
+    assert_near(found.width, 1.0 / FRAC_PI_8.cos(), 1e-12);
+    assert_near(found.overlap, 1e-5, 1e-15);
+    assert!(found.pressure_centre.truncate().length() < 1e-12);
 }
 
 /// Two edges that cross at right angles, between faces at 45°: |y| ≤ u/2 − z, |x| ≤ u/2 + z, in the
@@ -59,14 +50,14 @@ fn edge_across_edge() {
     for u in [1e-6, 1e-4, 1e-3] {
         let a = cube.at(-DVec3::Z * half, DQuat::from_rotation_x(FRAC_PI_4));
         let b = cube.at(DVec3::Z * (half - u), DQuat::from_rotation_y(FRAC_PI_4));
-        let contact = resolve(&a, &b);
-        near(contact.overlap / u, 1.0, 1e-6);
-        near(contact.area / (u * u), 1.0, 1e-5);
-        near(contact.width / (u * SQRT_2), 1.0, 1e-5);
+        let found = contact(&a, &b);
+        assert_near(found.overlap / u, 1.0, 1e-6);
+        assert_near(found.area / (u * u), 1.0, 1e-5);
+        assert_near(found.width / (u * SQRT_2), 1.0, 1e-5);
         let middle = -DVec3::Z * 0.5 * u;
-        assert!((contact.point - middle).length() < 1e-5 * u);
-        assert!((contact.pressure_centre - middle).length() < 1e-5 * u);
-        assert!(contact.normal.cross(DVec3::Z).length() < 1e-6);
+        assert!((found.point - middle).length() < 1e-5 * u);
+        assert!((found.pressure_centre - middle).length() < 1e-5 * u);
+        assert!(found.normal.cross(DVec3::Z).length() < 1e-6);
     }
 }
 
@@ -81,13 +72,13 @@ fn corner_in_face() {
     for u in [1e-5, 1e-4, 1e-3] {
         let a = Solid::cuboid(DVec3::new(4.0, 4.0, 2.0)).at(-DVec3::Z, DQuat::IDENTITY);
         let b = cube.at(DVec3::Z * (reach - u), down);
-        let contact = resolve(&a, &b);
+        let found = contact(&a, &b);
         let area = 1.5 * 3f64.sqrt() * (0.75 * u).powi(2);
-        near(contact.area / area, 1.0, 10.0 * u);
-        near(contact.overlap / u, 1.0, 10.0 * u);
-        near(contact.point.z / u, -0.25, 10.0 * u);
-        assert!(contact.pressure_centre.truncate().length() < u * 10.0 * u);
-        assert!(contact.normal.cross(DVec3::Z).length() < 10.0 * u);
+        assert_near(found.area / area, 1.0, 10.0 * u);
+        assert_near(found.overlap / u, 1.0, 10.0 * u);
+        assert_near(found.point.z / u, -0.25, 10.0 * u);
+        assert!(found.pressure_centre.truncate().length() < u * 10.0 * u);
+        assert!(found.normal.cross(DVec3::Z).length() < 10.0 * u);
     }
 }
 
@@ -100,14 +91,14 @@ fn edge_on_face() {
     let turn = DQuat::from_rotation_y(tilt);
     let lowest = 0.5 * (tilt.sin() + tilt.cos());
     let block = Solid::cube().at(DVec3::Z * (lowest - u), turn);
-    let contact = resolve(&ground, &block);
+    let found = contact(&ground, &block);
     let base = u / tilt.tan() + u * tilt.tan();
-    near(contact.area / (2.0 / 3.0 * base), 1.0, 1e-3);
-    near(contact.point.z / u, -1.0 / 3.0, 1e-3);
+    assert_near(found.area / (2.0 / 3.0 * base), 1.0, 1e-3);
+    assert_near(found.point.z / u, -1.0 / 3.0, 1e-3);
     // The vertical through the centroid leaves by the flatter face.
-    near(contact.overlap / (2.0 / 3.0 * u), 1.0, 0.01 + 0.5);
-    near(contact.pressure_centre.y, 0.0, 1e-9);
-    near(contact.width, 1.0, 1e-4);
+    assert_near(found.overlap / (2.0 / 3.0 * u), 1.0, 0.01 + 0.5);
+    assert_near(found.pressure_centre.y, 0.0, 1e-9);
+    assert_near(found.width, 1.0, 1e-4);
 }
 
 /// Blocks 1:100, ground with many faces: only a few rows are kept, and nothing changes.
@@ -123,12 +114,12 @@ fn box_on_large_ground() {
         DVec3::new(3.0, -2.0, 0.5 - 1e-4),
         DQuat::from_rotation_z(0.3),
     );
-    let contact = resolve(&a, &b);
-    near(contact.area, 1.0, 1e-9);
-    near(contact.overlap, 1e-4, 1e-12);
+    let found = contact(&a, &b);
+    assert_near(found.area, 1.0, 1e-9);
+    assert_near(found.overlap, 1e-4, 1e-12);
     let middle = DVec3::new(3.0, -2.0, -0.5e-4);
-    assert!((contact.pressure_centre - middle).length() < 1e-9);
-    assert!((contact.normal - DVec3::Z).length() < 1e-9);
+    assert!((found.pressure_centre - middle).length() < 1e-9);
+    assert!((found.normal - DVec3::Z).length() < 1e-9);
 }
 
 /// A pyramid as flat as 4° pressed tip first into a face: four faces share the contact, and none of
@@ -146,12 +137,12 @@ fn blunt_tip_in_face() {
     let ground = Solid::cuboid(DVec3::new(4.0, 4.0, 2.0)).at(-DVec3::Z, DQuat::IDENTITY);
     for k in 0..20 {
         let (u, turn) = (1e-4, DQuat::from_rotation_z(0.1 * k as f64));
-        let contact = resolve(&ground, &block.at(DVec3::Z * (0.25 + rise - u), turn));
+        let found = contact(&ground, &block.at(DVec3::Z * (0.25 + rise - u), turn));
         // On the axis, y from the tip: log(u − y) + 4 log y is largest at y = 4u/5.
         let edge = 0.8 * u / rise;
-        near(contact.area / (edge * edge), 1.0, 0.02);
-        near(contact.overlap / u, 1.0, 0.02);
-        assert!(contact.pressure_centre.truncate().length() < 0.01 * edge);
-        assert!(contact.normal.cross(DVec3::Z).length() < 1e-4);
+        assert_near(found.area / (edge * edge), 1.0, 0.02);
+        assert_near(found.overlap / u, 1.0, 0.02);
+        assert!(found.pressure_centre.truncate().length() < 0.01 * edge);
+        assert!(found.normal.cross(DVec3::Z).length() < 1e-4);
     }
 }

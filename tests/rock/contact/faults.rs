@@ -1,12 +1,12 @@
 //! Exact touch, deep overlap, numbers that are none.
 
+use super::{contact, verdict};
 use glam::{DQuat, DVec3};
-use kit::contact::{Random, Solid, ball};
+use kit::{
+    assert_near,
+    contact::{Random, Solid, ball},
+};
 use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
-
-fn resolve(a: &Placed, b: &Placed) -> riprap::Result<Verdict> {
-    Resolver::new(Options::default()).resolve(a, b, &mut Cache::default())
-}
 
 /// Faces, edges and corners that meet exactly, in any orientation: no force, and no panic.
 #[test]
@@ -29,10 +29,10 @@ fn exact_touch_gives_no_force() {
         let place = random.vector() * 10.0;
         let a = cube.at(place, turn);
         let b = cube.at(place + turn * shifts[round % 5], turn);
-        let verdict = resolve(&a, &b).unwrap();
+        let found = verdict(&a, &b);
         assert!(
-            matches!(verdict, Verdict::Undecided | Verdict::Apart),
-            "{:?}: {verdict:?}",
+            matches!(found, Verdict::Undecided | Verdict::Apart),
+            "{:?}: {found:?}",
             shifts[round % 5]
         );
     }
@@ -51,7 +51,7 @@ fn crossing_edges_that_touch_give_no_force() {
         DVec3::Z * half,
         DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4),
     );
-    match resolve(&a, &b).unwrap() {
+    match verdict(&a, &b) {
         Verdict::Undecided | Verdict::Apart => {}
         Verdict::Contact(contact) => assert!(contact.overlap < 1e-14, "{contact:?}"),
     }
@@ -80,20 +80,16 @@ fn deep_overlap_is_visible() {
     let a = cube.at(DVec3::ZERO, DQuat::IDENTITY);
     for (u, deep) in [(0.049, false), (0.051, true), (0.3, true)] {
         let b = cube.at(DVec3::new(0.1, 0.05, 1.0 - u), DQuat::IDENTITY);
-        let Verdict::Contact(contact) = resolve(&a, &b).unwrap() else {
-            panic!("no contact");
-        };
+        let contact = contact(&a, &b);
         assert_eq!(contact.is_deep(), deep, "{u}");
         if u < 0.1 {
-            assert!((contact.overlap - u).abs() < 1e-12);
+            assert_near(contact.overlap, u, 1e-12);
         }
     }
     // One in the other, and one where the other is: still an answer.
     let small = Solid::cuboid(DVec3::splat(0.2)).at(DVec3::splat(0.1), DQuat::IDENTITY);
     for b in [small, a.clone()] {
-        let Verdict::Contact(contact) = resolve(&a, &b).unwrap() else {
-            panic!("no contact");
-        };
+        let contact = contact(&a, &b);
         assert!(contact.is_deep() && contact.point.is_finite());
     }
 }
@@ -113,9 +109,13 @@ fn a_pose_that_is_not_finite_is_an_error() {
         DVec3::ZERO,
     );
     turned.update_sphere(0.4, DVec3::X, &pose);
+    let mut resolver = Resolver::new(Options::default());
     for bad in [&lost, &far, &no_size, &turned] {
         for (a, b) in [(&good, bad), (bad, &good)] {
-            let message = resolve(a, b).unwrap_err().to_string();
+            let message = resolver
+                .resolve(a, b, &mut Cache::default())
+                .unwrap_err()
+                .to_string();
             assert!(message.contains("not finite"), "{message}");
         }
     }
@@ -128,7 +128,8 @@ fn a_broken_face_does_not_hang() {
     let good = cube.at(DVec3::ZERO, DQuat::IDENTITY);
     let mut bad = cube.at(DVec3::Z * 0.99, DQuat::IDENTITY);
     bad.faces[2].normal.x = f64::NAN;
-    let _ = resolve(&good, &bad);
+    let mut resolver = Resolver::new(Options::default());
+    let _ = resolver.resolve(&good, &bad, &mut Cache::default());
     bad.vertices[1].x = f64::NAN;
-    let _ = resolve(&good, &bad);
+    let _ = resolver.resolve(&good, &bad, &mut Cache::default());
 }

@@ -3,6 +3,7 @@
 //! The oracle is the separating axis theorem: two convex polyhedra are as far apart as along the best of their
 //! faces' normals and the cross products of their edges.
 
+use super::verdict;
 use glam::{DQuat, DVec3};
 use kit::contact::Solid;
 use proptest::prelude::*;
@@ -104,7 +105,7 @@ fn closed(first: &Placed, mut second: Placed, gap: f64) -> Option<Placed> {
     None
 }
 
-fn verdict(first: &Placed, second: &Placed, cache: &mut Cache) -> Verdict {
+fn cached(first: &Placed, second: &Placed, cache: &mut Cache) -> Verdict {
     let mut resolver = Resolver::new(Options::default());
     resolver.resolve(first, second, cache).unwrap()
 }
@@ -128,11 +129,11 @@ proptest! {
         prop_assume!(second.is_some());
         let second = second.unwrap();
         let mut cache = Cache::default();
-        let found = verdict(&first, &second, &mut cache);
+        let found = cached(&first, &second, &mut cache);
         prop_assert_eq!(matches!(found, Verdict::Contact(_)), gap < 0.0, "{:?} at {}", found, gap);
         prop_assert!(found != Verdict::Undecided);
 
-        let other = verdict(&second, &first, &mut Cache::default());
+        let other = verdict(&second, &first);
         match (found, other) {
             (Verdict::Contact(a), Verdict::Contact(b)) => {
                 for block in [&first, &second] {
@@ -150,8 +151,8 @@ proptest! {
         near.centre += DVec3::from_array(step) * 3.0 * gap.abs();
         let (apart, _) = separation(&first, &near);
         prop_assume!(apart.abs() > 1e-9);
-        let remembers = verdict(&first, &near, &mut cache);
-        let fresh = verdict(&first, &near, &mut Cache::default());
+        let remembers = cached(&first, &near, &mut cache);
+        let fresh = verdict(&first, &near);
         let kind = |v: Verdict| matches!(v, Verdict::Contact(_));
         prop_assert_eq!(kind(remembers), apart < 0.0);
         prop_assert_eq!(kind(fresh), apart < 0.0);

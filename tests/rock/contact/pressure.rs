@@ -1,19 +1,15 @@
 //! Where the pressure of edges and corners acts: line by line, and without jumps.
 
+use super::{contact, verdict};
 use glam::{DQuat, DVec3};
-use kit::contact::{Couple, Random, Solid};
+use kit::{
+    assert_near, assert_relative,
+    contact::{Couple, Random, Solid},
+};
 use riprap::{
     geometry::HalfSpace,
-    rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict},
+    rock::contact::{ContactGeometry, Placed, Verdict},
 };
-
-fn resolve(a: &Placed, b: &Placed) -> Option<ContactGeometry> {
-    let mut resolver = Resolver::new(Options::default());
-    match resolver.resolve(a, b, &mut Cache::default()).unwrap() {
-        Verdict::Contact(contact) => Some(contact),
-        _ => None,
-    }
-}
 
 /// Way from `x` along `n` to where it leaves the block; none outside.
 fn way(block: &Placed, x: DVec3, n: DVec3) -> Option<f64> {
@@ -66,17 +62,14 @@ fn acts_in_the_centroid_of_the_overlap_over_the_section() {
         if a.faces.iter().any(faces) {
             continue;
         }
-        let Some(contact) = resolve(&a, &b) else {
+        let Verdict::Contact(contact) = verdict(&a, &b) else {
             continue;
         };
         found += 1;
         let (area, centre) = brute_force(&a, &b, &contact);
         // Cells along the rim of a thin section are in or out: 2 (2/301) of its length over its thickness.
         let rim = 4.0 / 301.0 * contact.width.powi(2) / contact.area;
-        assert!(
-            (area / contact.area - 1.0).abs() < rim,
-            "{area} m², {contact:?}"
-        );
+        assert_relative(area, contact.area, rim);
         let error = centre.distance(contact.pressure_centre) / contact.width;
         assert!(error < 0.2 * rim, "{error} of the width, {contact:?}");
     }
@@ -95,12 +88,12 @@ fn does_not_jump_when_a_face_beside_it_passes_through_upright() {
         let place = |lean: f64| {
             let turn = DQuat::from_rotation_x(lean) * turn;
             let at = DVec3::new(0.2, 0.0, height - 0.004);
-            resolve(&below, &cube.at(at, turn)).expect("a contact")
+            contact(&below, &cube.at(at, turn))
         };
         let [left, right] = [-1e-13, 1e-13].map(place);
         let way = left.pressure_centre.distance(right.pressure_centre);
         assert!(way < 1e-9, "{way} m at {tilt}°");
-        assert!((left.area - right.area).abs() < 1e-9);
+        assert_near(left.area, right.area, 1e-9);
         assert!(left.normal.distance(right.normal) < 1e-9);
     }
 }

@@ -1,22 +1,14 @@
 //! Spheres, in closed form.
 
+use super::{contact, verdict};
 use glam::DVec3;
-use kit::contact::{Random, Solid, ball};
+use kit::{
+    assert_near,
+    contact::{Random, Solid, ball},
+};
 use parry3d_f64::{math::Pose, query, shape::Ball};
-use riprap::rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict};
+use riprap::rock::contact::{ContactGeometry, Verdict};
 use std::f64::consts::PI;
-
-fn resolve(a: &Placed, b: &Placed) -> Verdict {
-    let mut resolver = Resolver::new(Options::default());
-    resolver.resolve(a, b, &mut Cache::default()).unwrap()
-}
-
-fn contact(a: &Placed, b: &Placed) -> ContactGeometry {
-    match resolve(a, b) {
-        Verdict::Contact(contact) => contact,
-        other => panic!("{other:?}"),
-    }
-}
 
 /// Radii 3 and 4, centres 5 apart: a right angle where the spheres meet, in a circle of radius 12/5
 /// at 9/5 from the first centre.
@@ -25,10 +17,10 @@ fn lens_of_two_spheres() {
     let turn = Random(15).direction();
     let from = DVec3::new(7.0, -3.0, 2.0);
     let found = contact(&ball(3.0, from), &ball(4.0, from + turn * 5.0));
-    assert!((found.area - PI * 5.76).abs() < 1e-12);
-    assert!((found.overlap - 2.0).abs() < 1e-13);
+    assert_near(found.area, PI * 5.76, 1e-12);
+    assert_near(found.overlap, 2.0, 1e-13);
     assert!((found.point - from - turn * 1.8).length() < 1e-13);
-    assert!((found.width - 4.8).abs() < 1e-13);
+    assert_near(found.width, 4.8, 1e-13);
     assert!((found.normal - turn).length() < 1e-15);
     assert!(found.is_deep());
 }
@@ -36,17 +28,21 @@ fn lens_of_two_spheres() {
 #[test]
 fn spheres_apart_and_touching() {
     let a = ball(1.0, DVec3::ZERO);
-    assert_eq!(resolve(&a, &ball(0.5, DVec3::X * 1.5)), Verdict::Undecided);
+    assert_eq!(verdict(&a, &ball(0.5, DVec3::X * 1.5)), Verdict::Undecided);
     assert_eq!(
-        resolve(&a, &ball(0.5, DVec3::X * (1.5 + 1e-9))),
+        verdict(&a, &ball(0.5, DVec3::X * (1.5 + 1e-9))),
         Verdict::Apart
     );
-    assert!((contact(&a, &ball(0.5, DVec3::X * (1.5 - 1e-9))).overlap - 1e-9).abs() < 1e-15);
+    assert_near(
+        contact(&a, &ball(0.5, DVec3::X * (1.5 - 1e-9))).overlap,
+        1e-9,
+        1e-15,
+    );
     // One in the other: finite, and deep.
     for centre in [DVec3::ZERO, DVec3::X * 0.1] {
         let inside = contact(&a, &ball(0.5, centre));
         assert!(inside.is_deep() && inside.point.is_finite() && inside.normal.is_normalized());
-        assert!((inside.area - PI * 0.25).abs() < 1e-12);
+        assert_near(inside.area, PI * 0.25, 1e-12);
     }
 }
 
@@ -66,10 +62,10 @@ fn sphere_on_cube() {
         let sphere = ball(r, foot + way * (r - u));
         let found = contact(&cube, &sphere);
         assert!((found.normal - way).length() < 1e-12, "{}", found.normal);
-        assert!((found.overlap - u).abs() < 1e-14);
-        assert!((found.area - PI * u * (2.0 * r - u)).abs() < 1e-13);
+        assert_near(found.overlap, u, 1e-14);
+        assert_near(found.area, PI * u * (2.0 * r - u), 1e-13);
         assert!((found.point - foot).length() < 1e-13);
-        assert!((found.limit - 0.1 * r).abs() < 1e-16);
+        assert_near(found.limit, 0.1 * r, 1e-16);
         // The other order: opposite normal, the same bits.
         let other = contact(&sphere, &cube);
         assert_eq!(
@@ -80,7 +76,7 @@ fn sphere_on_cube() {
             found
         );
         let gone = ball(r, foot + way * (r + 1e-9));
-        assert_eq!(resolve(&cube, &gone), Verdict::Apart);
+        assert_eq!(verdict(&cube, &gone), Verdict::Apart);
     }
 }
 
@@ -88,7 +84,6 @@ fn sphere_on_cube() {
 #[test]
 fn sphere_and_polyhedron_agree_with_parry() {
     let mut random = Random(17);
-    let mut resolver = Resolver::new(Options::default());
     let mut seen = [0, 0];
     for _ in 0..3000 {
         let solid = Solid::any(&mut random);
@@ -106,8 +101,7 @@ fn sphere_and_polyhedron_agree_with_parry() {
         if oracle.dist.abs() < 1e-9 {
             continue;
         }
-        let mut cache = Cache::default();
-        match resolver.resolve(&block, &sphere, &mut cache).unwrap() {
+        match verdict(&block, &sphere) {
             Verdict::Contact(contact) => {
                 seen[0] += 1;
                 assert!(

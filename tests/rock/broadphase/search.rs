@@ -1,6 +1,6 @@
-//! The device's list is that of every pair tried, bit for bit, within the device's limits.
+//! The lists of host and device are those of every pair tried, bit for bit, within the device's limits and on any threads.
 
-use super::finders::{Finders, on_host};
+use super::{Finders, on_host};
 use kit::{
     Rig,
     broadphase::{brute_force, item, scattered},
@@ -12,7 +12,7 @@ use riprap::{
 };
 
 #[test]
-fn finds_what_brute_force_finds() {
+fn the_device_finds_what_brute_force_finds() {
     let mut finders = Finders::new();
     for count in [0, 1, 2, 3, 101, 997, 10_007] {
         for ratio in [1.0, 10.0, 100.0] {
@@ -97,4 +97,26 @@ fn the_chosen_finder_gives_the_same_list() {
         auto.crossover = crossover;
         assert!(rig.wait(auto.pairs(&items)).unwrap() == expected);
     }
+}
+
+#[test]
+fn the_host_finds_what_brute_force_finds() {
+    for count in [0, 1, 2, 63, 64, 65, 101, 997, 2003] {
+        for ratio in [1.0, 10.0, 100.0] {
+            let items = scattered(count, ratio, u64::from(count));
+            let expected = brute_force(&items);
+            assert!(on_host(&items).unwrap() == expected, "{count}, 1:{ratio}");
+            assert!(count < 100 || expected.len() > count as usize / 2);
+        }
+    }
+}
+
+#[test]
+fn threads_do_not_change_the_list() {
+    let items = scattered(10_007, 100.0, 6);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap().install(|| on_host(&items).unwrap())
+    };
+    assert!(with(1) == with(5));
 }

@@ -1,8 +1,7 @@
 //! Devices that are too small or full: an error that names what does not fit, how large it is, and what to change.
 
-use kit::{Rig, gpu};
-use riprap::{Error, Result, scene::Scene, simulation::Simulation, wgpu};
-use std::time::Duration;
+use kit::{Rig, assert_contains, gpu};
+use riprap::{Error, Result, scene::Scene, wgpu};
 
 /// 16 × 16 × 16 cells, with a block if `blocks` is one.
 fn flow(blocks: &str) -> Scene {
@@ -52,23 +51,9 @@ fn small(bytes: u64) -> Rig {
     })
 }
 
-fn made_flow(rig: &Rig, scene: &Scene) -> Result<()> {
-    let made = Simulation::new(&rig.device, &rig.queue, scene);
-    gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
-}
-
-fn made_water(rig: &Rig) -> Result<()> {
-    let scene = water();
-    let made = Simulation::new(&rig.device, &rig.queue, &scene);
-    gpu::drive(&rig.device, Duration::from_secs(60), "a test", made)?.map(|_| ())
-}
-
-/// What is said, all of which has these words.
-fn says(found: Result<()>, words: &[&str]) {
-    let error = found.unwrap_err().to_string();
-    for word in words {
-        assert!(error.contains(word), "{word}: {error}");
-    }
+/// What a scene is refused with on a device.
+fn made(rig: &Rig, scene: &Scene) -> Result<()> {
+    rig.simulation(scene).map(|_| ())
 }
 
 #[test]
@@ -82,32 +67,24 @@ fn a_fluid_that_a_binding_does_not_hold_is_refused_with_its_bytes() {
     let least = 16_384 * u64::from(27_u32.div_ceil(bindings));
     let rig = small(least - 4);
     let (wants, has) = (least.to_string(), (least - 4).to_string());
-    says(
-        made_flow(&rig, &flow("")),
+    assert_contains(
+        made(&rig, &flow("")).unwrap_err(),
         &["populations", &wants, &has, "larger cell"],
     );
-    assert!(made_flow(&small(least), &flow("")).is_ok());
+    assert!(made(&small(least), &flow("")).is_ok());
 }
 
 #[test]
 fn blocks_that_a_binding_does_not_hold_are_refused_with_their_bytes() {
     // Nine numbers of each of the 4096 cells are 147 456 bytes.
     let rig = small(140_000);
-    assert!(made_flow(&rig, &flow("")).is_ok());
-    let scene = flow(BLOCK);
-    let made = Simulation::new(&rig.device, &rig.queue, &scene);
-    let made = gpu::drive(&rig.device, Duration::from_secs(60), "a test", made).unwrap();
+    assert!(made(&rig, &flow("")).is_ok());
     // Where they are is known when they are placed.
-    let moved = made.and_then(|mut made| {
-        gpu::drive(
-            &rig.device,
-            Duration::from_secs(60),
-            "a test",
-            made.advance(1),
-        )?
-    });
-    says(
-        moved,
+    let moved = rig
+        .simulation(&flow(BLOCK))
+        .and_then(|mut made| rig.wait(made.advance(1)));
+    assert_contains(
+        moved.unwrap_err(),
         &[
             "cells that blocks reach",
             "140000",
@@ -120,8 +97,11 @@ fn blocks_that_a_binding_does_not_hold_are_refused_with_their_bytes() {
 fn water_that_a_buffer_does_not_hold_is_refused_with_its_bytes() {
     // 800 particles of water alone take 12 800 bytes of velocities.
     let rig = small(8_192);
-    says(made_water(&rig), &["8192", "larger spacing"]);
-    assert!(made_water(&Rig::new()).is_ok());
+    assert_contains(
+        made(&rig, &water()).unwrap_err(),
+        &["8192", "larger spacing"],
+    );
+    assert!(made(&Rig::new(), &water()).is_ok());
 }
 
 /// A device on which every allocation counts as one too many: wgpu compares what is asked with a part of what the driver
@@ -156,12 +136,18 @@ fn a_device_without_memory_says_what_it_does_not_hold() {
         eprintln!("this driver does not say how much memory is free: not tested");
         return;
     };
-    says(made_flow(&rig, &flow("")), &["4096 cells", "larger cell"]);
-    says(
-        made_flow(&rig, &flow(BLOCK)),
+    assert_contains(
+        made(&rig, &flow("")).unwrap_err(),
         &["4096 cells", "larger cell"],
     );
-    says(made_water(&rig), &["800 particles", "larger spacing"]);
+    assert_contains(
+        made(&rig, &flow(BLOCK)).unwrap_err(),
+        &["4096 cells", "larger cell"],
+    );
+    assert_contains(
+        made(&rig, &water()).unwrap_err(),
+        &["800 particles", "larger spacing"],
+    );
     // Nothing of it is left to fail later.
-    assert!(matches!(made_water(&rig), Err(Error::Device(_))));
+    assert!(matches!(made(&rig, &water()), Err(Error::Device(_))));
 }

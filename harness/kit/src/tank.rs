@@ -124,12 +124,7 @@ impl Tank {
         queue: &wgpu::Queue,
         steps: u32,
     ) -> Result<[u32; 2]> {
-        let poses = [Pose {
-            centre: DVec3::ZERO,
-            deformation: DMat3::IDENTITY,
-            velocity: DVec3::ZERO,
-            deformation_rate: DMat3::ZERO,
-        }];
+        let poses = [resting(DVec3::ZERO)];
         let time = self.particles.step_limit() * f64::from(steps) * 0.999;
         let done = self.particles.advance(device, queue, &poses, time).await?;
         Ok([done.steps, done.sorts])
@@ -138,26 +133,77 @@ impl Tank {
 
 /// A cube of water, `edge` particles long, in a tank that it fills, open above.
 fn tank(edge: u32) -> (Setup, Vec<DVec3>) {
-    let spacing = 1.0 / f64::from(edge);
-    let mut setup = Setup::tank(DVec3::ONE, spacing, 45.0);
+    let mut setup = Setup::tank(DVec3::ONE, 1.0 / f64::from(edge), 45.0);
     setup.faces[2][1] = Side::Open;
-    let layers = setup.layers() as i32;
-    let (mut boundary, mut water) = (Vec::new(), Vec::new());
-    let edge = edge as i32;
-    for k in -layers..edge {
-        for j in -layers..edge + layers {
-            for i in -layers..edge + layers {
-                let place = spacing * (DVec3::new(i.into(), j.into(), k.into()) + 0.5);
-                let inside = [i, j, k].iter().all(|n| (0..edge).contains(n));
-                if inside { &mut water } else { &mut boundary }.push(place);
+    setup.bodies = vec![walls(&setup)];
+    let water = lattice(&setup, [0; 3], [edge as i32; 3]);
+    (setup, water)
+}
+
+/// The pose of a body at rest.
+pub fn resting(centre: DVec3) -> Pose {
+    Pose {
+        centre,
+        deformation: DMat3::IDENTITY,
+        velocity: DVec3::ZERO,
+        deformation_rate: DMat3::ZERO,
+    }
+}
+
+/// The points (i + ½) Δx of a box of whole spacings; a planar setup has one row in the middle.
+pub fn lattice(setup: &Setup, low: [i32; 3], high: [i32; 3]) -> Vec<DVec3> {
+    let mut points = Vec::new();
+    let [mut low, mut high] = [low, high];
+    if setup.plane {
+        (low[1], high[1]) = (0, 1);
+    }
+    for k in low[2]..high[2] {
+        for j in low[1]..high[1] {
+            for i in low[0]..high[0] {
+                let index = [i, j, k].map(|n| f64::from(n) + 0.5);
+                let mut point = setup.origin + setup.spacing * DVec3::from(index);
+                if setup.plane {
+                    point.y = setup.origin.y + 0.5 * setup.size.y;
+                }
+                points.push(point);
             }
         }
     }
-    setup.bodies = vec![Body {
+    points
+}
+
+/// Boundary particles behind the walls of the domain.
+pub fn walls(setup: &Setup) -> Body {
+    let layers = setup.layers() as i32;
+    let cells = (setup.size / setup.spacing)
+        .round()
+        .to_array()
+        .map(|n| n as i32);
+    let mut low = [-layers; 3];
+    let mut high = cells.map(|n| n + layers);
+    for axis in 0..3 {
+        if setup.faces[axis][0] == Side::Periodic {
+            (low[axis], high[axis]) = (0, cells[axis]);
+        }
+        if setup.faces[axis][0] == Side::Open {
+            low[axis] = 0;
+        }
+        if setup.faces[axis][1] == Side::Open {
+            high[axis] = cells[axis];
+        }
+    }
+    let end = setup.origin + setup.size;
+    let outside = |x: &DVec3| {
+        let axes = if setup.plane { &[0, 2][..] } else { &[0, 1, 2] };
+        axes.iter()
+            .any(|&axis| x[axis] < setup.origin[axis] || x[axis] > end[axis])
+    };
+    let mut boundary = lattice(setup, low, high);
+    boundary.retain(outside);
+    Body {
         boundary,
         ..Body::default()
-    }];
-    (setup, water)
+    }
 }
 
 /// Pairs of water with water and of water with walls, of particles on the lattice, each for its end in the water.

@@ -6,11 +6,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Part;
-use super::tagged::{need, refuse_others};
+use super::rules::{direction, finite, positive, refuse};
+use super::tagged::Kind;
+use crate::error::Result;
 
 /// Shape of a block or of a part of one.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(tag = "kind", rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "kind")]
 pub enum BlockShape {
     /// A box about its centre.
     Box {
@@ -57,10 +60,10 @@ pub enum BlockShape {
         /// STL or OBJ file, relative to the scene's file.
         file: PathBuf,
         /// Length of the file's unit, m. Default 1.
-        #[schemars(default = "metre")]
+        #[serde(default = "metre")]
         scale: f64,
         /// Whether the convex hull of the mesh stands for it. Default false.
-        #[schemars(default)]
+        #[serde(default)]
         hull: bool,
     },
     /// Parts that move as one. They may touch but not overlap.
@@ -71,6 +74,19 @@ pub enum BlockShape {
 }
 
 impl BlockShape {
+    pub(super) const KINDS: &[Kind] = &[
+        ("box", "size", ""),
+        ("vertices", "vertices", ""),
+        ("half_spaces", "faces", ""),
+        ("tetrahedron", "edge", ""),
+        ("octahedron", "edge", ""),
+        ("dodecahedron", "edge", ""),
+        ("icosahedron", "edge", ""),
+        ("sphere", "radius", ""),
+        ("mesh", "file", "scale hull"),
+        ("compound", "parts", ""),
+    ];
+
     /// Its `kind` in a scene.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -98,109 +114,68 @@ pub struct PlaneFace {
     pub distance: f64,
 }
 
-fn metre() -> f64 {
+/// Length of the unit of a mesh, m.
+pub(super) fn metre() -> f64 {
     1.0
 }
 
-/// The words for kinds.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Kind {
-    Box,
-    Vertices,
-    HalfSpaces,
-    Tetrahedron,
-    Octahedron,
-    Dodecahedron,
-    Icosahedron,
-    Sphere,
-    Mesh,
-    Compound,
-}
-
-/// All keys of a shape.
-pub(super) struct Keys {
-    pub size: Option<[f64; 3]>,
-    pub vertices: Option<Vec<[f64; 3]>>,
-    pub faces: Option<Vec<PlaneFace>>,
-    pub edge: Option<f64>,
-    pub radius: Option<f64>,
-    pub file: Option<PathBuf>,
-    pub scale: Option<f64>,
-    pub hull: Option<bool>,
-    pub parts: Option<Vec<Part>>,
-}
-
-impl Keys {
-    pub fn typed(self, kind: Kind) -> Result<BlockShape, String> {
-        let given = [
-            ("size", self.size.is_some()),
-            ("vertices", self.vertices.is_some()),
-            ("faces", self.faces.is_some()),
-            ("edge", self.edge.is_some()),
-            ("radius", self.radius.is_some()),
-            ("file", self.file.is_some()),
-            ("scale", self.scale.is_some()),
-            ("hull", self.hull.is_some()),
-            ("parts", self.parts.is_some()),
-        ];
-        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
-        let edge = self.edge;
-        let regular = |kind| {
-            only(kind, &["edge"])?;
-            need(edge, "edge", kind)
-        };
-        Ok(match kind {
-            Kind::Box => {
-                only("box", &["size"])?;
-                BlockShape::Box {
-                    size: need(self.size, "size", "box")?,
-                }
+/// The numbers of the shape of the table `key`.
+pub(super) fn check(key: &str, shape: &BlockShape) -> Result<()> {
+    match shape {
+        BlockShape::Box { size } => {
+            for (axis, edge) in size.iter().enumerate() {
+                positive(format!("{key}.size[{axis}]"), *edge, "m")?;
             }
-            Kind::Vertices => {
-                only("vertices", &["vertices"])?;
-                BlockShape::Vertices {
-                    vertices: need(self.vertices, "vertices", "vertices")?,
-                }
+            Ok(())
+        }
+        BlockShape::Vertices { vertices } => points(&format!("{key}.vertices"), vertices),
+        BlockShape::HalfSpaces { faces } => half_spaces(&format!("{key}.faces"), faces),
+        BlockShape::Tetrahedron { edge }
+        | BlockShape::Octahedron { edge }
+        | BlockShape::Dodecahedron { edge }
+        | BlockShape::Icosahedron { edge } => positive(format!("{key}.edge"), *edge, "m"),
+        BlockShape::Sphere { radius } => positive(format!("{key}.radius"), *radius, "m"),
+        BlockShape::Mesh { scale, .. } => positive(format!("{key}.scale"), *scale, "m"),
+        BlockShape::Compound { parts } => {
+            if parts.is_empty() {
+                return refuse(format!("{key}.parts"), "has no parts; list at least one");
             }
-            Kind::HalfSpaces => {
-                only("half_spaces", &["faces"])?;
-                BlockShape::HalfSpaces {
-                    faces: need(self.faces, "faces", "half_spaces")?,
-                }
+            for (number, part) in parts.iter().enumerate() {
+                let key = format!("{key}.parts[{number}]");
+                check(&key, &part.shape)?;
+                finite(format!("{key}.position"), &part.position)?;
+                part.rotation.check(&format!("{key}.rotation"))?;
             }
-            Kind::Tetrahedron => BlockShape::Tetrahedron {
-                edge: regular("tetrahedron")?,
-            },
-            Kind::Octahedron => BlockShape::Octahedron {
-                edge: regular("octahedron")?,
-            },
-            Kind::Dodecahedron => BlockShape::Dodecahedron {
-                edge: regular("dodecahedron")?,
-            },
-            Kind::Icosahedron => BlockShape::Icosahedron {
-                edge: regular("icosahedron")?,
-            },
-            Kind::Sphere => {
-                only("sphere", &["radius"])?;
-                BlockShape::Sphere {
-                    radius: need(self.radius, "radius", "sphere")?,
-                }
-            }
-            Kind::Mesh => {
-                only("mesh", &["file", "scale", "hull"])?;
-                BlockShape::Mesh {
-                    file: need(self.file, "file", "mesh")?,
-                    scale: self.scale.unwrap_or_else(metre),
-                    hull: self.hull.unwrap_or_default(),
-                }
-            }
-            Kind::Compound => {
-                only("compound", &["parts"])?;
-                BlockShape::Compound {
-                    parts: need(self.parts, "parts", "compound")?,
-                }
-            }
-        })
+            Ok(())
+        }
     }
+}
+
+/// The corners of a body with a volume.
+pub(super) fn points(key: &str, points: &[[f64; 3]]) -> Result<()> {
+    for (number, point) in points.iter().enumerate() {
+        finite(format!("{key}[{number}]"), point)?;
+    }
+    if points.len() < 4 {
+        return refuse(
+            key,
+            format!("{} points have no volume; give at least 4", points.len()),
+        );
+    }
+    Ok(())
+}
+
+/// The faces of a body with a volume.
+pub(super) fn half_spaces(key: &str, faces: &[PlaneFace]) -> Result<()> {
+    for (number, face) in faces.iter().enumerate() {
+        direction(format!("{key}[{number}].normal"), &face.normal)?;
+        finite(format!("{key}[{number}].distance"), &[face.distance])?;
+    }
+    if faces.len() < 4 {
+        return refuse(
+            key,
+            format!("{} half-spaces bound nothing; give at least 4", faces.len()),
+        );
+    }
+    Ok(())
 }

@@ -1,87 +1,93 @@
 //! Blocks that stand alone or in rows.
 
-use std::path::PathBuf;
+use std::fmt;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use toml::de::DeTable;
 
-use super::block_shape::{BlockShape, Keys, Kind, PlaneFace};
 use super::deformable::{FixedPoint, PointLoad};
-use super::one_or_many::OneOrMany;
-use super::tagged::through;
+use super::rules::{direction, finite, finite_constants, names, refuse};
+use super::{BlockShape, Scene, block_shape};
+use crate::error::Result;
 use crate::formula::Formula;
 
 /// A block, or a row of equal ones.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Block {
     /// Name for messages, probes and files; copies get `_1`, `_2`, … after it. Default `block_` and
     /// the number of this table, from 1.
-    #[schemars(default)]
+    #[serde(default)]
     pub name: Option<String>,
     /// The shape, in the block's own frame.
+    #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: BlockShape,
     /// Where the origin of the block's own frame is, m. Default (0, 0, 0).
-    #[schemars(default)]
+    #[serde(default)]
     pub position: [f64; 3],
     /// How the block is turned about the origin of its own frame. Default not at all.
-    #[schemars(default)]
+    #[serde(default)]
     pub rotation: Rotation,
     /// What may move it. Default `free`.
-    #[schemars(default)]
+    #[serde(default)]
     pub motion: Motion,
     /// Velocity of the centroid, m/s: of a free block at the time 0, three numbers; of a driven one
     /// three numbers or formulas of t. Default at rest.
-    #[schemars(default)]
+    #[serde(default)]
     pub velocity: [Formula; 3],
     /// Spin about the axes of the world, rad/s: as the velocity. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub spin: [Formula; 3],
     /// Name of its material. Default the first one.
-    #[schemars(default)]
+    #[serde(default)]
     pub material: Option<String>,
     /// Whether it deforms: as a whole, with one strain and one stress (discontinuous deformation analysis).
     /// Only free blocks of one convex polyhedron, of a material with `youngs_modulus`; they never sleep, and
     /// their elasticity limits the step. Default false: it is rigid.
-    #[schemars(default)]
+    #[serde(default)]
     pub deformable: bool,
     /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
     /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
-    #[schemars(default)]
+    #[serde(default)]
     pub initial_stress: [f64; 6],
     /// Points of a deformable block that stay where they are. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub fixed_points: Vec<FixedPoint>,
     /// Forces on points of a free block, deformable or rigid; it never sleeps. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub point_loads: Vec<PointLoad>,
     /// Acceleration of a free block besides gravity, m/s²: three numbers or formulas of t; it never sleeps.
     /// Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub acceleration: Option<[Formula; 3]>,
     /// Axis of a rail without friction on which a free rigid block slides, of any length: along it forces move the block, across
     /// it nothing does, and it does not turn. Copies have the same. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub guide: Option<[f64; 3]>,
     /// Rows of copies, each of all that those before it made: one for a stack, two for a wall, with
     /// turns for an arch. One table or a list of them. Default only the block itself.
-    #[schemars(default, with = "OneOrMany<Repeat>")]
+    #[serde(default, deserialize_with = "rows")]
+    #[schemars(schema_with = "rows_schema")]
     pub repeat: Vec<Repeat>,
 }
 
 /// A part of a compound: any shape but a compound.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Part {
     /// The shape, in the part's own frame.
+    #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: BlockShape,
     /// Where the origin of the part's own frame is in the block's, m. Default (0, 0, 0).
-    #[schemars(default)]
+    #[serde(default)]
     pub position: [f64; 3],
     /// How the part is turned about that origin. Default not at all.
-    #[schemars(default)]
+    #[serde(default)]
     pub rotation: Rotation,
 }
 
@@ -101,6 +107,14 @@ impl Default for Rotation {
             axis: [0.0, 0.0, 1.0],
             angle: 0.0,
         }
+    }
+}
+
+impl Rotation {
+    /// The numbers of the turn at `key`.
+    pub(super) fn check(&self, key: &str) -> Result<()> {
+        direction(format!("{key}.axis"), &self.axis)?;
+        finite(format!("{key}.angle"), &[self.angle])
     }
 }
 
@@ -134,114 +148,152 @@ pub struct Repeat {
     pub about: [f64; 3],
 }
 
-/// All keys of a block and of a part: a part is a block without those that concern its motion.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Flat {
-    kind: Kind,
-    name: Option<String>,
-    size: Option<[f64; 3]>,
-    vertices: Option<Vec<[f64; 3]>>,
-    faces: Option<Vec<PlaneFace>>,
-    edge: Option<f64>,
-    radius: Option<f64>,
-    file: Option<PathBuf>,
-    scale: Option<f64>,
-    hull: Option<bool>,
-    parts: Option<Vec<Part>>,
-    #[serde(default)]
-    position: [f64; 3],
-    #[serde(default)]
-    rotation: Rotation,
-    motion: Option<Motion>,
-    velocity: Option<[Formula; 3]>,
-    spin: Option<[Formula; 3]>,
-    material: Option<String>,
-    deformable: Option<bool>,
-    initial_stress: Option<[f64; 6]>,
-    fixed_points: Option<Vec<FixedPoint>>,
-    point_loads: Option<Vec<PointLoad>>,
-    acceleration: Option<[Formula; 3]>,
-    guide: Option<[f64; 3]>,
-    repeat: Option<OneOrMany<Repeat>>,
-}
+/// A list of rows, or its only one. Read by hand, since serde's untagged enums lose the place of an error.
+fn rows<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Repeat>, D::Error> {
+    struct Rows;
+    impl<'de> Visitor<'de> for Rows {
+        type Value = Vec<Repeat>;
 
-impl Flat {
-    fn shape(&mut self) -> Result<BlockShape, String> {
-        let keys = Keys {
-            size: self.size.take(),
-            vertices: self.vertices.take(),
-            faces: self.faces.take(),
-            edge: self.edge.take(),
-            radius: self.radius.take(),
-            file: self.file.take(),
-            scale: self.scale.take(),
-            hull: self.hull.take(),
-            parts: self.parts.take(),
-        };
-        keys.typed(self.kind)
-    }
-
-    fn typed(mut self) -> Result<Block, String> {
-        Ok(Block {
-            shape: self.shape()?,
-            name: self.name,
-            position: self.position,
-            rotation: self.rotation,
-            motion: self.motion.unwrap_or_default(),
-            velocity: self.velocity.unwrap_or_default(),
-            spin: self.spin.unwrap_or_default(),
-            material: self.material,
-            deformable: self.deformable.unwrap_or_default(),
-            initial_stress: self.initial_stress.unwrap_or_default(),
-            fixed_points: self.fixed_points.unwrap_or_default(),
-            point_loads: self.point_loads.unwrap_or_default(),
-            acceleration: self.acceleration,
-            guide: self.guide,
-            repeat: self.repeat.map_or_else(Vec::new, |rows| rows.0),
-        })
-    }
-}
-
-through!(Flat => Block);
-
-/// The keys of a part.
-#[derive(Deserialize)]
-#[serde(transparent)]
-struct FlatPart(Flat);
-
-impl FlatPart {
-    fn typed(mut self) -> Result<Part, String> {
-        let flat = &self.0;
-        let whole = [
-            ("name", flat.name.is_some()),
-            ("motion", flat.motion.is_some()),
-            ("velocity", flat.velocity.is_some()),
-            ("spin", flat.spin.is_some()),
-            ("material", flat.material.is_some()),
-            ("deformable", flat.deformable.is_some()),
-            ("initial_stress", flat.initial_stress.is_some()),
-            ("fixed_points", flat.fixed_points.is_some()),
-            ("point_loads", flat.point_loads.is_some()),
-            ("acceleration", flat.acceleration.is_some()),
-            ("guide", flat.guide.is_some()),
-            ("repeat", flat.repeat.is_some()),
-        ];
-        if let Some((key, _)) = whole.iter().find(|(_, given)| *given) {
-            return Err(format!(
-                "`{key}` belongs to the whole block, not to a part of it; give it to the block"
-            ));
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("a table or a list of tables")
         }
-        let shape = self.0.shape()?;
-        if matches!(shape, BlockShape::Compound { .. }) {
-            return Err("a part cannot be a compound; list its parts among the others".into());
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<Repeat>, A::Error> {
+            Ok(vec![Repeat::deserialize(MapAccessDeserializer::new(map))?])
         }
-        Ok(Part {
-            shape,
-            position: self.0.position,
-            rotation: self.0.rotation,
-        })
+
+        fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Repeat>, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(list))
+        }
+    }
+    from.deserialize_any(Rows)
+}
+
+fn rows_schema(generator: &mut SchemaGenerator) -> Schema {
+    let one = generator.subschema_for::<Repeat>();
+    schemars::json_schema!({
+        "anyOf": [one.clone(), { "type": "array", "items": one }]
+    })
+}
+
+/// A part has the keys that say where it is, and no parts.
+pub(super) fn check_part(part: &DeTable<'_>, kind: &str) -> Result<(), String> {
+    const OF_BLOCKS: [&str; 12] = [
+        "name",
+        "motion",
+        "velocity",
+        "spin",
+        "material",
+        "deformable",
+        "initial_stress",
+        "fixed_points",
+        "point_loads",
+        "acceleration",
+        "guide",
+        "repeat",
+    ];
+    match OF_BLOCKS.iter().find(|key| part.contains_key(**key)) {
+        Some(key) => Err(format!(
+            "`{key}` belongs to the whole block, not to a part of it; give it to the block"
+        )),
+        None if kind == "compound" => {
+            Err("a part cannot be a compound; list its parts among the others".into())
+        }
+        None => Ok(()),
     }
 }
 
-through!(FlatPart => Part);
+/// Most blocks of a table: far beyond what runs in a day, so a slip of the pen.
+const MOST: f64 = 1e7;
+
+impl Scene {
+    pub(super) fn check_blocks(&self) -> Result<()> {
+        let named = self.blocks.iter().enumerate();
+        names(
+            "blocks",
+            named.filter_map(|(i, block)| Some((i, block.name.as_deref()?))),
+        )?;
+        for (index, block) in self.blocks.iter().enumerate() {
+            let key = format!("blocks[{index}]");
+            self.material(&format!("{key}.material"), block.material.as_deref())?;
+            block_shape::check(&key, &block.shape)?;
+            finite(format!("{key}.position"), &block.position)?;
+            block.rotation.check(&format!("{key}.rotation"))?;
+            motion(&key, block)?;
+            self.check_deformable(&key, block)?;
+            repeats(&key, block)?;
+        }
+        Ok(())
+    }
+}
+
+fn motion(key: &str, block: &Block) -> Result<()> {
+    let still = |formulas: &[Formula; 3]| formulas.iter().all(|f| f.constant() == Some(0.0));
+    for (name, formulas) in [("velocity", &block.velocity), ("spin", &block.spin)] {
+        let key = format!("{key}.{name}");
+        finite_constants(&key, formulas)?;
+        match block.motion {
+            Motion::Fixed if !still(formulas) => {
+                return refuse(
+                    key,
+                    "a fixed block does not move; remove it, or use motion = \"driven\"",
+                );
+            }
+            Motion::Free if formulas.iter().any(|f| !f.is_constant()) => {
+                return refuse(
+                    key,
+                    "a free block starts with three numbers; for formulas of t use motion = \
+                     \"driven\"",
+                );
+            }
+            _ => {}
+        }
+        let at_start = |formula: &&Formula| formula.eval(0.0, 0.0, 0.0, 0.0);
+        if let Some(formula) = formulas.iter().find(|f| !at_start(f).is_finite()) {
+            return refuse(
+                key,
+                format!(
+                    "`{formula}` is {} at t = 0; give a formula that is finite at all times",
+                    at_start(&formula)
+                ),
+            );
+        }
+        if let Some(formula) = formulas.iter().find(|f| f.uses_place()) {
+            return refuse(
+                key,
+                format!("`{formula}` uses x, y or z; the motion of a block is a formula of t"),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn repeats(key: &str, block: &Block) -> Result<()> {
+    let mut all = 1.0;
+    for (number, row) in block.repeat.iter().enumerate() {
+        let key = format!("{key}.repeat[{number}]");
+        if row.count == 0 {
+            return refuse(
+                format!("{key}.count"),
+                "a row has at least the block itself; give at least 1",
+            );
+        }
+        finite(format!("{key}.step"), &row.step)?;
+        finite(format!("{key}.about"), &row.about)?;
+        row.turn.check(&format!("{key}.turn"))?;
+        all *= f64::from(row.count);
+        if all > MOST {
+            return refuse(
+                format!("{key}.count"),
+                format!("these are {all:.3e} blocks; at most {MOST:.0e} are made of a table"),
+            );
+        }
+        if row.count > 1 && row.step == [0.0; 3] && row.turn.angle == 0.0 {
+            return refuse(
+                key,
+                "all copies would be in one place; give a step or a turn",
+            );
+        }
+    }
+    Ok(())
+}

@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
 
+use super::Scene;
+use super::rules::{finite_constants, no_time};
 use crate::formula::Formula;
 
 /// Word for the pressure of a fluid at rest under the acceleration.
@@ -80,5 +82,19 @@ impl JsonSchema for InitialPressure {
             "description": "`hydrostatic`, a number (Pa), or a formula of x, y, z (m).",
             "type": ["number", "string"]
         })
+    }
+}
+
+impl Scene {
+    pub(super) fn check_initial(&self) -> crate::error::Result<()> {
+        no_time("initial.velocity", &self.initial.velocity)?;
+        finite_constants("initial.velocity", &self.initial.velocity)?;
+        match &self.initial.pressure {
+            InitialPressure::Hydrostatic => Ok(()),
+            InitialPressure::Given(formula) => {
+                no_time("initial.pressure", std::slice::from_ref(formula))?;
+                finite_constants("initial.pressure", std::slice::from_ref(formula))
+            }
+        }
     }
 }

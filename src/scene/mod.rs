@@ -34,7 +34,6 @@ mod block_shape;
 mod blocks;
 mod boundaries;
 pub mod build;
-mod check;
 mod coupling;
 mod deformable;
 mod domain;
@@ -43,7 +42,6 @@ mod fluid;
 mod initial;
 mod materials;
 mod numerics;
-mod one_or_many;
 mod output;
 mod parse;
 mod particles;
@@ -51,19 +49,22 @@ mod probes;
 mod renamed;
 mod rock;
 mod rock_masses;
+mod rules;
 mod run;
 mod sample;
-mod slips;
 mod solids;
 pub mod static_solids;
+mod suspicious_keys;
 mod tagged;
 mod views;
-mod water;
 
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::error::Result;
+use rules::refuse;
 
 pub use advice::{Advice, SUGA_EXCESS, Warning};
 pub use block_shape::{BlockShape, PlaneFace};
@@ -78,7 +79,7 @@ pub use initial::{Initial, InitialPressure};
 pub use materials::{Material, MaterialPair};
 pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, Storage};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
-pub use particles::{EquationOfState, Particles, Scheme};
+pub use particles::{EquationOfState, Particles, Scheme, Water};
 pub use probes::{Probe, ProbePlace};
 pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};
 pub use rock::{Rock, Search, Sleep};
@@ -87,7 +88,6 @@ pub use run::Run;
 pub use sample::{BodyForce, InitialFields, StartPressure};
 pub use solids::{Shape, Solid};
 pub use views::{View, ViewSlice};
-pub use water::Water;
 
 /// A fluid, blocks of rock, or both, in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -208,5 +208,56 @@ impl Scene {
     /// The format as a JSON schema.
     pub fn schema() -> schemars::Schema {
         schemars::schema_for!(Self)
+    }
+
+    /// Whether the scene agrees with itself.
+    ///
+    /// # Errors
+    /// Names the first key that does not, why, and what would be right.
+    pub fn check(&self) -> Result<()> {
+        if let (Some(_), false) = (&self.particles, self.has_fluid()) {
+            return refuse(
+                "particles",
+                "need to know of what they are; add [fluid] with its density and acceleration",
+            );
+        }
+        if !self.has_fluid() && !self.has_blocks() {
+            return refuse(
+                "fluid",
+                "the scene has neither a fluid nor blocks; add [fluid], [[blocks]] or \
+                 [[rock_masses]]",
+            );
+        }
+        if !self.has_particles() {
+            self.check_no_particles()?;
+        }
+        self.check_domain()?;
+        if let Some(particles) = &self.particles {
+            self.check_particles(particles)?;
+        }
+        if self.has_fluid() {
+            self.check_fluid()?;
+            self.check_numerics()?;
+        } else {
+            self.check_dry()?;
+        }
+        self.check_coupling()?;
+        self.check_solids()?;
+        self.check_initial()?;
+        self.check_run()?;
+        self.check_output()?;
+        self.check_probes()?;
+        self.check_rock()?;
+        self.check_materials()?;
+        self.check_blocks()?;
+        self.check_rock_masses()?;
+        self.check_views()?;
+        // Last, since the balance of flows needs the solids.
+        if self.has_particles() {
+            self.check_particle_boundaries()?;
+            return self.check_boundaries();
+        }
+        self.check_boundaries()?;
+        self.check_balance()
     }
 }

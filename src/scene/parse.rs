@@ -1,8 +1,15 @@
 //! From TOML text to a scene; errors that say where and what instead.
 
+use std::ops::Range;
 use std::path::Path;
 
-use super::{Scene, renamed::renamed_keys};
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+use super::Scene;
+use super::renamed::renamed_keys;
+use super::tagged;
 use crate::error::{Error, Place, Result};
 
 /// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
@@ -30,7 +37,7 @@ impl Scene {
     /// # Errors
     /// If the text is not TOML, does not follow the format, or contradicts itself.
     pub fn from_toml(text: &str, dir: &Path, place: &str) -> Result<Self> {
-        let mut scene: Self = toml::from_str(text).map_err(|e| refuse(e, text, place))?;
+        let mut scene = deserialize(text).map_err(|refusal| refusal.at(text, place))?;
         dir.clone_into(&mut scene.dir);
         if scene.title.is_empty() {
             let stem = Path::new(place).file_stem();
@@ -47,41 +54,72 @@ impl Scene {
     }
 }
 
-/// The error of a text that does not follow the format.
-fn refuse(mut error: toml::de::Error, text: &str, place: &str) -> Error {
-    // A text that is no TOML has no keys; its own error follows.
-    if let Some(first) = renamed_keys(text, place).unwrap_or_default().first() {
-        return Error::Scene {
-            place: Some(Place {
-                file: place.to_owned(),
-                position: Some([first.line, first.column]),
-            }),
-            key: first.key.old.to_owned(),
-            message: format!("{first}; `riprap migrate {place}` rewrites all old keys"),
+/// Why a text does not follow the format.
+pub(super) struct Refusal {
+    /// Bytes of the text.
+    pub span: Option<Range<usize>>,
+    /// Keys from the scene to the place, without the numbers of lists.
+    pub key: String,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+/// The scene in `text`, not checked yet.
+fn deserialize(text: &str) -> Result<Scene, Refusal> {
+    let refused = |error| Refusal::of(error, text);
+    let document = DeTable::parse(text).map_err(refused)?;
+    let mut document = Spanned::new(document.span(), DeValue::Table(document.into_inner()));
+    tagged::tag(&mut document)?;
+    Scene::deserialize(ValueDeserializer::from(document)).map_err(refused)
+}
+
+impl Refusal {
+    fn of(mut error: toml::de::Error, text: &str) -> Self {
+        // Without its input the error prints the path of keys at which it arose.
+        error.set_input(None);
+        let printed = error.to_string();
+        let keys = printed
+            .trim_end()
+            .rsplit_once("\nin `")
+            .and_then(|(_, keys)| keys.strip_suffix('`'));
+        // The keys of a kind are those of its table.
+        let key = keys.unwrap_or_default().replace(".kind.", ".");
+        let found = error.span().and_then(|span| text.get(span));
+        let message = match (error.message(), found) {
+            ("duplicate key", Some(key)) => {
+                format!("`{key}` stands twice in its table; keep one of the two")
+            }
+            (message, _) => explain(message),
         };
-    }
-    let span = error.span();
-    let at = span.clone().map(|span| position(text, span.start));
-    let message = match (error.message(), span.and_then(|span| text.get(span))) {
-        ("duplicate key", Some(key)) => {
-            format!("`{key}` stands twice in its table; keep one of the two")
+        Self {
+            span: error.span(),
+            key,
+            message,
         }
-        (message, _) => explain(message),
-    };
-    // Without its input the error prints the path of keys at which it arose.
-    error.set_input(None);
-    let printed = error.to_string();
-    let keys = printed
-        .trim_end()
-        .rsplit_once("\nin `")
-        .and_then(|(_, keys)| keys.strip_suffix('`'));
-    Error::Scene {
-        place: Some(Place {
-            file: place.to_owned(),
-            position: at,
-        }),
-        key: keys.unwrap_or_default().to_owned(),
-        message,
+    }
+
+    /// The error in the `text` that `place` names.
+    fn at(self, text: &str, place: &str) -> Error {
+        let Self { span, key, message } = self;
+        let at = |position| {
+            Some(Place {
+                file: place.to_owned(),
+                position,
+            })
+        };
+        // A text that is no TOML has no keys; its own error follows.
+        match renamed_keys(text, place).unwrap_or_default().first() {
+            Some(first) => Error::Scene {
+                place: at(Some([first.line, first.column])),
+                key: first.key.old.to_owned(),
+                message: format!("{first}; `riprap migrate {place}` rewrites all old keys"),
+            },
+            None => Error::Scene {
+                place: at(span.map(|span| position(text, span.start))),
+                key,
+                message,
+            },
+        }
     }
 }
 
@@ -124,7 +162,7 @@ fn find(text: &str, key: &str) -> Option<[usize; 2]> {
     if let Some(name) = key.strip_prefix("block ") {
         return find_block(text, name);
     }
-    let document = toml::de::DeTable::parse(text).ok()?;
+    let document = DeTable::parse(text).ok()?;
     let mut steps = key.split(['.', '[']);
     let mut found = document.get_ref().get(steps.next()?)?;
     for step in steps {
@@ -141,7 +179,7 @@ fn find(text: &str, key: &str) -> Option<[usize; 2]> {
 
 /// Line and column of the table that makes the block `name`, or many of which it is one, `name_3` of `name`.
 fn find_block(text: &str, name: &str) -> Option<[usize; 2]> {
-    let document = toml::de::DeTable::parse(text).ok()?;
+    let document = DeTable::parse(text).ok()?;
     let tables = ["blocks", "solids", "rock_masses"].into_iter();
     let tables = tables.filter_map(|key| document.get_ref().get(key)?.get_ref().as_array());
     let mut tables = tables.flatten();
@@ -173,28 +211,29 @@ pub(super) fn position(text: &str, offset: usize) -> [usize; 2] {
     ]
 }
 
+/// A key or another word (`what`) that there is not, and the most similar one that there is.
+pub(super) fn unknown(what: &str, wrong: &str, possible: &[&str]) -> String {
+    let best = possible
+        .iter()
+        .map(|word| (strsim::jaro_winkler(wrong, word), word))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .filter(|(alike, _)| *alike >= ALIKE);
+    let guess = best.map_or(String::new(), |(_, word)| {
+        format!(" did you mean `{word}`?")
+    });
+    format!(
+        "there is no {what} `{wrong}` here;{guess} possible are {}",
+        possible.join(", ")
+    )
+}
+
 /// serde's words, in those of the format.
 fn explain(message: &str) -> String {
     let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let unknown = message.starts_with("unknown field") || message.starts_with("unknown variant");
-    if let (true, Some((wrong, possible))) = (unknown, words.split_first()) {
-        let what = if message.starts_with("unknown field") {
-            "key"
-        } else {
-            "word"
-        };
-        let best = possible
-            .iter()
-            .map(|word| (strsim::jaro_winkler(wrong, word), word))
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .filter(|(alike, _)| *alike >= ALIKE);
-        let guess = best.map_or(String::new(), |(_, word)| {
-            format!(" did you mean `{word}`?")
-        });
-        return format!(
-            "there is no {what} `{wrong}` here;{guess} possible are {}",
-            possible.join(", ")
-        );
+    for (what, start) in [("key", "unknown field"), ("word", "unknown variant")] {
+        if let (true, Some((wrong, possible))) = (message.starts_with(start), words.split_first()) {
+            return unknown(what, wrong, possible);
+        }
     }
     if let (true, Some(key)) = (message.starts_with("missing field"), words.first()) {
         return format!("the key `{key}` is missing; add it");

@@ -2,33 +2,39 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use toml::de::DeTable;
 
-use super::tagged::{need, refuse_others, through};
-use super::{Axis, Direction, Field};
+use super::rules::{distinct, inside, interval, names, ordered, positive, refuse};
+use super::tagged::Kind;
+use super::{Axis, Direction, Field, Scene};
+use crate::error::Result;
 
 /// A measurement, written as CSV; the forces on a `block`, the level of a `gauge`, a `run_up` and the volume of water in a
 /// `box` are drawn over time next to it, as PNG.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Probe {
     /// Name of the file.
     pub name: String,
     /// Where it measures.
+    #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub place: ProbePlace,
     /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
     /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
     /// its stress if it deforms, a `sensor` pressure and impulse, and no other fields.
-    #[schemars(default)]
+    #[serde(default = "usual_fields")]
+    #[schemars(default = "Vec::<Field>::new")]
     pub fields: Vec<Field>,
     /// Time between measurements, s. Default: only at the end of the run.
-    #[schemars(default)]
+    #[serde(default)]
     pub every: Option<f64>,
 }
 
 /// Where a probe measures.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(tag = "kind", rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "kind")]
 pub enum ProbePlace {
     /// One point, interpolated; among particles their mean, weighted by the kernel, and `NaN` where there is no water.
     Point {
@@ -87,13 +93,13 @@ pub enum ProbePlace {
         /// `joint_pressure`, the mean over its joints (Pa), both with what is closed. Pressure is that of the fluid: above the
         /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
         /// beside. Needs a fluid. Default false.
-        #[schemars(default)]
+        #[serde(default)]
         faces: bool,
         /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
         /// `safety_toppling`, by limit equilibrium of weight, fluid, point loads, acceleration and its contacts, and to tell
         /// them in the summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. In closed joints they
         /// take the pressure of their rim in the lattice's fluid. Not of a block with a `guide`. Default false.
-        #[schemars(default)]
+        #[serde(default)]
         safety: bool,
     },
     /// The free surface of particles above a point: its height, m; `NaN` where no water is above the point.
@@ -110,7 +116,7 @@ pub enum ProbePlace {
         /// Normal of the patch, into the water.
         normal: Direction,
         /// Edge of the patch, m. Default: the spacing of the particles.
-        #[schemars(default)]
+        #[serde(default)]
         size: Option<f64>,
     },
     /// The farthest of the particles in a box along a direction, drops aside: its place, m; `NaN` where there is none.
@@ -125,6 +131,18 @@ pub enum ProbePlace {
 }
 
 impl ProbePlace {
+    pub(super) const KINDS: &[Kind] = &[
+        ("point", "at", ""),
+        ("line", "from to count", ""),
+        ("plane", "axis position", ""),
+        ("box", "min max", ""),
+        ("face", "min max normal", ""),
+        ("block", "block", "faces safety"),
+        ("gauge", "at", ""),
+        ("sensor", "at normal", "size"),
+        ("run_up", "min max direction", ""),
+    ];
+
     /// The points of a line, each with its distance from the first, m; none of another kind.
     pub fn stations(&self) -> Vec<(f64, [f64; 3])> {
         let Self::Line { from, to, count } = self else {
@@ -144,181 +162,123 @@ impl ProbePlace {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Kind {
-    Point,
-    Line,
-    Plane,
-    Box,
-    Face,
-    Block,
-    Gauge,
-    Sensor,
-    RunUp,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Flat {
-    kind: Kind,
-    name: String,
-    fields: Option<Vec<Field>>,
-    every: Option<f64>,
-    at: Option<At>,
-    from: Option<[f64; 3]>,
-    to: Option<[f64; 3]>,
-    count: Option<u32>,
-    axis: Option<Axis>,
-    position: Option<f64>,
-    min: Option<[f64; 3]>,
-    max: Option<[f64; 3]>,
-    normal: Option<Direction>,
-    direction: Option<Direction>,
-    size: Option<f64>,
-    block: Option<String>,
-    faces: Option<bool>,
-    safety: Option<bool>,
-}
-
-/// A point, or the foot of a column.
-#[derive(Deserialize)]
-#[serde(transparent)]
-struct At(Vec<f64>);
-
-impl At {
-    fn point(self) -> Result<[f64; 3], String> {
-        let count = self.0.len();
-        self.0
-            .try_into()
-            .map_err(|_| format!("`at` has {count} numbers; a point has x, y and z"))
+/// A probe has the fields that its kind lets it have, and a point the coordinates.
+pub(super) fn check_keys(probe: &DeTable<'_>, kind: &str) -> Result<(), String> {
+    let always = match kind {
+        "block" => Some("position, velocity, rotation, spin, force and torque"),
+        "gauge" => Some("the level"),
+        "sensor" => Some("pressure and impulse"),
+        "run_up" => Some("the place of the farthest particle"),
+        _ => None,
+    };
+    let fields = probe.get("fields").map(|fields| fields.get_ref());
+    if let (Some(gives), Some(_)) = (always, fields) {
+        return Err(format!(
+            "a `{kind}` probe always gives {gives} and no fields; remove `fields`"
+        ));
     }
-
-    fn column(self) -> Result<[f64; 2], String> {
-        let count = self.0.len();
-        self.0
-            .try_into()
-            .map_err(|_| format!("`at` has {count} numbers; a gauge stands at x and y"))
+    let mut listed = fields
+        .and_then(|list| list.as_array())
+        .into_iter()
+        .flatten();
+    if kind == "face" && listed.any(|field| field.get_ref().as_str() != Some("pressure")) {
+        return Err("a `face` probe always gives area, pressure and force and no other fields; remove `fields`".into());
+    }
+    let at = probe.get("at").and_then(|at| at.get_ref().as_array());
+    match (kind, at.map(|at| at.len())) {
+        ("point" | "sensor", Some(count)) if count != 3 => {
+            Err(format!("`at` has {count} numbers; a point has x, y and z"))
+        }
+        ("gauge", Some(count)) if count != 2 => Err(format!(
+            "`at` has {count} numbers; a gauge stands at x and y"
+        )),
+        _ => Ok(()),
     }
 }
 
-impl Flat {
-    fn typed(self) -> Result<Probe, String> {
-        let given = [
-            ("at", self.at.is_some()),
-            ("from", self.from.is_some()),
-            ("to", self.to.is_some()),
-            ("count", self.count.is_some()),
-            ("axis", self.axis.is_some()),
-            ("position", self.position.is_some()),
-            ("min", self.min.is_some()),
-            ("max", self.max.is_some()),
-            ("normal", self.normal.is_some()),
-            ("direction", self.direction.is_some()),
-            ("size", self.size.is_some()),
-            ("block", self.block.is_some()),
-            ("faces", self.faces.is_some()),
-            ("safety", self.safety.is_some()),
-        ];
-        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
-        let fixed = |kind: &str, gives: &str| match self.fields {
-            Some(_) => Err(format!(
-                "a `{kind}` probe always gives {gives} and no fields; remove `fields`"
-            )),
-            None => Ok(()),
-        };
-        let place = match self.kind {
-            Kind::Point => {
-                only("point", &["at"])?;
-                ProbePlace::Point {
-                    at: need(self.at, "at", "point")?.point()?,
-                }
+/// What a probe measures where it does not say.
+fn usual_fields() -> Vec<Field> {
+    vec![Field::Velocity, Field::Pressure]
+}
+
+impl Scene {
+    pub(super) fn check_probes(&self) -> Result<()> {
+        let named = self.probes.iter().map(|probe| probe.name.as_str());
+        names("probes", named.enumerate())?;
+        for (index, probe) in self.probes.iter().enumerate() {
+            self.check_probe(&format!("probes[{index}]"), probe)?;
+        }
+        let asks = |probe: &&Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
+        for asking in self.probes.iter().filter(asks) {
+            let faces = format!("{}_faces", asking.name);
+            if let Some(index) = self.probes.iter().position(|probe| probe.name == faces) {
+                return refuse(
+                    format!("probes[{index}].name"),
+                    format!(
+                        "`{faces}` is the table of the faces of `{}`; give it another name",
+                        asking.name
+                    ),
+                );
             }
-            Kind::Line => {
-                only("line", &["from", "to", "count"])?;
-                ProbePlace::Line {
-                    from: need(self.from, "from", "line")?,
-                    to: need(self.to, "to", "line")?,
-                    count: need(self.count, "count", "line")?,
-                }
-            }
-            Kind::Plane => {
-                only("plane", &["axis", "position"])?;
-                ProbePlace::Plane {
-                    axis: need(self.axis, "axis", "plane")?,
-                    position: need(self.position, "position", "plane")?,
-                }
-            }
-            Kind::Box => {
-                only("box", &["min", "max"])?;
-                ProbePlace::Box {
-                    min: need(self.min, "min", "box")?,
-                    max: need(self.max, "max", "box")?,
-                }
-            }
-            Kind::Face => {
-                only("face", &["min", "max", "normal"])?;
-                let useless = |field: &Field| *field != Field::Pressure;
-                if self.fields.iter().flatten().any(useless) {
-                    return Err(
-                        "a `face` probe always gives area, pressure and force and no \
-                                other fields; remove `fields`"
-                            .into(),
+        }
+        Ok(())
+    }
+
+    fn check_probe(&self, key: &str, probe: &Probe) -> Result<()> {
+        interval(format!("{key}.every"), probe.every)?;
+        distinct(&format!("{key}.fields"), &probe.fields)?;
+        self.check_eddy(
+            &format!("{key}.fields"),
+            probe.fields.contains(&Field::EddyViscosity),
+        )?;
+        let within = |part: &str, point| inside(format!("{key}.{part}"), &self.domain, point);
+        match &probe.place {
+            ProbePlace::Point { at } => within("at", *at),
+            ProbePlace::Line { from, to, count } => {
+                within("from", *from)?;
+                within("to", *to)?;
+                if *count < 2 {
+                    return refuse(
+                        format!("{key}.count"),
+                        format!("a line has at least 2 points, not {count}"),
                     );
                 }
-                ProbePlace::Face {
-                    min: need(self.min, "min", "face")?,
-                    max: need(self.max, "max", "face")?,
-                    normal: need(self.normal, "normal", "face")?,
-                }
+                Ok(())
             }
-            Kind::Block => {
-                only("block", &["block", "faces", "safety"])?;
-                fixed(
-                    "block",
-                    "position, velocity, rotation, spin, force and torque",
-                )?;
-                ProbePlace::Block {
-                    block: need(self.block, "block", "block")?,
-                    faces: self.faces.unwrap_or_default(),
-                    safety: self.safety.unwrap_or_default(),
-                }
+            ProbePlace::Plane { axis, position } => {
+                let mut point = self.domain.middle();
+                point[axis.index()] = *position;
+                within("position", point)
             }
-            Kind::Gauge => {
-                only("gauge", &["at"])?;
-                fixed("gauge", "the level")?;
-                ProbePlace::Gauge {
-                    at: need(self.at, "at", "gauge")?.column()?,
+            ProbePlace::Block { faces: true, .. } if !self.has_fluid() => refuse(
+                format!("{key}.faces"),
+                "there is no fluid in this scene that could load the faces of a block; remove `faces`, or \
+                 add [fluid]",
+            ),
+            ProbePlace::Block { faces: true, .. } if self.has_particles() => refuse(
+                format!("{key}.faces"),
+                "particles load blocks as a whole, and not face by face; remove `faces`, or use a lattice fluid",
+            ),
+            // Whether there is a block of that name, only the blocks themselves can tell.
+            ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
+            ProbePlace::Block { .. } => refuse(
+                format!("{key}.block"),
+                "there are no blocks in this scene; remove the probe, or add [[blocks]]",
+            ),
+            ProbePlace::Gauge { at: [x, y] } => within("at", [*x, *y, self.domain.middle()[2]]),
+            ProbePlace::Sensor { at, size, .. } => {
+                if let Some(size) = size {
+                    positive(format!("{key}.size"), *size, "m")?;
                 }
+                within("at", *at)
             }
-            Kind::Sensor => {
-                only("sensor", &["at", "normal", "size"])?;
-                fixed("sensor", "pressure and impulse")?;
-                ProbePlace::Sensor {
-                    at: need(self.at, "at", "sensor")?.point()?,
-                    normal: need(self.normal, "normal", "sensor")?,
-                    size: self.size,
-                }
+            ProbePlace::Box { min, max }
+            | ProbePlace::Face { min, max, .. }
+            | ProbePlace::RunUp { min, max, .. } => {
+                ordered(key, *min, *max)?;
+                within("min", *min)?;
+                within("max", *max)
             }
-            Kind::RunUp => {
-                only("run_up", &["min", "max", "direction"])?;
-                fixed("run_up", "the place of the farthest particle")?;
-                ProbePlace::RunUp {
-                    min: need(self.min, "min", "run_up")?,
-                    max: need(self.max, "max", "run_up")?,
-                    direction: need(self.direction, "direction", "run_up")?,
-                }
-            }
-        };
-        Ok(Probe {
-            name: self.name,
-            place,
-            fields: self
-                .fields
-                .unwrap_or_else(|| vec![Field::Velocity, Field::Pressure]),
-            every: self.every,
-        })
+        }
     }
 }
-
-through!(Flat => Probe);

@@ -5,68 +5,72 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::block_shape::PlaneFace;
-use super::solids::Shape;
-use super::tagged::{need, refuse_others, through};
+use super::block_shape::{PlaneFace, half_spaces, metre, points};
+use super::rules::{direction, finite, names, not_negative, ordered, positive, refuse};
+use super::tagged::Kind;
+use super::{Scene, Shape};
+use crate::error::Result;
 
 /// A convex volume of rock, cut into convex blocks by joints (Gardner, Kolb & Sitar 2017).
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct RockMass {
     /// Name; its blocks are called `_1`, `_2`, … after it. Default `rock_mass_` and the number of
     /// this table, from 1.
-    #[schemars(default)]
+    #[serde(default)]
     pub name: Option<String>,
     /// The volume before the joints cut it.
+    #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub volume: Volume,
     /// The joint sets, in the order in which they cut.
     pub joints: Vec<JointSet>,
     /// Seed of what is random in spacings and persistence. Default 0. The same seed gives the same
     /// blocks on every machine.
-    #[schemars(default)]
+    #[serde(default)]
     pub seed: u64,
     /// The direction against which dips are measured. Default against gravity.
-    #[schemars(default)]
+    #[serde(default)]
     pub up: Option<[f64; 3]>,
     /// The direction from which dip directions are measured, clockwise seen from above. Default
     /// (0, 1, 0).
-    #[schemars(default = "north")]
+    #[serde(default = "north")]
     pub north: [f64; 3],
     /// Smaller pieces are left out, m³: the smallest block decides how long a time step may be.
     /// Default 0: only pieces that are too thin for contact, below 1e-4 of their size, are left out.
-    #[schemars(default)]
+    #[serde(default)]
     pub smallest_volume: f64,
     /// Pieces with a face nearer to their centroid than this part of their extent are left out, no
     /// unit. Default 0: as above.
-    #[schemars(default)]
+    #[serde(default)]
     pub smallest_thickness: f64,
     /// Width of the open joints, m: every face of every block lies half of it inside of where the cuts are,
     /// outer faces too. A fluid flows in joints of a cell and more. Default 0.
-    #[schemars(default)]
+    #[serde(default)]
     pub aperture: f64,
     /// Regions whose blocks, by their centroids, are fixed. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub fixed: Vec<Shape>,
     /// Regions whose blocks, by their centroids, are left out. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub removed: Vec<Shape>,
     /// Name of the material. Default the first one.
-    #[schemars(default)]
+    #[serde(default)]
     pub material: Option<String>,
     /// Whether its free blocks deform, each as a whole; the material then needs `youngs_modulus`. Default
     /// false: they are rigid.
-    #[schemars(default)]
+    #[serde(default)]
     pub deformable: bool,
     /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
     /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
-    #[schemars(default)]
+    #[serde(default)]
     pub initial_stress: [f64; 6],
 }
 
 /// A convex volume.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(tag = "kind", rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "kind")]
 pub enum Volume {
     /// A box along the axes.
     Box {
@@ -90,12 +94,21 @@ pub enum Volume {
         /// STL or OBJ file, relative to the scene's file.
         file: PathBuf,
         /// Length of the file's unit, m. Default 1.
-        #[schemars(default = "metre")]
+        #[serde(default = "metre")]
         scale: f64,
         /// Where the file's origin goes, m, after scaling. Default (0, 0, 0).
-        #[schemars(default)]
+        #[serde(default)]
         translate: [f64; 3],
     },
+}
+
+impl Volume {
+    pub(super) const KINDS: &[Kind] = &[
+        ("box", "min max", ""),
+        ("vertices", "vertices", ""),
+        ("half_spaces", "faces", ""),
+        ("mesh", "file", "scale translate"),
+    ];
 }
 
 /// Parallel joints.
@@ -154,116 +167,109 @@ impl JointSet {
     pub const USUAL_SCATTER: f64 = 0.25;
 }
 
-fn metre() -> f64 {
-    1.0
-}
-
 fn north() -> [f64; 3] {
     [0.0, 1.0, 0.0]
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Kind {
-    Box,
-    Vertices,
-    HalfSpaces,
-    Mesh,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Flat {
-    kind: Kind,
-    name: Option<String>,
-    min: Option<[f64; 3]>,
-    max: Option<[f64; 3]>,
-    vertices: Option<Vec<[f64; 3]>>,
-    faces: Option<Vec<PlaneFace>>,
-    file: Option<PathBuf>,
-    scale: Option<f64>,
-    translate: Option<[f64; 3]>,
-    joints: Vec<JointSet>,
-    #[serde(default)]
-    seed: u64,
-    up: Option<[f64; 3]>,
-    #[serde(default = "north")]
-    north: [f64; 3],
-    #[serde(default)]
-    smallest_volume: f64,
-    #[serde(default)]
-    smallest_thickness: f64,
-    #[serde(default)]
-    aperture: f64,
-    #[serde(default)]
-    fixed: Vec<Shape>,
-    #[serde(default)]
-    removed: Vec<Shape>,
-    material: Option<String>,
-    #[serde(default)]
-    deformable: bool,
-    #[serde(default)]
-    initial_stress: [f64; 6],
-}
-
-impl Flat {
-    fn typed(self) -> Result<RockMass, String> {
-        let given = [
-            ("min", self.min.is_some()),
-            ("max", self.max.is_some()),
-            ("vertices", self.vertices.is_some()),
-            ("faces", self.faces.is_some()),
-            ("file", self.file.is_some()),
-            ("scale", self.scale.is_some()),
-            ("translate", self.translate.is_some()),
-        ];
-        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
-        let volume = match self.kind {
-            Kind::Box => {
-                only("box", &["min", "max"])?;
-                Volume::Box {
-                    min: need(self.min, "min", "box")?,
-                    max: need(self.max, "max", "box")?,
-                }
+impl Scene {
+    pub(super) fn check_rock_masses(&self) -> Result<()> {
+        let named = self.rock_masses.iter().enumerate();
+        names(
+            "rock_masses",
+            named.filter_map(|(i, mass)| Some((i, mass.name.as_deref()?))),
+        )?;
+        for (index, mass) in self.rock_masses.iter().enumerate() {
+            let key = format!("rock_masses[{index}]");
+            self.material(&format!("{key}.material"), mass.material.as_deref())?;
+            if mass.deformable {
+                self.check_elastic(&key, mass.material.as_deref())?;
+                finite(format!("{key}.initial_stress"), &mass.initial_stress)?;
+            } else if mass.initial_stress != [0.0; 6] {
+                return refuse(
+                    format!("{key}.initial_stress"),
+                    "belongs to deformable blocks; add deformable = true, or remove it",
+                );
             }
-            Kind::Vertices => {
-                only("vertices", &["vertices"])?;
-                Volume::Vertices {
-                    vertices: need(self.vertices, "vertices", "vertices")?,
-                }
-            }
-            Kind::HalfSpaces => {
-                only("half_spaces", &["faces"])?;
-                Volume::HalfSpaces {
-                    faces: need(self.faces, "faces", "half_spaces")?,
-                }
-            }
-            Kind::Mesh => {
-                only("mesh", &["file", "scale", "translate"])?;
+            match &mass.volume {
+                Volume::Box { min, max } => ordered(&key, *min, *max)?,
+                Volume::Vertices { vertices } => points(&format!("{key}.vertices"), vertices)?,
+                Volume::HalfSpaces { faces } => half_spaces(&format!("{key}.faces"), faces)?,
                 Volume::Mesh {
-                    file: need(self.file, "file", "mesh")?,
-                    scale: self.scale.unwrap_or_else(metre),
-                    translate: self.translate.unwrap_or_default(),
+                    scale, translate, ..
+                } => {
+                    positive(format!("{key}.scale"), *scale, "m")?;
+                    finite(format!("{key}.translate"), translate)?;
                 }
             }
-        };
-        Ok(RockMass {
-            name: self.name,
-            volume,
-            joints: self.joints,
-            seed: self.seed,
-            up: self.up,
-            north: self.north,
-            smallest_volume: self.smallest_volume,
-            smallest_thickness: self.smallest_thickness,
-            aperture: self.aperture,
-            fixed: self.fixed,
-            removed: self.removed,
-            material: self.material,
-            deformable: self.deformable,
-            initial_stress: self.initial_stress,
-        })
+            for (number, set) in mass.joints.iter().enumerate() {
+                joints(&format!("{key}.joints[{number}]"), set)?;
+            }
+            if let Some(up) = &mass.up {
+                direction(format!("{key}.up"), up)?;
+            } else if self.rock.gravity == [0.0; 3] {
+                return refuse(
+                    format!("{key}.up"),
+                    "without gravity nothing says which way is up; give up, such as [0, 0, 1]",
+                );
+            }
+            direction(format!("{key}.north"), &mass.north)?;
+            let smallest = mass.smallest_volume;
+            not_negative(format!("{key}.smallest_volume"), smallest, "m³")?;
+            let thinnest = mass.smallest_thickness;
+            not_negative(format!("{key}.smallest_thickness"), thinnest, "")?;
+            not_negative(format!("{key}.aperture"), mass.aperture, "m")?;
+            let regions = [("fixed", &mass.fixed), ("removed", &mass.removed)];
+            for (name, regions) in regions {
+                for (number, region) in regions.iter().enumerate() {
+                    self.check_region(&format!("{key}.{name}[{number}]"), region)?;
+                }
+            }
+        }
+        Ok(())
     }
 }
 
-through!(Flat => RockMass);
+fn joints(key: &str, set: &JointSet) -> Result<()> {
+    if !(0.0..=90.0).contains(&set.dip) {
+        return refuse(
+            format!("{key}.dip"),
+            format!(
+                "is {} degrees; joints dip from 0 (flat) to 90 (upright)",
+                set.dip
+            ),
+        );
+    }
+    finite(format!("{key}.dip_direction"), &[set.dip_direction])?;
+    positive(format!("{key}.spacing"), set.spacing, "m")?;
+    finite(format!("{key}.origin"), &set.origin)?;
+    if let Some(scatter) = set.scatter {
+        let most = match set.distribution {
+            Distribution::Uniform => 1.0f64.next_down(),
+            Distribution::Normal => 1.0,
+            Distribution::Lognormal => 10.0,
+            Distribution::None | Distribution::Exponential => {
+                return refuse(
+                    format!("{key}.scatter"),
+                    "has no meaning for this distribution; remove it, or give distribution = \
+                     \"uniform\", \"normal\" or \"lognormal\"",
+                );
+            }
+        };
+        if !(0.0..=most).contains(&scatter) {
+            return refuse(
+                format!("{key}.scatter"),
+                format!("is {scatter}; it lies from 0 to {most:.0}, below 1 where uniform"),
+            );
+        }
+    }
+    if let Some(Persistence { fraction, length }) = set.persistence {
+        positive(format!("{key}.persistence.length"), length, "m")?;
+        if !(0.0..=1.0).contains(&fraction) {
+            return refuse(
+                format!("{key}.persistence.fraction"),
+                format!("is {fraction}; it lies from 0 to 1 (joints open everywhere)"),
+            );
+        }
+    }
+    Ok(())
+}

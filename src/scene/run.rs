@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::Scene;
+use super::rules::{interval, positive, refuse};
+use crate::error::Result;
 use crate::units::Units;
 
 /// Length of the run. Exactly one of `duration` and `steps` is given.
@@ -41,5 +44,24 @@ impl Run {
     /// Simulated time of the run, s.
     pub fn duration(&self, units: &Units) -> f64 {
         self.length(units.time_step)
+    }
+}
+
+impl Scene {
+    pub(super) fn check_run(&self) -> Result<()> {
+        match (self.run.duration, self.run.steps) {
+            (Some(_), Some(_)) => refuse(
+                "run.steps",
+                "the run has both `duration` and `steps`; keep one of them",
+            ),
+            (None, None) => refuse(
+                "run",
+                "the run has no end; give `duration` (s) or `steps` (a whole number)",
+            ),
+            (Some(duration), None) => positive("run.duration", duration, "s"),
+            (None, Some(0)) => refuse("run.steps", "the run has no steps; give at least 1"),
+            (None, Some(_)) => Ok(()),
+        }?;
+        interval("run.checkpoint_every", self.run.checkpoint_every)
     }
 }

@@ -4,33 +4,40 @@ use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use toml::de::DeTable;
 
-use super::tagged::{need, refuse_others, through};
+use super::Scene;
+use super::block_shape::metre;
+use super::rules::{Point, direction, finite, names, ordered, positive, refuse};
+use super::tagged::Kind;
+use crate::error::Result;
 
 /// A static solid, or a hole in the solids listed before it.
 ///
 /// A cell is solid if its centre lies in a solid; later entries win over earlier ones. For blocks, a
 /// solid is a fixed block; a half-space then reaches as far beyond the domain as the domain is wide.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Solid {
     /// Name for messages and reports. Default none.
-    #[schemars(default)]
+    #[serde(default)]
     pub name: Option<String>,
     /// Whether the shape carves fluid out of the earlier solids. Default false.
-    #[schemars(default)]
+    #[serde(default)]
     pub void: bool,
     /// The shape.
+    #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: Shape,
     /// Name of the material that blocks touch. Default the first one.
-    #[schemars(default)]
+    #[serde(default)]
     pub material: Option<String>,
 }
 
 /// Shape of a solid or of a region.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(tag = "kind", rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(tag = "kind")]
 pub enum Shape {
     /// A box along the axes.
     Box {
@@ -58,122 +65,108 @@ pub enum Shape {
         /// STL or OBJ file, relative to the scene's file.
         file: PathBuf,
         /// Length of the file's unit, m. Default 1.
-        #[schemars(default = "metre")]
+        #[serde(default = "metre")]
         scale: f64,
         /// Where the file's origin goes, m, after scaling. Default (0, 0, 0).
-        #[schemars(default)]
+        #[serde(default)]
         translate: [f64; 3],
     },
 }
 
-fn metre() -> f64 {
-    1.0
+impl Shape {
+    pub(super) const KINDS: &[Kind] = &[
+        ("box", "min max", ""),
+        ("half_space", "point normal", ""),
+        ("sphere", "center radius", ""),
+        ("mesh", "file", "scale translate"),
+    ];
 }
 
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Kind {
-    Box,
-    HalfSpace,
-    Sphere,
-    Mesh,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Flat {
-    kind: Kind,
-    name: Option<String>,
-    void: Option<bool>,
-    material: Option<String>,
-    min: Option<[f64; 3]>,
-    max: Option<[f64; 3]>,
-    point: Option<[f64; 3]>,
-    normal: Option<[f64; 3]>,
-    center: Option<[f64; 3]>,
-    radius: Option<f64>,
-    file: Option<PathBuf>,
-    scale: Option<f64>,
-    translate: Option<[f64; 3]>,
-}
-
-impl Flat {
-    fn shape(&mut self) -> Result<Shape, String> {
-        let given = [
-            ("min", self.min.is_some()),
-            ("max", self.max.is_some()),
-            ("point", self.point.is_some()),
-            ("normal", self.normal.is_some()),
-            ("center", self.center.is_some()),
-            ("radius", self.radius.is_some()),
-            ("file", self.file.is_some()),
-            ("scale", self.scale.is_some()),
-            ("translate", self.translate.is_some()),
-        ];
-        let only = |kind, allowed: &[&str]| refuse_others(kind, allowed, &given);
-        Ok(match self.kind {
-            Kind::Box => {
-                only("box", &["min", "max"])?;
-                Shape::Box {
-                    min: need(self.min, "min", "box")?,
-                    max: need(self.max, "max", "box")?,
-                }
-            }
-            Kind::HalfSpace => {
-                only("half_space", &["point", "normal"])?;
-                Shape::HalfSpace {
-                    point: need(self.point, "point", "half_space")?,
-                    normal: need(self.normal, "normal", "half_space")?,
-                }
-            }
-            Kind::Sphere => {
-                only("sphere", &["center", "radius"])?;
-                Shape::Sphere {
-                    center: need(self.center, "center", "sphere")?,
-                    radius: need(self.radius, "radius", "sphere")?,
-                }
-            }
-            Kind::Mesh => {
-                only("mesh", &["file", "scale", "translate"])?;
-                Shape::Mesh {
-                    file: need(self.file.take(), "file", "mesh")?,
-                    scale: self.scale.unwrap_or_else(metre),
-                    translate: self.translate.unwrap_or_default(),
-                }
-            }
-        })
-    }
-
-    fn typed(mut self) -> Result<Solid, String> {
-        Ok(Solid {
-            shape: self.shape()?,
-            name: self.name,
-            void: self.void.unwrap_or_default(),
-            material: self.material,
-        })
+/// A region has the keys of a solid that say where it is.
+pub(super) fn check_region(region: &DeTable<'_>, _: &str) -> Result<(), String> {
+    let mut others = ["name", "void", "material"].iter();
+    match others.find(|key| region.contains_key(**key)) {
+        Some(key) => Err(format!("`{key}` has no meaning for a region; remove it")),
+        None => Ok(()),
     }
 }
 
-through!(Flat => Solid);
+impl Scene {
+    pub(super) fn check_solids(&self) -> Result<()> {
+        let named = self.solids.iter().enumerate();
+        names(
+            "solids",
+            named.filter_map(|(i, solid)| Some((i, solid.name.as_deref()?))),
+        )?;
+        for (index, solid) in self.solids.iter().enumerate() {
+            let key = format!("solids[{index}]");
+            self.check_region(&key, &solid.shape)?;
+            if solid.void && self.has_blocks() {
+                return refuse(
+                    format!("{key}.void"),
+                    "blocks meet solids one by one, so none can have a hole; give a mesh with the \
+                     hole, or several solids around it",
+                );
+            }
+            if self.has_fluid() {
+                self.check_place(&key, &solid.shape)?;
+            }
+            if self.has_blocks() || solid.material.is_some() {
+                self.material(&format!("{key}.material"), solid.material.as_deref())?;
+            }
+        }
+        Ok(())
+    }
 
-/// The keys of a region: those of a solid that say where it is.
-#[derive(Deserialize)]
-#[serde(transparent)]
-struct Region(Flat);
-
-impl Region {
-    fn typed(mut self) -> Result<Shape, String> {
-        let solid = &self.0;
-        let others = [
-            ("name", solid.name.is_some()),
-            ("void", solid.void.is_some()),
-            ("material", solid.material.is_some()),
-        ];
-        match others.iter().find(|(_, given)| *given) {
-            Some((key, _)) => Err(format!("`{key}` has no meaning for a region; remove it")),
-            None => self.0.shape(),
+    /// The numbers of a shape.
+    pub(super) fn check_region(&self, key: &str, shape: &Shape) -> Result<()> {
+        match shape {
+            Shape::Box { min, max } => ordered(key, *min, *max),
+            Shape::HalfSpace { point, normal } => {
+                finite(format!("{key}.point"), point)?;
+                direction(format!("{key}.normal"), normal)
+            }
+            Shape::Sphere { center, radius } => {
+                finite(format!("{key}.center"), center)?;
+                positive(format!("{key}.radius"), *radius, "m")
+            }
+            Shape::Mesh {
+                scale, translate, ..
+            } => {
+                positive(format!("{key}.scale"), *scale, "m")?;
+                finite(format!("{key}.translate"), translate)
+            }
         }
     }
-}
 
-through!(Region => Shape);
+    /// Whether a shape without a file is where the domain is.
+    fn check_place(&self, key: &str, shape: &Shape) -> Result<()> {
+        match shape {
+            Shape::Box { min, max } => self.check_reach(key, *min, *max),
+            Shape::Sphere { center, radius } => {
+                let corner = |sign: f64| center.map(|c| c + sign * radius);
+                self.check_reach(key, corner(-1.0), corner(1.0))
+            }
+            Shape::HalfSpace { .. } | Shape::Mesh { .. } => Ok(()),
+        }
+    }
+
+    /// A shape between the corners `min` and `max` (m) must reach into the domain.
+    pub(crate) fn check_reach(&self, key: &str, min: [f64; 3], max: [f64; 3]) -> Result<()> {
+        let (origin, end) = (self.domain.origin, self.domain.end());
+        if (0..3).all(|a| min[a] < end[a] && max[a] > origin[a]) {
+            return Ok(());
+        }
+        refuse(
+            key,
+            format!(
+                "the solid reaches from {} to {} m and so lies wholly outside the domain, which \
+                 reaches from {} to {} m; move it or remove it",
+                Point(min),
+                Point(max),
+                Point(origin),
+                Point(end)
+            ),
+        )
+    }
+}

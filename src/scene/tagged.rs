@@ -1,44 +1,241 @@
 //! Tables whose `kind` decides which keys belong to them.
 //!
-//! They are read through a flat table of optional keys: serde's own tagged enums buffer their
-//! content and lose the line and column of an error.
+//! serde's internally tagged enums buffer their content and lose the line and column of an error. So before a document is read
+//! into types, the kind of such a table becomes an external tag: `{ kind = "sphere", radius = 1, name = "a" }` becomes
+//! `{ kind = { sphere = { radius = 1 } }, name = "a" }`, in which all values keep their places in the text.
 
-/// A key that is there but belongs to another kind.
-pub(super) fn refuse_others(
-    kind: &str,
-    allowed: &[&str],
-    given: &[(&str, bool)],
-) -> Result<(), String> {
-    match given
-        .iter()
-        .find(|(key, set)| *set && !allowed.contains(key))
-    {
-        None => Ok(()),
-        Some((key, _)) if allowed.is_empty() => Err(format!(
-            "`{key}` has no meaning for kind `{kind}`; remove it"
-        )),
-        Some((key, _)) => Err(format!(
-            "`{key}` has no meaning for kind `{kind}`, which takes {}; remove it or change the kind",
-            allowed.join(", ")
-        )),
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::parse::{Refusal, unknown};
+use super::{BlockShape, Boundary, Face, ProbePlace, Shape, Volume, blocks, probes, solids};
+
+/// A kind of a table: its word, the keys that it needs, and those that it may have besides.
+pub(super) type Kind = (&'static str, &'static str, &'static str);
+
+/// What else holds for a table of a kind.
+type Rule = fn(&DeTable<'_>, &str) -> Result<(), String>;
+
+/// Tables with a kind.
+struct Tagged {
+    /// Keys from the scene to them, joined by dots; through lists, and through all faces where one is `*`.
+    path: &'static str,
+    /// All keys of all of them.
+    keys: &'static str,
+    kinds: &'static [Kind],
+    /// Whether all of their keys are of their kinds.
+    is_enum: bool,
+    rule: Rule,
+}
+
+/// All of them, those inside of others first.
+const TAGGED: [Tagged; 10] = [
+    Tagged {
+        path: "boundaries.*",
+        keys: "kind velocity pressure reflecting",
+        kinds: Boundary::KINDS,
+        is_enum: true,
+        rule: |_, _| Ok(()),
+    },
+    PART,
+    Tagged {
+        path: "blocks",
+        rule: |_, _| Ok(()),
+        ..PART
+    },
+    Tagged {
+        path: "water.parts",
+        ..PART
+    },
+    Tagged {
+        path: "water",
+        keys: "kind size vertices faces edge radius file scale hull parts position rotation velocity",
+        kinds: BlockShape::KINDS,
+        is_enum: false,
+        rule: |_, _| Ok(()),
+    },
+    REGION,
+    Tagged {
+        path: "rock_masses.removed",
+        ..REGION
+    },
+    Tagged {
+        path: "rock_masses",
+        keys: "kind name min max vertices faces file scale translate joints seed up north smallest_volume \
+               smallest_thickness aperture fixed removed material deformable initial_stress",
+        kinds: Volume::KINDS,
+        is_enum: false,
+        rule: |_, _| Ok(()),
+    },
+    Tagged {
+        path: "solids",
+        is_enum: false,
+        rule: |_, _| Ok(()),
+        ..REGION
+    },
+    Tagged {
+        path: "probes",
+        keys: "kind name fields every at from to count axis position min max normal direction size block faces safety",
+        kinds: ProbePlace::KINDS,
+        is_enum: false,
+        rule: probes::check_keys,
+    },
+];
+
+/// Parts of compounds: blocks without the keys that concern their motion.
+const PART: Tagged = Tagged {
+    path: "blocks.parts",
+    keys: "kind name size vertices faces edge radius file scale hull parts position rotation motion velocity spin \
+           material deformable initial_stress fixed_points point_loads acceleration guide repeat",
+    kinds: BlockShape::KINDS,
+    is_enum: false,
+    rule: blocks::check_part,
+};
+
+/// Regions: solids without the keys that do not say where they are.
+const REGION: Tagged = Tagged {
+    path: "rock_masses.fixed",
+    keys: "kind name void material min max point normal center radius file scale translate",
+    kinds: Shape::KINDS,
+    is_enum: true,
+    rule: solids::check_region,
+};
+
+/// Gives all tables with a kind in a document external tags.
+pub(super) fn tag(document: &mut Spanned<DeValue<'_>>) -> Result<(), Refusal> {
+    TAGGED.iter().try_for_each(|tagged| {
+        walk(document, tagged.path, "", &|key, value| {
+            tagged.tag(key, value)
+        })
+    })
+}
+
+/// Calls `apply` with each value at `path`, from `value` on, and its key.
+fn walk(
+    value: &mut Spanned<DeValue<'_>>,
+    path: &str,
+    key: &str,
+    apply: &dyn Fn(&str, &mut Spanned<DeValue<'_>>) -> Result<(), Refusal>,
+) -> Result<(), Refusal> {
+    if let DeValue::Array(list) = value.get_mut() {
+        let mut all = list.iter_mut();
+        return all.try_for_each(|value| walk(value, path, key, apply));
+    }
+    if path.is_empty() {
+        return apply(key, value);
+    }
+    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
+    let DeValue::Table(table) = value.get_mut() else {
+        return Ok(());
+    };
+    for (name, value) in table.iter_mut() {
+        let is_face = || Face::ALL.iter().any(|face| face.name() == name.get_ref());
+        if name.get_ref() == first || first == "*" && is_face() {
+            let key = format!("{key}.{}", name.get_ref());
+            walk(value, rest, key.trim_start_matches('.'), apply)?;
+        }
+    }
+    Ok(())
+}
+
+impl Tagged {
+    /// Gives the table `value` at `key` an external tag, if its keys fit its kind.
+    fn tag(&self, key: &str, value: &mut Spanned<DeValue<'_>>) -> Result<(), Refusal> {
+        let span = value.span();
+        let refuse = |message: String| Refusal {
+            span: Some(span.clone()),
+            key: key.into(),
+            message,
+        };
+        let DeValue::Table(table) = value.get_mut() else {
+            // What serde expects of a struct, it says; an enum it would read from a word.
+            return match self.is_enum {
+                true => Err(refuse("is not a table; give one with a `kind`".into())),
+                false => Ok(()),
+            };
+        };
+        let keys: Vec<&str> = self.keys.split_whitespace().collect();
+        let mut names = table.keys();
+        if let Some(name) = names.find(|name| !keys.contains(&name.get_ref().as_ref())) {
+            return Err(Refusal {
+                span: Some(name.span()),
+                ..refuse(unknown("key", name.get_ref(), &keys))
+            });
+        }
+        let Some(kind) = table.get("kind").cloned() else {
+            return Err(refuse("the key `kind` is missing; add it".into()));
+        };
+        let word = kind.get_ref().as_str();
+        (self.rule)(table, word.unwrap_or_default()).map_err(refuse)?;
+        let Some(known) = self.kinds.iter().find(|(name, ..)| word == Some(name)) else {
+            let words: Vec<&str> = self.kinds.iter().map(|kind| kind.0).collect();
+            return Err(Refusal {
+                span: Some(kind.span()),
+                key: format!("{key}.kind"),
+                message: match word {
+                    Some(word) => unknown("word", word, &words),
+                    None => format!("is not a word; possible are {}", words.join(", ")),
+                },
+            });
+        };
+        let mut of_kinds = keys;
+        of_kinds.retain(|key| self.kinds.iter().any(|kind| has(kind, key)));
+        fits(table, &of_kinds, known).map_err(refuse)?;
+        let content = Spanned::new(kind.span(), content(table, known));
+        if self.is_enum {
+            *value = content;
+        } else if let Some(kind) = table.get_mut("kind") {
+            *kind = content;
+        }
+        Ok(())
     }
 }
 
-/// A key that the kind cannot do without.
-pub(super) fn need<T>(value: Option<T>, key: &str, kind: &str) -> Result<T, String> {
-    value.ok_or_else(|| format!("kind `{kind}` needs the key `{key}`"))
+/// Whether a kind has a key.
+fn has((_, needs, may_have): &Kind, key: &str) -> bool {
+    let mut keys = needs.split_whitespace().chain(may_have.split_whitespace());
+    keys.any(|own| own == key)
 }
 
-/// Deserialises a type through its flat table.
-macro_rules! through {
-    ($flat:ty => $typed:ty) => {
-        impl<'de> serde::Deserialize<'de> for $typed {
-            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                <$flat as serde::Deserialize>::deserialize(from)?
-                    .typed()
-                    .map_err(serde::de::Error::custom)
+/// Whether `table` has the keys of its kind, and none of those `of_kinds` that are of others.
+fn fits(table: &DeTable<'_>, of_kinds: &[&str], kind: &Kind) -> Result<(), String> {
+    let (word, needs, may_have) = kind;
+    let foreign = |key: &&&str| table.contains_key(**key) && !has(kind, key);
+    if let Some(key) = of_kinds.iter().find(foreign) {
+        let own: Vec<&str> = needs
+            .split_whitespace()
+            .chain(may_have.split_whitespace())
+            .collect();
+        return Err(match own.join(", ") {
+            none if none.is_empty() => {
+                format!("`{key}` has no meaning for kind `{word}`; remove it")
             }
-        }
-    };
+            own => format!(
+                "`{key}` has no meaning for kind `{word}`, which takes {own}; remove it or change the kind"
+            ),
+        });
+    }
+    match needs
+        .split_whitespace()
+        .find(|key| !table.contains_key(*key))
+    {
+        Some(key) => Err(format!("kind `{word}` needs the key `{key}`")),
+        None => Ok(()),
+    }
 }
-pub(super) use through;
+
+/// Moves the keys of a kind from `table` to one below its word; the word alone where it has none.
+fn content<'i>(table: &mut DeTable<'i>, (word, needs, may_have): &Kind) -> DeValue<'i> {
+    let word = DeString::Borrowed(*word);
+    if needs.is_empty() && may_have.is_empty() {
+        return DeValue::String(word);
+    }
+    let mut keys = DeTable::new();
+    for key in needs.split_whitespace().chain(may_have.split_whitespace()) {
+        if let Some((name, value)) = table.remove_entry(key) {
+            keys.insert(name, value);
+        }
+    }
+    let keys = Spanned::new(0..0, DeValue::Table(keys));
+    DeValue::Table([(Spanned::new(0..0, word), keys)].into_iter().collect())
+}

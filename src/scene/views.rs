@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Axis, SliceField};
+use super::rules::{direction, finite, interval, names, positive, refuse};
+use super::{Axis, Scene, SliceField};
+use crate::error::Result;
 
 /// A camera: PNG pictures, a strip of them, and an animated PNG.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -93,5 +95,155 @@ impl View {
 
     fn usual_animation() -> bool {
         true
+    }
+}
+
+/// Largest edge of a picture: what every adapter can draw on.
+const LARGEST: u32 = 8192;
+/// Smallest edge: anything less shows nothing.
+const SMALLEST: u32 = 64;
+
+impl Scene {
+    pub(super) fn check_views(&self) -> Result<()> {
+        // Slices come first: views may not take their files.
+        let slices = self.output.slices.iter().map(|slice| slice.name.as_str());
+        let views = self.views.iter().map(|view| view.name.as_str());
+        let count = self.output.slices.len();
+        let numbered = slices.chain(views).enumerate();
+        names(
+            "views",
+            numbered.map(|(i, name)| (i.saturating_sub(count), name)),
+        )?;
+        for (index, view) in self.views.iter().enumerate() {
+            self.check_view(&format!("views[{index}]"), view)?;
+        }
+        Ok(())
+    }
+
+    fn check_view(&self, key: &str, view: &View) -> Result<()> {
+        self.check_shown(key, view)?;
+        let ahead = match (view.from, view.to) {
+            (Some(from), Some(to)) => {
+                finite(format!("{key}.from"), &from)?;
+                finite(format!("{key}.to"), &to)?;
+                if view.direction.is_some() {
+                    return refuse(
+                        format!("{key}.direction"),
+                        "follows from `from` and `to`; remove it or them",
+                    );
+                }
+                std::array::from_fn(|a| to[a] - from[a])
+            }
+            (None, None) => view.direction.unwrap_or(View::USUAL_DIRECTION),
+            (Some(_), None) => {
+                return refuse(
+                    format!("{key}.from"),
+                    "says where the camera stands and not where it looks; add `to`",
+                );
+            }
+            (None, Some(_)) => {
+                return refuse(
+                    format!("{key}.to"),
+                    "says where the camera looks and not where it stands; add `from`",
+                );
+            }
+        };
+        finite(format!("{key}.direction"), &ahead)?;
+        if ahead == [0.0; 3] {
+            return refuse(
+                key,
+                "the camera looks nowhere; give `from` and `to`, or a direction, that is not 0",
+            );
+        }
+        if let Some(up) = &view.up {
+            direction(format!("{key}.up"), up)?;
+        }
+        let up = self.up_of(view);
+        let cross = glam::DVec3::from(up).cross(ahead.into()).length();
+        let lengths = glam::DVec3::from(up).length() * glam::DVec3::from(ahead).length();
+        if cross <= 1e-6 * lengths {
+            return refuse(
+                format!("{key}.up"),
+                "the camera looks along it, so that nothing is up in the picture; give another \
+                 direction, such as [0, 1, 0]",
+            );
+        }
+        if !(1.0..=150.0).contains(&view.field_of_view) {
+            return refuse(
+                format!("{key}.field_of_view"),
+                format!(
+                    "is {} degrees; give an angle from 1 to 150, such as 35",
+                    view.field_of_view
+                ),
+            );
+        }
+        for (axis, edge) in view.size.iter().enumerate() {
+            if !(SMALLEST..=LARGEST).contains(edge) {
+                return refuse(
+                    format!("{key}.size[{axis}]"),
+                    format!("is {edge} pixels; give {SMALLEST} to {LARGEST}"),
+                );
+            }
+        }
+        if let Some(speed) = view.speed {
+            positive(format!("{key}.speed"), speed, "m/s")?;
+        }
+        if let Some(ground) = view.ground {
+            finite(format!("{key}.ground"), &[ground])?;
+        }
+        interval(format!("{key}.every"), view.every)
+    }
+
+    /// There is something to be seen.
+    fn check_shown(&self, key: &str, view: &View) -> Result<()> {
+        if !self.has_blocks() && !self.has_particles() && !view.shows_fluid() {
+            return refuse(
+                key,
+                "shows blocks, and there are none; remove it, give it `slices` or `traces` of the \
+                 fluid, or add [[blocks]]",
+            );
+        }
+        if !self.has_fluid() && view.shows_fluid() {
+            let requested = if view.traces > 0 { "traces" } else { "slices" };
+            return refuse(
+                format!("{key}.{requested}"),
+                "show the fluid, and there is none; remove them or add [fluid]",
+            );
+        }
+        if view.traces > View::MOST_TRACES {
+            return refuse(
+                format!("{key}.traces"),
+                format!(
+                    "are {} lines, of which most would be hidden; give 0 to {}, such as 60",
+                    view.traces,
+                    View::MOST_TRACES
+                ),
+            );
+        }
+        for (index, slice) in view.slices.iter().enumerate() {
+            let key = format!("{key}.slices[{index}]");
+            if slice.field == SliceField::Solid {
+                return refuse(
+                    format!("{key}.field"),
+                    "is `solid`, and slices in a view leave solid cells out; give another field, \
+                     such as \"speed\", or use output.slices",
+                );
+            }
+            self.check_plane(&key, slice.axis, slice.position, slice.field, slice.range)?;
+        }
+        Ok(())
+    }
+
+    /// The direction that is up in the picture of `view`: its own, or against gravity, or z.
+    pub fn up_of(&self, view: &View) -> [f64; 3] {
+        view.up.unwrap_or_else(|| self.up())
+    }
+
+    /// The direction against gravity, of any length; z without gravity.
+    pub fn up(&self) -> [f64; 3] {
+        match self.rock.gravity {
+            [0.0, 0.0, 0.0] => [0.0, 0.0, 1.0],
+            gravity => gravity.map(|g| -g),
+        }
     }
 }

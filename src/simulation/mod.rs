@@ -168,7 +168,7 @@ impl Simulation {
         let time_step = rock_step(scene, rock.blocks())?;
         Ok(Self {
             scene: Arc::new(scene.clone()),
-            advice: scene.slips(time_step),
+            advice: scene.suspicious_keys(time_step),
             rock: Some(rock),
             fluid: None,
             time_step,
@@ -180,7 +180,7 @@ impl Simulation {
         let (fluid, rock, time_step) = SphFluid::new(device, queue, scene).await?;
         Ok(Self {
             scene: Arc::new(scene.clone()),
-            advice: scene.slips(time_step),
+            advice: scene.suspicious_keys(time_step),
             rock: Some(rock),
             fluid: Some(Fluid::Particles(Box::new(fluid))),
             time_step,
@@ -196,7 +196,7 @@ impl Simulation {
     ) -> Result<Self> {
         let units = Units::of(scene)?;
         let mut advice = scene.advise(&units)?;
-        advice.extend(scene.slips(units.time_step));
+        advice.extend(scene.suspicious_keys(units.time_step));
         let scene = Arc::new(scene.clone());
         let (fluid, rock, of_blocks) =
             LatticeFluid::new(device, queue, (&scene, units), setup).await?;

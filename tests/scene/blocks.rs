@@ -8,7 +8,7 @@ use riprap::scene::*;
 use crate::{read, refused};
 
 /// A scene of one cube.
-const CUBE: &str = r#"
+pub const CUBE: &str = r#"
 [[materials]]
 name = "granite"
 density = 2700
@@ -23,11 +23,6 @@ steps = 10
 
 pub fn cube(more: &str) -> riprap::Result<Scene> {
     read(&format!("{CUBE}{more}"))
-}
-
-fn changed(from: &str, to: &str) -> riprap::Result<Scene> {
-    assert!(CUBE.contains(from));
-    read(&CUBE.replace(from, to))
 }
 
 fn setup(text: &str) -> riprap::Result<rock::Setup> {
@@ -214,13 +209,6 @@ fn copies_slide_along_the_same_guide() {
         setup.guides,
         [0, 1].map(|block| rock::Guide { block, axis })
     );
-    refused(
-        changed(
-            "kind = \"box\"\nsize = [1, 2, 3]",
-            "kind = \"compound\"\nparts = [{ kind = \"box\", size = [1, 1, 1], guide = [0, 0, 1] }]",
-        ),
-        &["`guide` belongs to the whole block"],
-    );
 }
 
 #[test]
@@ -257,210 +245,6 @@ fn a_half_space_becomes_a_box_beyond_the_domain() {
     let ground = setup(&text).unwrap().blocks.pop().unwrap();
     assert!((ground.shape.volume() - 14.0 * 14.0 * 6.0).abs() < 1e-9);
     assert!((ground.centre.z + 3.0).abs() < 1e-12, "{}", ground.centre);
-}
-
-#[test]
-fn a_scene_is_of_something() {
-    refused(read("[run]\nsteps = 1\n"), &["neither a fluid nor blocks"]);
-    refused(
-        cube("[numerics]\nmach = 0.1\n"),
-        &["numerics", "there is none", "add [fluid]"],
-    );
-    refused(
-        cube("[[output.histories]]\nquantities = [\"mass\"]\n"),
-        &[
-            "output.histories[0].quantities",
-            "mass",
-            "block_kinetic_energy",
-        ],
-    );
-    refused(
-        cube("[[probes]]\nname = \"p\"\nkind = \"point\"\nat = [0, 0, 0]\n"),
-        &["probes[0]", "kind = \"block\""],
-    );
-    refused(
-        cube("[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"block_1\"\nfaces = true\n"),
-        &["probes[0].faces", "no fluid"],
-    );
-    refused(
-        crate::channel("[[output.histories]]\nquantities = [\"contacts\"]\n"),
-        &["output.histories[0].quantities", "contacts is of blocks"],
-    );
-}
-
-#[test]
-fn materials_have_mass_and_stiffness() {
-    for (from, to, words) in [
-        (
-            "2700",
-            "0",
-            [
-                "channel.toml:4:11",
-                "materials[0].density",
-                "greater than 0",
-            ],
-        ),
-        (
-            "1e9",
-            "-1",
-            ["channel.toml:5:20", "normal_stiffness", "greater than 0"],
-        ),
-        (
-            "friction = 30",
-            "friction = 90",
-            ["channel.toml:6:12", "friction", "below 90"],
-        ),
-        (
-            "friction = 30",
-            "friction = 3\ndamping = 2",
-            ["channel.toml:7:11", "damping", "such as 0.1"],
-        ),
-        (
-            "density",
-            "densty",
-            ["channel.toml:4:1", "`densty`", "did you mean `density`?"],
-        ),
-        (
-            "friction = 30",
-            "",
-            ["channel.toml:2:1", "`friction` is missing", "materials"],
-        ),
-    ] {
-        refused(changed(from, to), &words);
-    }
-    refused(
-        changed("[[blocks]]", "[rock]\ncorner_area = 2\n[[blocks]]"),
-        &["rock.corner_area", "is 2", "from 0 to 1"],
-    );
-    refused(
-        changed("[[blocks]]", "[[blocks]]\nmaterial = \"marble\""),
-        &["blocks[0].material", "`marble`", "there are: granite"],
-    );
-    refused(
-        read("[[blocks]]\nkind = \"sphere\"\nradius = 1\n[run]\nsteps = 1\n"),
-        &["materials", "add [[materials]]"],
-    );
-}
-
-#[test]
-fn blocks_are_written_so_that_they_can_be_made() {
-    let with = |keys: &str| changed("size = [1, 2, 3]", &format!("size = [1, 2, 3]\n{keys}"));
-    refused(
-        changed("[1, 2, 3]", "[1, 0, 3]"),
-        &["blocks[0].size[1]", "greater than 0"],
-    );
-    refused(
-        changed("\"box\"", "\"cube\""),
-        &["no word `cube`", "possible are box, vertices"],
-    );
-    refused(
-        changed("size = [1, 2, 3]", "edge = 1"),
-        &["`edge` has no meaning for kind `box`", "size"],
-    );
-    refused(
-        with("motion = \"fixed\"\nvelocity = [1, 0, 0]"),
-        &["blocks[0].velocity", "driven"],
-    );
-    refused(
-        with("velocity = [\"t\", 0, 0]"),
-        &["blocks[0].velocity", "motion = \"driven\""],
-    );
-    refused(
-        with("motion = \"driven\"\nvelocity = [\"x\", 0, 0]"),
-        &["blocks[0].velocity", "formula of t"],
-    );
-    refused(
-        with("repeat = { count = 0 }"),
-        &["blocks[0].repeat[0].count", "at least 1"],
-    );
-    refused(
-        with("repeat = { count = 2 }"),
-        &["blocks[0].repeat[0]", "step or a turn"],
-    );
-    refused(with("repeat = { cout = 2 }"), &["did you mean `count`?"]);
-    refused(
-        with("rotation = { axis = [0, 0, 0], angle = 1 }"),
-        &["rotation.axis", "direction"],
-    );
-    refused(
-        changed(
-            "kind = \"box\"\nsize = [1, 2, 3]",
-            "kind = \"compound\"\nparts = [{ kind = \"box\", size = [1, 1, 1], motion = \"free\" }]",
-        ),
-        &["`motion` belongs to the whole block"],
-    );
-    refused(
-        changed(
-            "kind = \"box\"\nsize = [1, 2, 3]",
-            "kind = \"vertices\"\nvertices = [[0, 0, 0]]",
-        ),
-        &["blocks[0].vertices", "at least 4"],
-    );
-}
-
-#[test]
-fn what_is_no_block_is_refused_with_its_table_and_key() {
-    let of = |shape: &str| setup(&CUBE.replace("kind = \"box\"\nsize = [1, 2, 3]", shape));
-    refused(
-        of("kind = \"vertices\"\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]"),
-        &["blocks[0].vertices", "one plane"],
-    );
-    refused(
-        of(
-            "kind = \"half_spaces\"\nfaces = [{ normal = [-1, 0, 0], distance = 0 }, { normal = [0, -1, 0], distance = 0 }, { normal = [0, 0, -1], distance = 0 }, { normal = [1, 1, 0], distance = 1 }]",
-        ),
-        &["blocks[0].faces", "unbounded"],
-    );
-    refused(
-        of("kind = \"box\"\nsize = [1, 1, 1e-6]"),
-        &["blocks[0]", "thinner than 1/10000"],
-    );
-}
-
-#[test]
-fn names_and_places_are_those_of_blocks() {
-    refused(
-        setup(&format!(
-            "{CUBE}[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"blok_1\"\n"
-        )),
-        &["probes[0].block", "did you mean `block_1`?"],
-    );
-    refused(
-        setup(&format!(
-            "{CUBE}[domain]\norigin = [5, 0, 0]\nsize = [1, 1, 1]\n"
-        )),
-        &["block_1", "outside the domain", "move it"],
-    );
-    refused(
-        cube("[[solids]]\nkind = \"half_space\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"),
-        &["solids[0]", "[domain]"],
-    );
-}
-
-#[test]
-fn rock_masses_agree_with_themselves() {
-    let mass = |joint: &str| {
-        cube(&format!(
-            "[[rock_masses]]\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\njoints = [{{ {joint} }}]\n"
-        ))
-    };
-    mass("dip = 30, dip_direction = 90, spacing = 1").unwrap();
-    refused(
-        mass("dip = 100, dip_direction = 90, spacing = 1"),
-        &["rock_masses[0].joints[0].dip", "90 (upright)"],
-    );
-    refused(
-        mass("dip = 30, dip_direction = 90, spacing = 0"),
-        &["joints[0].spacing", "greater than 0"],
-    );
-    refused(
-        mass("dip = 30, dip_direction = 90, spacing = 1, scatter = 0.2"),
-        &["scatter", "distribution"],
-    );
-    refused(
-        mass("dip = 30, dipdirection = 90, spacing = 1"),
-        &["did you mean `dip_direction`?"],
-    );
 }
 
 /// A cube of 2 m cut at a height of 0.5 m, into 2 and 6 m³.
@@ -537,19 +321,5 @@ fn a_probe_of_a_block_may_ask_for_its_faces_and_its_safety() {
     refused(
         block_setup(&probed("step", "other").unwrap()),
         &["probes[0].faces", "`step` is a solid"],
-    );
-}
-
-/// A guide holds a block beside its contacts, of which alone factors of safety know.
-#[test]
-fn the_safety_of_a_guided_block_is_refused() {
-    let probe =
-        "\n[[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"block_1\"\nsafety = true\n";
-    setup(&format!("{CUBE}{probe}")).unwrap();
-    let guided = CUBE.replace("size = [1, 2, 3]", "size = [1, 2, 3]\nguide = [0, 0, 1]");
-    setup(&guided).unwrap();
-    refused(
-        setup(&format!("{guided}{probe}")),
-        &["probes[0].safety", "`block_1`", "guide"],
     );
 }

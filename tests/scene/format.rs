@@ -181,3 +181,23 @@ fn a_run_in_seconds_is_the_nearest_number_of_steps() {
     assert_eq!(run.step_count(&units), 100);
     assert!((run.duration(&units) - 0.1).abs() < 1e-12);
 }
+
+/// Slices and traces show the fluid.
+#[test]
+fn a_view_has_slices_and_traces() {
+    let scene = channel(
+        "[[views]]\nname = \"v\"\ntraces = 10\nslices = [{ axis = \"y\", position = 0.004, field = \"pressure\", \
+         range = [-1, 1] }, { axis = \"z\", field = \"speed\" }]\n",
+    );
+    let view = &scene.unwrap().views[0];
+    assert!(view.shows_fluid() && view.traces == 10);
+    let [first, second] = &view.slices[..] else {
+        panic!("{:?}", view.slices);
+    };
+    assert_eq!((first.axis, first.position), (Axis::Y, Some(0.004)));
+    assert_eq!(
+        (first.field, first.range),
+        (SliceField::Pressure, Some([-1.0, 1.0]))
+    );
+    assert_eq!((second.position, second.range), (None, None));
+}

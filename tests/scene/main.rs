@@ -5,14 +5,12 @@ mod blocks;
 mod deformable;
 mod format;
 mod formulas;
-mod parsing;
 mod particles;
 mod refusals;
 mod sampling;
 mod solids;
 mod suspicious_keys;
 mod units;
-mod views;
 
 use std::path::Path;
 
@@ -40,21 +38,16 @@ fn channel(more: &str) -> Result<Scene> {
     read(&format!("{CHANNEL}{more}"))
 }
 
-/// [`CHANNEL`] with one piece of its text replaced.
+/// [`CHANNEL`] with a piece of its text replaced.
 fn changed(from: &str, to: &str) -> Result<Scene> {
     assert!(CHANNEL.contains(from));
     read(&CHANNEL.replace(from, to))
 }
 
-/// The words of the error.
-fn words<T: std::fmt::Debug>(result: Result<T>) -> String {
-    result.expect_err("this must be refused").to_string()
-}
-
 /// Asserts that the error says all of `parts`.
 #[track_caller]
 fn refused<T: std::fmt::Debug>(result: Result<T>, parts: &[&str]) {
-    let words = words(result);
+    let words = result.expect_err("this must be refused").to_string();
     for part in parts {
         assert!(words.contains(part), "`{part}` is not in: {words}");
     }

@@ -2,7 +2,6 @@
 
 use riprap::scene::build::block_setup;
 use riprap::scene::*;
-use riprap::units::Units;
 
 use crate::{CHANNEL, read, refused};
 
@@ -54,23 +53,6 @@ fn a_minimal_tank_has_the_documented_defaults() {
     assert_eq!(scene.water[0].velocity, [0.0; 3]);
     assert_eq!((scene.fluid.density, scene.fluid.viscosity), (1000.0, 0.0));
     assert_eq!(scene.boundaries.z_max, Boundary::Open);
-}
-
-#[test]
-fn stiffness_belongs_to_the_scheme_that_has_one() {
-    let keys = |more: &str| changed("spacing = 0.05", &format!("spacing = 0.05\n{more}"));
-    let scene = keys("scheme = \"mueller\"\nstiffness = 50").unwrap();
-    assert_eq!(scene.particles.unwrap().stiffness, Some(50.0));
-    for (more, what) in [
-        ("stiffness = 50", "mueller"),
-        ("scheme = \"mueller\"\nstiffness = 0", "stiffness"),
-    ] {
-        let error = keys(more).unwrap_err().to_string();
-        assert!(
-            error.contains("particles.stiffness") && error.contains(what),
-            "{error}"
-        );
-    }
 }
 
 #[test]
@@ -156,216 +138,12 @@ direction = "+x"
 }
 
 #[test]
-fn particles_that_contradict_themselves_are_refused() {
-    for (from, to, parts) in [
-        (
-            "spacing = 0.05",
-            "spacing = 0",
-            ["particles.spacing", "greater"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.03",
-            ["domain.size[1]", "33.333333 particles"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.2",
-            [
-                "domain.size[1]",
-                "hold 5 particles 0.2 m apart, and the kernel wants 12 at least",
-            ],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\nsmoothing = 1",
-            ["particles.smoothing", "1.2 to 3"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\nscheme = \"muller\"",
-            ["no word `muller`", "delta"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\nlargest_speed = 0",
-            ["particles.largest_speed", "greater"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\nartificial_viscosity = -1",
-            ["particles.artificial_viscosity", "from 0"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\ndensity_diffusion = nan",
-            ["particles.density_diffusion", "from 0"],
-        ),
-        (
-            "spacing = 0.05",
-            "spacing = 0.05\ncourant = 1.1",
-            ["particles.courant", "at most 1,"],
-        ),
-        (
-            "[fluid]",
-            "[fluid]\nviscosity = -1",
-            ["fluid.viscosity", "from 0"],
-        ),
-        ("-9.81]", "\"x\"]", ["fluid.acceleration", "three numbers"]),
-        (
-            "size = [1.0, 1.0, 1.0]",
-            "size = [1.0, 0, 1.0]",
-            ["water[0].size[1]", "greater"],
-        ),
-        (
-            "size = [1.0, 1.0, 1.0]",
-            "size = [1.0, 1.0, 1.0]\nvelocity = [inf, 0, 0]",
-            ["water[0].velocity", "finite"],
-        ),
-        ("[particles]\nspacing = 0.05", "", ["water", "[particles]"]),
-        (
-            "[fluid]\nacceleration = [0, 0, -9.81]",
-            "",
-            ["particles", "add [fluid]"],
-        ),
-    ] {
-        refused(changed(from, to), &parts);
-    }
-    let water = TANK.find("[[water]]").unwrap();
-    let run = TANK.find("[run]").unwrap();
-    let dry = format!("{}{}", &TANK[..water], &TANK[run..]);
-    refused(read(&dry), &["water", "add [[water]]"]);
-}
-
-#[test]
-fn what_is_of_a_lattice_is_refused_among_particles() {
-    refused(
-        changed(
-            "size = [4.0, 1.0, 2.0]",
-            "size = [4.0, 1.0, 2.0]\ncell = 0.1",
-        ),
-        &["domain.cell", "no cells"],
-    );
-    for (kind, parts) in [
-        ("\"pressure\"", ["boundaries.z_max", "`pressure`"]),
-        (
-            "\"velocity\", velocity = [0, 0, 0]",
-            ["boundaries.z_max", "`velocity`"],
-        ),
-        (
-            "\"wall\", velocity = [1, 0, 0]",
-            ["boundaries.z_max.velocity", "driven"],
-        ),
-    ] {
-        refused(changed("\"open\"", kind), &parts);
-    }
-    let slice = "[[output.slices]]\nname = \"s\"\naxis = \"y\"\nfield = \"speed\"\n";
-    let view = "[[views]]\nname = \"v\"\ntraces = 10\n";
-    for (more, parts) in [
-        ("[numerics]\nmach = 0.1\n", ["numerics", "lattice"]),
-        ("[initial]\npressure = 1\n", ["initial", "lattice"]),
-        (slice, ["output.slices", "lattice"]),
-        (
-            "[output]\nfields = [\"vorticity\"]\n",
-            ["output.fields", "no vorticity"],
-        ),
-        (
-            "[[output.histories]]\nquantities = [\"enstrophy\"]\n",
-            ["output.histories[0].quantities", "enstrophy"],
-        ),
-        (view, ["views[0]", "always shown"]),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"plane\"\naxis = \"x\"\nposition = 1\n",
-            ["probes[0]", "gauge"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"gauge\"\nat = [9, 0]\n",
-            ["probes[0].at", "outside"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"gauge\"\nat = [1, 0, 0]\n",
-            ["`at` has 3 numbers", "x and y"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"gauge\"\nat = [1, 0]\nfields = [\"pressure\"]\n",
-            ["`gauge`", "remove `fields`"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"point\"\nat = [1, 0, 0]\nfields = [\"solid\"]\n",
-            ["probes[0].fields", "no solid"],
-        ),
-        (
-            "[[solids]]\nkind = \"sphere\"\ncenter = [1, 0.5, 1]\nradius = 0.2\nvoid = true\n",
-            ["solids[0].void", "hole"],
-        ),
-    ] {
-        refused(tank(more), &parts);
-    }
-    refused(
-        read(
-            &TANK
-                .replace("spacing = 0.05", "spacing = 0.05\nplane = true")
-                .replace(
-                    "[boundaries]",
-                    "[boundaries]\ny_min = { kind = \"wall\" }\ny_max = { kind = \"open\" }",
-                ),
-        ),
-        &["boundaries.y_max", "nothing varies along y"],
-    );
-    refused(Units::of(&tank("").unwrap()), &["particles", "no lattice"]);
-}
-
-#[test]
-fn what_is_of_particles_is_refused_on_a_lattice() {
-    for (more, parts) in [
-        (
-            "[boundaries]\nz_min = { kind = \"wall\" }\nz_max = { kind = \"open\" }\n",
-            ["boundaries.z_max", "[particles]"],
-        ),
-        (
-            "[[water]]\nkind = \"sphere\"\nradius = 1e-3\n",
-            ["water", "[particles]"],
-        ),
-        (
-            "[[output.histories]]\nquantities = [\"potential_energy\"]\n",
-            ["output.histories[0].quantities", "particles"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"gauge\"\nat = [0, 0]\n",
-            ["probes[0]", "free water"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"sensor\"\nat = [0, 0, 0]\nnormal = \"+z\"\nsize = 1e-3\n",
-            ["probes[0]", "free water"],
-        ),
-        (
-            "[[probes]]\nname = \"p\"\nkind = \"run_up\"\nmin = [0, 0, 0]\nmax = [1e-3, 1e-3, 1e-3]\ndirection = \"+x\"\n",
-            ["probes[0]", "free water"],
-        ),
-    ] {
-        refused(read(&format!("{CHANNEL}{more}")), &parts);
-    }
-}
-
-#[test]
 fn walls_hold_water_without_a_material() {
     let solid = "[[solids]]\nkind = \"box\"\nmin = [2, 0, 0]\nmax = [3, 1, 1]\n";
     let setup = block_setup(&tank(solid).unwrap()).unwrap().setup;
     let names: Vec<&str> = setup.blocks.iter().map(|b| b.name.as_str()).collect();
     assert_eq!(names, ["solid_1", "wall_x_min", "wall_x_max", "wall_z_min"]);
     assert_eq!(setup.materials.len(), 1);
-}
-
-#[test]
-fn loads_on_faces_are_of_cells() {
-    let block = "[[materials]]\nname = \"rock\"\ndensity = 2500\nnormal_stiffness = 1e8\nfriction = 30\n\
-                 [[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [0.2, 0.2, 0.2]\nposition = [2, 0.5, 1]\n\
-                 [[probes]]\nname = \"p\"\nkind = \"block\"\nblock = \"b\"\n";
-    tank(block).unwrap();
-    refused(
-        tank(&format!("{block}faces = true\n")),
-        &["probes[0].faces", "particles"],
-    );
 }
 
 #[test]

@@ -1,144 +1,64 @@
-//! Every scene that contradicts itself is refused with its key, line and a remedy.
+//! What is refused: scenes of `refusals.txt`, each a scene of this folder with lines taken out (`-`) and put in their place or at
+//! the end (`+`). The snapshot has the place, the key and the words of each refusal.
 
-use crate::{changed, channel, refused};
+use riprap::{
+    Error, Result,
+    error::Overlap,
+    scene::{Scene, build::block_setup},
+    units::Units,
+};
 
-#[test]
-fn domains_are_whole_cells() {
-    refused(
-        changed("0.01,", "0.0105,"),
-        &[
-            "channel.toml:3:15: domain.size[1]",
-            "10.5",
-            "0.01 and 0.011 m",
-        ],
-    );
-    refused(
-        changed("0.01,", "1e-4,"),
-        &["domain.size[1]", "0.001 and 0.002 m"],
-    );
-    refused(
-        changed("cell = 1e-3", "cell = 0"),
-        &["domain.cell", "greater than 0"],
-    );
-    refused(
-        changed("cell = 1e-3", "cell = nan"),
-        &["domain.cell", "greater than 0"],
-    );
-    refused(
-        changed("0.02,", "-0.02,"),
-        &["domain.size[0]", "greater than 0"],
-    );
-    refused(
-        changed("0.02,", "inf,"),
-        &["domain.size[0]", "greater than 0"],
-    );
-    refused(
-        changed("cell = 1e-3", "cell = 1e-7"),
-        &["domain.cell", "cells", "cell ≥"],
-    );
-}
+use crate::{CHANNEL, blocks::CUBE, channel, deformable::BAR, particles::TANK, read, refused};
 
-#[test]
-fn fluids_have_positive_properties() {
-    refused(
-        changed("1e-6", "0"),
-        &["channel.toml:6:13: fluid.viscosity", "greater than 0"],
-    );
-    refused(
-        changed("1e-6", "-1e-6"),
-        &["fluid.viscosity", "-0.000001 m²/s"],
-    );
-    refused(
-        changed("[fluid]", "[fluid]\ndensity = 0"),
-        &["fluid.density", "kg/m³"],
-    );
-    refused(
-        changed("[fluid]", "[fluid]\nacceleration = [0, \"t\", 0]"),
-        &["fluid.acceleration", "uses t"],
-    );
-    refused(
-        changed("[fluid]", "[fluid]\nacceleration = [0, inf, 0]"),
-        &["fluid.acceleration"],
-    );
-}
-
-#[test]
-fn numerics_do_not_contradict_themselves() {
-    for (keys, parts) in [
-        (
-            "time_step = 1e-3\nmach = 0.1",
-            ["numerics.mach", "keep one"],
-        ),
-        ("time_step = 0", ["numerics.time_step", "greater than 0"]),
-        ("mach = -1", ["numerics.mach", "greater than 0"]),
-        (
-            "velocity_scale = inf",
-            ["numerics.velocity_scale", "greater than 0"],
-        ),
-        ("lanes = 3", ["numerics.lanes", "1, 2 and 4"]),
-        ("lanes = 2", ["numerics.lanes", "f16"]),
-        ("lanes = 1\nstorage = \"f16\"", ["numerics.lanes", "2 or 4"]),
-        ("lambda = 0", ["numerics.lambda", "greater than 0"]),
-        (
-            "lambda = 0.1\ncollision = \"bgk\"",
-            ["numerics.lambda", "hermite"],
-        ),
-        (
-            "wall_lambda = nan",
-            ["numerics.wall_lambda", "greater than 0"],
-        ),
-        ("wale_constant = -0.5", ["numerics.wale_constant", "0.5"]),
-        ("odd_rate_floor = 2", ["numerics.odd_rate_floor", "0.8"]),
-    ] {
-        refused(channel(&format!("[numerics]\n{keys}\n")), &parts);
+/// What is done with a scene before there is a device.
+fn prepare(text: &str) -> Result<()> {
+    let scene = read(text)?;
+    block_setup(&scene)?;
+    if scene.has_fluid() {
+        let units = Units::of(&scene);
+        if !scene.has_particles() {
+            scene.solid_mask()?;
+            scene.initial_fields()?;
+        }
+        scene.advise(&units?)?;
     }
-    for keys in [
-        "lanes = 4\nstorage = \"f16\"",
-        "lanes = 2\nstorage = \"f16\"",
-        "lanes = 1",
-    ] {
-        channel(&format!("[numerics]\n{keys}\n")).unwrap();
+    Ok(())
+}
+
+/// A scene of this folder, changed as the lines of a case say.
+fn changed(case: &str) -> String {
+    let mut lines = case.lines();
+    let base = match lines.next() {
+        Some("channel") => CHANNEL,
+        Some("cube") => CUBE,
+        Some("tank") => TANK,
+        Some("bar") => BAR,
+        _ => "",
+    };
+    let marked = |mark| {
+        let lines = case.lines().filter_map(move |line| line.strip_prefix(mark));
+        lines.map(|line| format!("{line}\n")).collect::<String>()
+    };
+    let (old, new) = (marked('-'), marked('+'));
+    if old.is_empty() {
+        return format!("{base}{new}");
     }
+    assert_eq!(base.matches(&old).count(), 1, "{case}");
+    base.replace(&old, &new)
 }
 
 #[test]
-fn boundaries_fit_each_other() {
-    refused(
-        channel("[boundaries]\ny_max = { kind = \"wall\" }\n"),
-        &[
-            "channel.toml:9:",
-            "boundaries.y_min",
-            "y_max is `wall`",
-            "make both periodic",
-        ],
-    );
-    refused(
-        channel(
-            "[boundaries]\ny_max = { kind = \"wall\", velocity = [1, 1, 0] }\ny_min = { kind = \"wall\" }\n",
-        ),
-        &["boundaries.y_max.velocity", "y component must be 0"],
-    );
-    refused(
-        channel("[boundaries]\ny_max = { kind = \"wall\", velocity = [\"x\", 0, 0] }\n"),
-        &["three numbers"],
-    );
-    refused(
-        channel(
-            "[boundaries]\nx_min = { kind = \"velocity\", velocity = [2, 0, 0] }\nx_max = { kind = \"velocity\", velocity = [1, 0, 0] }\n",
-        ),
-        &[
-            "channel.toml:10:",
-            "8.000000e-5 m³/s in",
-            "4.000000e-5 m³/s out",
-            "pressure",
-        ],
-    );
-    refused(
-        channel(
-            "[boundaries]\nx_min = { kind = \"pressure\", pressure = nan }\nx_max = { kind = \"free_slip\" }\n",
-        ),
-        &["boundaries.x_min.pressure", "finite"],
-    );
+fn refusals_name_the_key_the_line_and_a_remedy() {
+    let mut told = String::new();
+    let cases = include_str!("refusals.txt")
+        .lines()
+        .filter(|line| !line.starts_with('#'));
+    let cases = cases.collect::<Vec<_>>().join("\n");
+    for case in cases.split("== ").skip(1) {
+        let error = prepare(&changed(case)).expect_err(case);
+        told += &format!("{}\n  {error}\n\n", case.trim_end());
+    }
+    insta::assert_snapshot!(told);
 }
 
 #[test]
@@ -154,163 +74,69 @@ fn velocity_faces_that_balance_are_accepted() {
 }
 
 #[test]
-fn solids_have_an_extent_in_the_domain() {
-    for (keys, parts) in [
-        (
-            "kind = \"box\"\nmin = [0, 0, 0]\nmax = [0.01, 0, 0.01]",
-            ["solids[0].max", "along y"],
-        ),
-        (
-            "kind = \"box\"\nmin = [1, 1, 1]\nmax = [2, 2, 2]",
-            ["solids[0]", "wholly outside"],
-        ),
-        (
-            "kind = \"sphere\"\ncenter = [0, 0, 0]\nradius = -1",
-            ["solids[0].radius", "greater than 0"],
-        ),
-        (
-            "kind = \"sphere\"\ncenter = [0, 9, 0]\nradius = 1",
-            ["solids[0]", "wholly outside"],
-        ),
-        (
-            "kind = \"half_space\"\npoint = [0, 0, 0]\nnormal = [0, 0, 0]",
-            ["solids[0].normal", "direction"],
-        ),
-        (
-            "kind = \"mesh\"\nfile = \"a.stl\"\nscale = 0",
-            ["solids[0].scale", "greater than 0"],
-        ),
-        (
-            "kind = \"box\"\nname = \"a/b\"\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]",
-            ["solids[0].name", "A-Z"],
-        ),
+fn lanes_fit_the_storage() {
+    for keys in [
+        "lanes = 4\nstorage = \"f16\"",
+        "lanes = 2\nstorage = \"f16\"",
+        "lanes = 1",
     ] {
-        refused(channel(&format!("[[solids]]\n{keys}\n")), &parts);
+        channel(&format!("[numerics]\n{keys}\n")).unwrap();
     }
 }
 
 #[test]
-fn runs_have_one_end() {
+fn a_missing_file_is_named() {
     refused(
-        changed("steps = 10", ""),
-        &["channel.toml:7:", "run", "`duration`", "`steps`"],
-    );
-    refused(
-        changed("steps = 10", "steps = 10\nduration = 1"),
-        &["run.steps", "keep one"],
-    );
-    refused(
-        changed("steps = 10", "steps = 0"),
-        &["run.steps", "at least 1"],
-    );
-    refused(
-        changed("steps = 10", "duration = -1"),
-        &["run.duration", "greater than 0"],
-    );
-    refused(
-        changed("steps = 10", "steps = 10\ncheckpoint_every = 0"),
-        &["run.checkpoint_every", "greater than 0"],
+        Scene::from_file("no/such/scene.toml"),
+        &["no/such/scene.toml", "check the path"],
     );
 }
 
-#[test]
-fn outputs_can_be_written() {
-    let slice = "[[output.slices]]\naxis = \"z\"\nfield = \"speed\"\n";
-    for (keys, parts) in [
-        (
-            "[output]\nevery = 0\n".to_owned(),
-            ["output.every", "greater than 0"],
-        ),
-        ("[output]\nfields = []\n".into(), ["output.fields", "empty"]),
-        (
-            "[output]\nfields = [\"solid\", \"solid\"]\n".into(),
-            ["output.fields", "twice"],
-        ),
-        (
-            "[output]\nfields = [\"eddy_viscosity\"]\n".into(),
-            ["output.fields", "wale"],
-        ),
-        (
-            format!("{slice}name = \"a b\"\n"),
-            ["output.slices[0].name", "`a b`"],
-        ),
-        (
-            format!("{slice}name = \"a\"\n{slice}name = \"A\"\n"),
-            ["output.slices[1].name", "taken"],
-        ),
-        (
-            format!("{slice}name = \"a\"\nposition = 1\n"),
-            ["output.slices[0].position", "outside"],
-        ),
-        (
-            format!("{slice}name = \"a\"\nrange = [1, 1]\n"),
-            ["output.slices[0].range", "smaller"],
-        ),
-        (
-            format!("{slice}name = \"a\"\nevery = -1\n"),
-            ["output.slices[0].every", "greater"],
-        ),
-        (
-            "[[output.histories]]\nquantities = []\n".into(),
-            ["output.histories[0].quantities", "empty"],
-        ),
-        (
-            "[[output.histories]]\nquantities = [\"mass\"]\nevery = 0\n".into(),
-            ["output.histories[0].every", "greater"],
-        ),
-    ] {
-        refused(channel(&keys), &parts);
+proptest::proptest! {
+    /// A scene with a piece cut out or doubled is read or refused, never a panic.
+    #[test]
+    fn no_mutilated_scene_panics(from in 0..450_usize, length in 0..60_usize, double: bool) {
+        let text = TANK;
+        let skipped = text.find("[domain]").unwrap() + from;
+        let piece: String = text.chars().skip(skipped).take(length).collect();
+        let broken = if double {
+            text.replacen(&piece, &piece.repeat(2), 1)
+        } else {
+            text.replacen(&piece, "", 1)
+        };
+        let _ = read(&broken);
     }
 }
 
+/// Errors that know only the name of a block find the table that makes it, and so do blocks that overlap.
 #[test]
-fn probes_lie_in_the_domain() {
-    for (keys, parts) in [
-        (
-            "kind = \"point\"\nat = [0, 0, 1]",
-            ["probes[0].at", "outside the domain"],
-        ),
-        (
-            "kind = \"line\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\ncount = 3",
-            ["probes[0].to", "outside"],
-        ),
-        (
-            "kind = \"line\"\nfrom = [0, 0, 0]\nto = [0.01, 0, 0]\ncount = 1",
-            ["probes[0].count", "2"],
-        ),
-        (
-            "kind = \"plane\"\naxis = \"x\"\nposition = -1",
-            ["probes[0].position", "outside"],
-        ),
-        (
-            "kind = \"box\"\nmin = [0.01, 0, 0]\nmax = [0, 0.01, 0.004]",
-            ["probes[0].max", "along x"],
-        ),
-        (
-            "kind = \"face\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nnormal = \"+x\"",
-            ["probes[0].max", "outside"],
-        ),
-        (
-            "kind = \"point\"\nat = [0, 0, 0]\nevery = 0",
-            ["probes[0].every", "greater"],
-        ),
-        (
-            "kind = \"point\"\nat = [0, 0, 0]\nfields = []",
-            ["probes[0].fields", "empty"],
-        ),
-        (
-            "kind = \"point\"\nat = [0, nan, 0]",
-            ["probes[0].at", "finite"],
-        ),
-    ] {
-        refused(
-            channel(&format!("[[probes]]\nname = \"p\"\n{keys}\n")),
-            &parts,
-        );
-    }
-    let point = "[[probes]]\nname = \"p\"\nkind = \"point\"\nat = [0, 0, 0]\n";
-    refused(
-        channel(&point.repeat(2)),
-        &["channel.toml:14:", "probes[1].name", "taken"],
+fn blocks_have_the_line_of_their_table() {
+    let text = "[[blocks]]\nname = \"a\"\n[[blocks]]\nname = \"tower\"\nrepeat = 3\n";
+    let located = |error| Scene::locate(error, text, "pile.toml").to_string();
+    let outside = |name: &str| located(Error::scene(format!("block {name}"), "lies outside"));
+    assert!(
+        outside("a").starts_with("pile.toml:1:1: block a"),
+        "{}",
+        outside("a")
+    );
+    assert!(
+        outside("tower_2").starts_with("pile.toml:3:1:"),
+        "{}",
+        outside("tower_2")
+    );
+    assert!(
+        outside("towers").starts_with("pile.toml: block"),
+        "{}",
+        outside("towers")
+    );
+    let pairs = vec![Overlap {
+        first: "blocks[0] (a)".into(),
+        second: "blocks[2] (tower_2)".into(),
+        depth: 0.1,
+    }];
+    let told = located(Error::Overlaps { pairs });
+    assert!(
+        told.contains("blocks[0] (a) of pile.toml:1") && told.contains("(tower_2) of pile.toml:3"),
+        "{told}"
     );
 }

@@ -39,15 +39,19 @@ every = 0.002
 "#;
 
 /// The warnings of the right scene with `from` replaced by `to`, in steps of 1 ms.
-fn slips(from: &str, to: &str) -> Vec<String> {
+fn suspicious(from: &str, to: &str) -> Vec<String> {
     assert!(RIGHT.contains(from), "{from}");
     let scene = read(&RIGHT.replace(from, to)).unwrap();
-    scene.slips(1e-3).iter().map(ToString::to_string).collect()
+    scene
+        .suspicious_keys(1e-3)
+        .iter()
+        .map(ToString::to_string)
+        .collect()
 }
 
 #[track_caller]
 fn told(from: &str, to: &str, words: &[&str]) {
-    let found = slips(from, to);
+    let found = suspicious(from, to);
     assert_eq!(found.len(), 1, "{found:?}");
     for word in words {
         assert!(found[0].contains(word), "`{word}` is not in: {}", found[0]);
@@ -56,7 +60,7 @@ fn told(from: &str, to: &str, words: &[&str]) {
 
 #[track_caller]
 fn silent(from: &str, to: &str) {
-    assert_eq!(slips(from, to), [""; 0]);
+    assert_eq!(suspicious(from, to), [""; 0]);
 }
 
 #[test]
@@ -137,7 +141,7 @@ fn blocks_that_sink_into_a_plane_at_rest_are_told() {
             &format!("normal_stiffness = {stiffness}"),
         );
         let scene = read(&text).unwrap();
-        let found = scene.slips(1e-3);
+        let found = scene.suspicious_keys(1e-3);
         found.iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     let (radius, gravity) = (0.025f64, 9.81);

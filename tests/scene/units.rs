@@ -2,7 +2,7 @@
 
 use riprap::units::Units;
 
-use crate::{channel, read, refused};
+use crate::channel;
 
 const UNITS: Units = Units {
     cell: 2e-3,
@@ -86,12 +86,4 @@ fn the_time_step_follows_from_the_mach_number() {
     assert!((Units::of(&scene).unwrap().mach(2.0) - 0.05).abs() < 1e-12);
     let scene = channel("[numerics]\ntime_step = 1e-4\n").unwrap();
     assert_eq!(Units::of(&scene).unwrap().time_step, 1e-4);
-}
-
-#[test]
-fn a_scene_at_rest_needs_a_time_step_or_a_scale() {
-    refused(
-        Units::of(&read(crate::CHANNEL).unwrap()),
-        &["numerics", "velocity_scale", "time_step", "t = 0"],
-    );
 }

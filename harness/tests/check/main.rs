@@ -5,4 +5,3 @@ mod mutants;
 mod refusals;
 mod reports;
 mod shipped_scenes;
-mod sph_refusals;

@@ -1,4 +1,5 @@
-//! What a user gets wrong: the program ends with code 2, and says where and what instead.
+//! What a user gets wrong: refusals end `riprap check` with code 2, warnings are printed, and both say where and what instead.
+//! Which scenes are refused, `tests/scene/` says.
 
 use std::{
     path::PathBuf,
@@ -51,19 +52,75 @@ fn refusal(command: &mut Command) -> String {
     said
 }
 
-/// The refusal of the right scene with `from` replaced by `to` contains each of `words`.
-fn refused(name: &str, from: &str, to: &str, words: &[&str]) {
-    assert!(RIGHT.contains(from), "{from}");
-    let said = refusal(&mut check(name, &RIGHT.replace(from, to)));
+/// A tank with a sill at either end, 15 × 10 particles without them, to be spoilt.
+const TANK: &str = r#"
+title = "tank"
+[domain]
+size = [1.2, 1, 1.2]
+[fluid]
+acceleration = [0, 0, -9.81]
+[particles]
+spacing = 0.08
+plane = true
+[boundaries]
+x_min = { kind = "wall" }
+x_max = { kind = "wall" }
+z_min = { kind = "wall" }
+z_max = { kind = "open" }
+[[water]]
+kind = "box"
+size = [1.2, 1, 0.8]
+position = [0.6, 0.5, 0.4]
+[[materials]]
+name = "rock"
+density = 2500
+normal_stiffness = 1e7
+friction = 30
+[[blocks]]
+name = "left"
+kind = "box"
+size = [0.4, 1, 0.4]
+position = [0.2, 0.5, 0.2]
+motion = "fixed"
+[[blocks]]
+name = "right"
+kind = "box"
+size = [0.4, 1, 0.4]
+position = [1, 0.5, 0.2]
+motion = "fixed"
+[run]
+steps = 3
+"#;
+
+/// The end of the right sill.
+const SILL: &str = "position = [1, 0.5, 0.2]\nmotion = \"fixed\"";
+
+/// The refusal of a text contains the name of its file and each of `words`.
+#[track_caller]
+fn refused(name: &str, text: &str, words: &[&str]) {
+    let said = refusal(&mut check(name, text));
     for word in words.iter().chain(&[format!("{name}.toml").as_str()]) {
         assert!(said.contains(word), "`{word}` is not in: {said}");
     }
 }
 
-#[test]
-fn the_scene_itself_is_right() {
-    let Output { status, stderr, .. } = check("right", RIGHT).output().unwrap();
+/// The warnings of a text that is accepted.
+fn warnings(name: &str, text: &str) -> Vec<String> {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = check(name, text).output().unwrap();
     assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
+    let report = String::from_utf8(stdout).unwrap();
+    let lines = report.lines().filter(|line| line.starts_with("warning "));
+    lines.map(str::to_owned).collect()
+}
+
+#[test]
+fn the_scenes_themselves_are_right() {
+    assert_eq!(warnings("right", RIGHT), [""; 0]);
+    assert_eq!(warnings("right_tank", TANK), [""; 0]);
 }
 
 #[test]
@@ -81,123 +138,35 @@ fn a_folder_in_place_of_a_file() {
     assert!(said.contains("cannot read the scene"), "{said}");
 }
 
+/// One refusal of each stage: the text, the numbers of the lattice, the file of a mesh.
 #[test]
-fn text_that_is_no_toml() {
+fn scenes_are_refused_at_their_key() {
     refused(
-        "no_toml",
-        "cell = 0.01",
-        "cell = = 0.01",
-        &["no_toml.toml:4:"],
+        "unknown_key",
+        &RIGHT.replace("viscosity =", "viscocity ="),
+        &[
+            "unknown_key.toml:7:",
+            "`viscocity`",
+            "did you mean `viscosity`?",
+        ],
     );
-}
-
-#[test]
-fn a_wrong_type() {
-    let words = ["wrong_type.toml:4:", "domain.cell", "expected a number"];
-    refused("wrong_type", "cell = 0.01", "cell = \"fine\"", &words);
-}
-
-#[test]
-fn an_unknown_key() {
-    let words = [
-        "unknown_key.toml:7:",
-        "`viscocity`",
-        "did you mean `viscosity`?",
-    ];
-    refused("unknown_key", "viscosity =", "viscocity =", &words);
-}
-
-#[test]
-fn an_unknown_word() {
-    let words = ["unknown_word.toml:12:", "`wal`", "did you mean `wall`?"];
     refused(
-        "unknown_word",
-        "y_min = { kind = \"wall\" }",
-        "y_min = { kind = \"wal\" }",
-        &words,
+        "mach",
+        &format!("{RIGHT}[numerics]\ntime_step = 1\n"),
+        &[
+            "numerics.time_step",
+            "Mach number",
+            "use time_step ≤ 5.774e-2 s",
+        ],
     );
-}
-
-#[test]
-fn a_negative_size() {
-    let words = [
-        "negative_size.toml:3:",
-        "domain.size[1]",
-        "-0.08 m",
-        "greater than 0",
-    ];
-    refused("negative_size", "0.08, 0.08", "0.08, -0.08", &words);
-}
-
-#[test]
-fn a_size_that_is_not_a_whole_number_of_cells() {
-    let words = ["fraction.toml:3:", "8.500000 cells", "0.08 and 0.09 m"];
-    refused("fraction", "0.08, 0.08", "0.08, 0.085", &words);
-}
-
-#[test]
-fn no_viscosity() {
-    let words = [
-        "no_viscosity.toml:7:",
-        "fluid.viscosity",
-        "is 0 m²/s",
-        "greater than 0",
-    ];
-    refused("no_viscosity", "1e-4", "0", &words);
-}
-
-#[test]
-fn a_viscosity_that_drowns_in_rounding() {
-    let words = ["fluid.viscosity", "viscosity ≥", "cell ≤"];
-    let said = refusal(&mut check("low_viscosity", &RIGHT.replace("1e-4", "1e-12")));
-    words
-        .iter()
-        .for_each(|word| assert!(said.contains(word), "{said}"));
-}
-
-#[test]
-fn a_mach_number_above_0_3() {
-    let text = RIGHT.to_owned() + "[numerics]\ntime_step = 1\n";
-    let said = refusal(&mut check("mach", &text));
-    for word in [
-        "numerics.time_step",
-        "Mach number",
-        "use time_step ≤ 5.774e-2 s",
-    ] {
+    let open = "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0.02 0.02 0.02\nvertex 0.06 0.02 \
+                0.02\nvertex 0.02 0.06 0.03\nendloop\nendfacet\nendsolid open\n";
+    std::fs::write(folder().join("open.stl"), open).unwrap();
+    let text = RIGHT.to_owned() + "[[solids]]\nkind = \"mesh\"\nfile = \"open.stl\"\n";
+    let said = refusal(&mut check("open_mesh", &text));
+    for word in ["open.stl", "3 boundary edges", "close its holes"] {
         assert!(said.contains(word), "{said}");
     }
-}
-
-#[test]
-fn one_face_periodic_without_the_other() {
-    let words = [
-        "boundaries.x_max",
-        "x_min is `velocity`",
-        "make both periodic",
-    ];
-    refused(
-        "half_periodic",
-        "{ kind = \"pressure\" }",
-        "{ kind = \"periodic\" }",
-        &words,
-    );
-}
-
-#[test]
-fn an_inlet_without_an_outlet() {
-    let words = ["boundaries.x_min", "kind = \"pressure\"", "m³/s"];
-    refused(
-        "no_outlet",
-        "{ kind = \"pressure\" }",
-        "{ kind = \"wall\" }",
-        &words,
-    );
-}
-
-#[test]
-fn more_cells_than_an_index_reaches() {
-    let words = ["huge.toml:4:", "domain.cell", "1.591e8", "cell ≥"];
-    refused("huge", "cell = 0.01", "cell = 1e-5", &words);
 }
 
 /// 1.3e8 cells pass for a scene, but one of 27 directions alone is 526 MB in f32, and few bindings hold several each.
@@ -221,43 +190,6 @@ fn more_cells_than_the_device_holds() {
     };
     let said = refusal(&mut check("large", &RIGHT.replace("cell = 0.01", cell)));
     for word in &words {
-        assert!(said.contains(word), "{said}");
-    }
-}
-
-#[test]
-fn a_mesh_that_is_not_closed() {
-    let open = "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0.02 0.02 0.02\nvertex 0.06 0.02 \
-                0.02\nvertex 0.02 0.06 0.03\nendloop\nendfacet\nendsolid open\n";
-    std::fs::write(folder().join("open.stl"), open).unwrap();
-    let text = RIGHT.to_owned() + "[[solids]]\nkind = \"mesh\"\nfile = \"open.stl\"\n";
-    let said = refusal(&mut check("open_mesh", &text));
-    for word in ["open.stl", "3 boundary edges", "close its holes"] {
-        assert!(said.contains(word), "{said}");
-    }
-}
-
-#[test]
-fn a_mesh_that_is_not_there() {
-    let text = RIGHT.to_owned() + "[[solids]]\nkind = \"mesh\"\nfile = \"missing.stl\"\n";
-    let said = refusal(&mut check("missing_mesh", &text));
-    assert!(said.contains("missing.stl"), "{said}");
-}
-
-#[test]
-fn a_formula_that_is_not_finite() {
-    let text = RIGHT.to_owned() + "[initial]\nvelocity = [\"sqrt(x - 0.04)\", 0, 0]\n";
-    let said = refusal(&mut check("nan", &text));
-    for word in ["initial.velocity", "sqrt(x - 0.04)", "NaN"] {
-        assert!(said.contains(word), "{said}");
-    }
-}
-
-#[test]
-fn an_unknown_function() {
-    let text = RIGHT.to_owned() + "[initial]\nvelocity = [\"sine(x)\", 0, 0]\n";
-    let said = refusal(&mut check("function", &text));
-    for word in ["function.toml", "sine"] {
         assert!(said.contains(word), "{said}");
     }
 }
@@ -298,4 +230,94 @@ fn an_adapter_that_does_not_exist() {
 fn an_unknown_subcommand() {
     let said = refusal(Command::new(env!("CARGO_BIN_EXE_riprap")).arg("chek"));
     assert!(said.contains("check"), "{said}");
+}
+
+/// The tank with `from` replaced by `to` is warned of in one line with all `words`.
+#[track_caller]
+fn tank_warned(name: &str, changes: &[(&str, &str)], words: &[&str]) {
+    let found = warnings(&format!("water_{name}"), &tank(changes));
+    let all = |line: &String| words.iter().all(|word| line.contains(word));
+    assert!(
+        found.iter().any(all),
+        "{words:?} are in no line of: {found:?}"
+    );
+}
+
+/// The tank with pieces of its text replaced.
+fn tank(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(TANK.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+#[test]
+fn free_water_is_warned_of() {
+    tank_warned(
+        "gap",
+        &[("position = [1, 0.5", "position = [0.72, 0.5")],
+        &[
+            "particles.spacing",
+            "1.20e-1 m between `left` and `right`",
+            "smaller spacing",
+        ],
+    );
+    let driven = "position = [1, 0.5, 0.2]\nmotion = \"driven\"\nvelocity = [-3, 0, 0]";
+    tank_warned(
+        "fast",
+        &[
+            (SILL, driven),
+            ("[particles]", "[particles]\nlargest_speed = 1"),
+        ],
+        &[
+            "particles.largest_speed",
+            "`right` is driven at",
+            "3.000 m/s",
+            "give 3.000 m/s",
+        ],
+    );
+    // Nothing holds the water.
+    let sills = TANK.find("[[materials]]").unwrap()..TANK.find("[run]").unwrap();
+    let faces = "z_min = { kind = \"wall\" }\nz_max = { kind = \"open\" }\n";
+    tank_warned(
+        "falls",
+        &[(&TANK[sills], ""), (faces, "")],
+        &["boundaries: gravity", "falls for ever", "kind = \"wall\""],
+    );
+}
+
+#[test]
+fn free_water_is_refused_at_its_key() {
+    for (name, from, to, words) in [
+        (
+            "water_open",
+            "z_min = { kind = \"wall\" }",
+            "z_min = { kind = \"open\" }",
+            ["water[0]", "open face z_min", "kind = \"wall\""],
+        ),
+        (
+            "water_outside",
+            "position = [0.6, 0.5, 0.4]",
+            "position = [0.9, 0.5, 0.4]",
+            ["water[0]", "1.2, 1, 1.2] m", "enlarge the domain"],
+        ),
+        (
+            "water_nan",
+            SILL,
+            "position = [1, 0.5, 0.2]\nmotion = \"driven\"\nvelocity = [\"sqrt(t - 1)\", 0, 0]",
+            ["blocks[1].velocity", "sqrt(t - 1)", "NaN at t = 0"],
+        ),
+        (
+            "water_overlap",
+            SILL,
+            "position = [0.5, 0.5, 0.2]",
+            [
+                "overlap at the start",
+                "blocks[0] (left) of ",
+                "water_overlap.toml:24 and blocks[1] (right) of ",
+            ],
+        ),
+    ] {
+        refused(name, &tank(&[(from, to)]), &words);
+    }
 }

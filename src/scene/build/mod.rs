@@ -5,10 +5,7 @@ mod blocks;
 mod keys;
 mod lattice;
 #[cfg(feature = "sph")]
-mod particle_step;
-#[cfg(feature = "sph")]
 mod particles;
-mod units;
 
 #[cfg(feature = "rock")]
 pub use blocks::{BlockSetup, LeftOut, block_setup};
@@ -21,6 +18,6 @@ pub(crate) use keys::particle_key;
 pub(crate) use keys::rock_key;
 pub use lattice::{face_velocity, lattice_setup};
 #[cfg(feature = "sph")]
-pub(crate) use particle_step::scene_step;
+pub(crate) use particles::scene_step;
 #[cfg(feature = "sph")]
 pub use particles::{boundary_particles, fill, particle_lattice, particle_setup, water_bodies};

@@ -1,6 +1,11 @@
 //! Rock masses, cut.
 
-use super::{LeftOut, deformable::symmetric, meshes, shapes::half_spaces, solids::holds};
+use super::{
+    LeftOut,
+    rows::symmetric,
+    shapes::{closed_mesh, half_spaces},
+    solids::holds,
+};
 use crate::{
     Result,
     geometry::{Compass, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter},
@@ -153,7 +158,7 @@ fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
             translate,
         } => {
             let path = scene.dir().join(file);
-            faces(&meshes::closed(&path, *scale, DVec3::from(*translate))?.vertices)
+            faces(&closed_mesh(&path, *scale, DVec3::from(*translate))?.vertices)
         }
     }
 }

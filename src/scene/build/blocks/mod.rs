@@ -1,13 +1,10 @@
 //! From a scene to the blocks in it.
 
-mod deformable;
 mod masses;
 mod materials;
-mod meshes;
 mod rows;
 mod shapes;
 mod solids;
-mod walls;
 
 pub(crate) use shapes::{rotation, shape};
 
@@ -90,7 +87,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         setup.blocks.push(solids::block(scene, index, solid)?);
     }
     if scene.has_fluid() {
-        setup.blocks.extend(walls::blocks(scene)?);
+        setup.blocks.extend(solids::walls(scene)?);
     }
     check_names(scene, &setup)?;
     check_faces(scene, &setup.blocks[in_fluid..])?;

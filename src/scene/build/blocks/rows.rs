@@ -1,14 +1,14 @@
-//! A table of `blocks`: its block and the copies of it.
+//! A table of `blocks`: its block, how it deforms, what acts on points of it, and its copies.
 
-use super::deformable;
 use super::shapes::{rotation, shape};
 use crate::{
-    Result,
+    Error, Result,
     formula::Formula,
-    rock::{Block, Motion},
+    geometry::{Form, Shape},
+    rock::{Block, Deformable, FixedPoint, Motion, PointLoad},
     scene::{self, Repeat, Scene},
 };
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use std::sync::Arc;
 
 /// Where the own frame of a block is.
@@ -35,7 +35,7 @@ pub(super) fn blocks(scene: &Scene, index: usize, block: &scene::Block) -> Resul
     for row in &block.repeat {
         places = row_of(&places, row);
     }
-    let about_centroid = deformable::points(&key, block, &shape, centroid)?;
+    let about_centroid = points(&key, block, &shape, centroid)?;
     let alone = places.len() == 1;
     let made = places.into_iter().enumerate().map(|(number, place)| Block {
         name: if alone {
@@ -85,4 +85,95 @@ fn row_of(places: &[Place], row: &Repeat) -> Vec<Place> {
 /// The value of formulas at the time 0.
 fn start(formulas: &[Formula; 3]) -> DVec3 {
     DVec3::from(formulas.each_ref().map(|f| f.eval_at([0.0; 3], 0.0)))
+}
+
+/// Distance from the shape up to which a point is on its surface, as a part of its radius: what scenes round
+/// their numbers to.
+const ON: f64 = 1e-6;
+
+/// What a table says of points of its block, from the centroid.
+struct Points {
+    deformable: Option<Deformable>,
+    point_loads: Vec<PointLoad>,
+}
+
+/// The points of the table `key`, whose `shape` has its `centroid` (m) in the block's own frame.
+///
+/// # Errors
+/// [`Error::Scene`] naming a point that is not of the block, or the mesh of several parts that would have to
+/// deform.
+fn points(key: &str, block: &scene::Block, shape: &Shape, centroid: DVec3) -> Result<Points> {
+    if block.deformable && shape.parts().len() > 1 {
+        return Err(Error::scene(
+            format!("{key}.deformable"),
+            format!(
+                "its mesh is not convex and became {} parts, which are rigid; add hull = true, or remove \
+                 deformable",
+                shape.parts().len()
+            ),
+        ));
+    }
+    let place = |name: &str, number: usize, point: &[f64; 3]| {
+        let from_centroid = DVec3::from(*point) - centroid;
+        if holds(shape, from_centroid) {
+            return Ok(from_centroid);
+        }
+        Err(Error::scene(
+            format!("{key}.{name}[{number}].point"),
+            format!(
+                "{} m is not in the block; give a point of it, in the block's own frame, before position \
+                 and rotation",
+                DVec3::from(*point)
+            ),
+        ))
+    };
+    let mut fixed_points = Vec::new();
+    for (number, held) in block.fixed_points.iter().enumerate() {
+        let mut axes = [false; 3];
+        for axis in &held.axes {
+            axes[axis.index()] = true;
+        }
+        fixed_points.push(FixedPoint {
+            point: place("fixed_points", number, &held.point)?,
+            axes,
+        });
+    }
+    let mut point_loads = Vec::new();
+    for (number, load) in block.point_loads.iter().enumerate() {
+        point_loads.push(PointLoad {
+            point: place("point_loads", number, &load.point)?,
+            force: load.force.clone(),
+        });
+    }
+    Ok(Points {
+        deformable: block.deformable.then(|| Deformable {
+            initial_stress: symmetric(&block.initial_stress),
+            fixed_points,
+        }),
+        point_loads,
+    })
+}
+
+/// The matrix of xx, yy, zz, xy, yz, xz.
+pub(super) fn symmetric([xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(*xx, *xy, *xz),
+        DVec3::new(*xy, *yy, *yz),
+        DVec3::new(*xz, *yz, *zz),
+    )
+}
+
+/// Whether a point (m from the centroid) is in the shape or on it.
+fn holds(shape: &Shape, point: DVec3) -> bool {
+    let reach = ON * shape.radius();
+    shape.parts().iter().any(|part| {
+        let x = point - part.offset;
+        match &part.form {
+            Form::Sphere { radius } => x.length() <= radius + reach,
+            Form::Convex(polyhedron) => {
+                let mut faces = polyhedron.faces().iter();
+                faces.all(|face| face.height(x) <= reach)
+            }
+        }
+    })
 }

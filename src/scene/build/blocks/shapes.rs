@@ -1,11 +1,12 @@
 //! Shapes of a scene's blocks, about their centroids.
 
 use crate::{
-    Result,
-    geometry::{Form, HalfSpace, Part, Polyhedron, Shape},
+    Error, Result,
+    geometry::{Form, HalfSpace, Part, Polyhedron, Shape, TriangleMesh, WindingTree},
     scene::{BlockShape, PlaneFace, Rotation, Scene},
 };
 use glam::{DQuat, DVec3};
+use std::path::Path;
 
 /// The shape of the table `key`, and its centroid (m) in the block's own frame.
 pub(crate) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Shape, DVec3)> {
@@ -23,7 +24,7 @@ pub(crate) fn shape(scene: &Scene, key: &str, shape: &BlockShape) -> Result<(Sha
         BlockShape::Sphere { radius } => Shape::sphere(*radius).map(|made| (made, DVec3::ZERO)),
         BlockShape::Mesh { file, scale, hull } => {
             let path = scene.dir().join(file);
-            return super::meshes::shape(&path, *scale, *hull);
+            return mesh_shape(&path, *scale, *hull);
         }
         BlockShape::Compound { parts } => return compound(scene, key, parts),
     }
@@ -82,4 +83,35 @@ pub(crate) fn rotation(rotation: &Rotation) -> DQuat {
     }
     let axis = DVec3::from(rotation.axis).normalize();
     DQuat::from_axis_angle(axis, rotation.angle.to_radians())
+}
+
+/// The shape of the mesh at `path`, or its hull, and its centroid, m.
+pub(super) fn mesh_shape(path: &Path, scale: f64, hull: bool) -> Result<(Shape, DVec3)> {
+    if !hull {
+        return Shape::read(path, scale);
+    }
+    let mesh = closed_mesh(path, scale, DVec3::ZERO)?;
+    match Polyhedron::from_vertices(&mesh.vertices) {
+        Ok((made, centroid)) => Ok((made.into(), centroid)),
+        Err(error) => Err(Error::file(path, error)),
+    }
+}
+
+/// Whether a point is inside the mesh at `path`.
+pub(super) fn in_mesh(
+    path: &Path,
+    scale: f64,
+    translate: DVec3,
+) -> Result<Box<dyn Fn(DVec3) -> bool>> {
+    let tree = WindingTree::new(&closed_mesh(path, scale, translate)?);
+    // Half-way between outside and inside, whichever way the triangles turn.
+    Ok(Box::new(move |x| tree.at(x).abs() > 0.5))
+}
+
+/// The closed mesh at `path`.
+pub(super) fn closed_mesh(path: &Path, scale: f64, translate: DVec3) -> Result<TriangleMesh> {
+    let mesh = TriangleMesh::read(path, scale, translate.to_array())?;
+    mesh.closed()
+        .map_err(|message| Error::file(path, message))?;
+    Ok(mesh)
 }

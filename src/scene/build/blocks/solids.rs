@@ -1,11 +1,14 @@
-//! Solids as fixed blocks.
+//! Solids and the faces of the domain as fixed blocks; regions.
 
-use super::{materials::held, meshes};
+use super::{
+    materials::held,
+    shapes::{in_mesh, mesh_shape},
+};
 use crate::{
     Result,
     geometry::{HalfSpace, Polyhedron, Shape},
     rock::Block,
-    scene::{self, Scene, Solid},
+    scene::{self, Boundary, Scene, Solid},
 };
 use glam::DVec3;
 
@@ -49,7 +52,7 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
             scale,
             translate,
         } => {
-            let (made, centroid) = meshes::shape(&scene.dir().join(file), *scale, false)?;
+            let (made, centroid) = mesh_shape(&scene.dir().join(file), *scale, false)?;
             Ok((made, DVec3::from(*translate) + centroid))
         }
     }
@@ -57,7 +60,7 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
 
 /// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
 /// farther than any block there, and so the same in all periods.
-pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
+fn beyond(scene: &Scene) -> [HalfSpace; 6] {
     let domain = &scene.domain;
     let longest = domain.size.into_iter().fold(0.0, f64::max);
     let end = domain.end();
@@ -75,6 +78,36 @@ pub(super) fn beyond(scene: &Scene) -> [HalfSpace; 6] {
             distance: sign * at + longest,
         }
     })
+}
+
+/// A fixed block behind each wall and each free-slip face: what keeps the fluid in keeps blocks in. They
+/// leave through the others.
+pub(super) fn walls(scene: &Scene) -> Result<Vec<Block>> {
+    let material = held(scene, "materials", None)?;
+    let (low, high) = (
+        DVec3::from(scene.domain.origin),
+        DVec3::from(scene.domain.end()),
+    );
+    let mut blocks = Vec::new();
+    for (face, boundary) in scene.boundaries.iter() {
+        if !matches!(boundary, Boundary::Wall { .. } | Boundary::FreeSlip) {
+            continue;
+        }
+        let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
+        // Into the domain, from a point of the face.
+        let mut normal = DVec3::ZERO;
+        normal[axis] = if side == 0 { 1.0 } else { -1.0 };
+        let point = if side == 0 { low } else { high };
+        let mut faces = beyond(scene).to_vec();
+        faces.push(HalfSpace::through(point, normal));
+        let (shape, centre) = Polyhedron::from_half_spaces(&faces)?;
+        let name = format!("wall_{}", face.name());
+        blocks.push(Block {
+            material,
+            ..Block::new(name, Shape::from(shape), centre).fixed()
+        });
+    }
+    Ok(blocks)
 }
 
 /// Whether a region holds a point (m).
@@ -103,7 +136,7 @@ pub(super) fn holds(scene: &Scene, regions: &[scene::Shape]) -> Result<impl Fn(D
                 translate,
             } => {
                 let path = scene.dir().join(file);
-                meshes::inside(&path, *scale, DVec3::from(*translate))?
+                in_mesh(&path, *scale, DVec3::from(*translate))?
             }
         });
     }

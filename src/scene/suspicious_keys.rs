@@ -20,7 +20,7 @@ const SINKS: f64 = 0.01;
 impl Scene {
     /// Warns of keys that contradict each other, or are probably in another unit than they should be, in a run in steps
     /// of `time_step` (s).
-    pub fn slips(&self, time_step: f64) -> Advice {
+    pub fn suspicious_keys(&self, time_step: f64) -> Advice {
         let mut advice = Advice::new();
         let mut warn = |place: String, message: String| advice.push(Warning { place, message });
         if let Some((fluid, rock)) = self.gravities() {

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
+use super::Domain;
 use crate::error::{Error, Result};
 use crate::formula::Formula;
-use crate::scene::Domain;
 
 /// Longest name: leaves room for a number and an extension in the 255 bytes of a file's name.
 const LONGEST_NAME: usize = 100;

@@ -21,10 +21,6 @@ size = [1, 2, 3]
 steps = 10
 "#;
 
-pub fn cube(more: &str) -> riprap::Result<Scene> {
-    read(&format!("{CUBE}{more}"))
-}
-
 fn setup(text: &str) -> riprap::Result<rock::Setup> {
     Ok(block_setup(&read(text)?)?.setup)
 }

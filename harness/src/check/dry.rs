@@ -1,13 +1,9 @@
 //! What a scene of blocks alone will run.
 
-use super::{BlockFacts, lines::Lines};
+use super::{BlockFacts, lines::Lines, trial::Trial};
 use crate::{print::duration, run::SceneRun};
 use anyhow::{Context, Result};
 use serde::Serialize;
-use std::time::{Duration, Instant};
-
-/// Length of the trial.
-const TRIAL: Duration = Duration::from_millis(400);
 
 /// All that `riprap check` says of blocks alone.
 #[derive(Debug, Serialize)]
@@ -44,11 +40,12 @@ pub struct RockReport {
 pub fn report(run: &mut SceneRun) -> Result<RockReport> {
     let time_step = run.time_step();
     let steps = run.scene().run.count(time_step);
-    let (trial, spent) = try_out(run, steps)?;
+    let trial = Trial::of(run);
+    let step = trial.step();
+    trial.ended?;
     let scene = run.scene();
     let rock = run.simulation.rock().context("the scene has no blocks")?;
     let setup = rock.setup();
-    let step = spent / trial as f64;
     Ok(RockReport {
         title: scene.title.clone(),
         facts: BlockFacts::of(
@@ -65,21 +62,8 @@ pub fn report(run: &mut SceneRun) -> Result<RockReport> {
         warnings: run.warnings.clone(),
         step_seconds: step,
         run_seconds: step * steps as f64,
-        trial_steps: trial,
+        trial_steps: trial.steps,
     })
-}
-
-/// Steps for less than half a second, at least one: how many, and how long they took, s.
-fn try_out(run: &mut SceneRun, most: u64) -> Result<(u64, f64)> {
-    // The first step finds all pairs and their contacts anew.
-    run.advance(1)?;
-    let start = Instant::now();
-    let mut done = 0;
-    while done == 0 || (done < most && start.elapsed() < TRIAL) {
-        run.advance(1)?;
-        done += 1;
-    }
-    Ok((done, start.elapsed().as_secs_f64()))
 }
 
 impl RockReport {

@@ -2,18 +2,15 @@
 
 mod accuracy;
 mod blocks;
-mod coupling;
 mod dry;
 mod kernels;
 mod lines;
 mod report;
-mod text;
 mod trial;
 mod water;
 
 pub use accuracy::Accuracy;
-pub use blocks::BlockFacts;
-pub use coupling::{Immersion, Narrow};
+pub use blocks::{BlockFacts, Immersion, Narrow};
 pub use dry::RockReport;
 pub use report::Report;
 pub use water::WaterReport;
@@ -23,6 +20,7 @@ use anyhow::Result;
 use riprap::{scene::Scene, simulation::Kind};
 use serde::Serialize;
 use std::path::PathBuf;
+use trial::Trial;
 
 /// Shows what a scene will run and how long it will take; computes a few steps of it.
 #[derive(clap::Args, Debug)]
@@ -63,12 +61,12 @@ pub fn run(args: &Args) -> Result<()> {
         }
         Kind::Lattice => {
             let adapter = Adapter::of(&gpu::pick(name)?, name.is_none());
-            let (time, ended) = trial::time(&mut run);
+            let trial = Trial::of(&mut run);
             if let Some(lattice) = run.lattice() {
-                let report = Report::of(&run.simulation, lattice, adapter, time)?;
+                let report = Report::of(&run.simulation, lattice, adapter, &trial)?;
                 show(args, &report, Report::text)?;
             }
-            ended
+            trial.ended
         }
     };
     if let Some(folder) = &args.kernels {

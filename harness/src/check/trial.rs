@@ -1,48 +1,67 @@
 //! A short trial of a scene, from which its running time follows.
 
-use super::report::Time;
 use crate::run::SceneRun;
-use riprap::Result;
+use riprap::{Result, simulation::Kind};
 use std::time::{Duration, Instant};
 
 /// Length of the trial: enough that the start of a submission, some 0.1 ms, does not count.
-const TRIAL: Duration = Duration::from_millis(400);
+const LENGTH: Duration = Duration::from_millis(400);
 
-/// Runs steps for less than half a second, at least one; says how the trial ended if it did so early.
-pub fn time(run: &mut SceneRun) -> (Time, Result<()>) {
-    let (mut done, mut spent) = (0, Duration::ZERO);
-    let ended = tried(run, &mut done, &mut spent);
-    let steps = run.scene().run.count(run.time_step());
-    let step = spent.as_secs_f64() / done.max(1) as f64;
-    let cells = run.lattice();
-    let cells = cells.map_or(0, |(lattice, _)| lattice.geometry().fluid_cells) as f64;
-    let time = Time {
-        step,
-        run: step * steps as f64,
-        cells_a_second: if step > 0.0 { cells / step } else { 0.0 },
-        trial_steps: done,
-    };
-    (time, ended)
+/// The steps that were timed.
+pub struct Trial {
+    /// How many.
+    pub steps: u64,
+    /// How long they took, s.
+    pub seconds: f64,
+    /// How the trial ended, if it did so early.
+    pub ended: Result<()>,
 }
 
-fn tried(run: &mut SceneRun, done: &mut u64, spent: &mut Duration) -> Result<()> {
-    let mut advance = |steps| {
-        let start = Instant::now();
-        run.advance(steps)?;
-        Ok(start.elapsed())
-    };
-    // Drivers compile at the first dispatch, and the first step has no boundary passes.
-    advance(4)?;
-    let mut left = TRIAL;
-    let mut turn = 1;
-    loop {
-        let took = advance(turn)?;
-        (*done, *spent) = (*done + turn, *spent + took);
-        left = left.saturating_sub(took);
-        // The next turn is twice as long.
-        if left < 2 * took {
-            return Ok(());
+impl Trial {
+    /// Runs steps for less than half a second, at least one.
+    pub fn of(run: &mut SceneRun) -> Self {
+        let mut trial = Self {
+            steps: 0,
+            seconds: 0.0,
+            ended: Ok(()),
+        };
+        trial.ended = trial.run(run);
+        trial
+    }
+
+    fn run(&mut self, run: &mut SceneRun) -> Result<()> {
+        let kind = run.simulation.kind();
+        let (before, most) = match kind {
+            // Drivers compile at the first dispatch, and the first step has no boundary passes.
+            Kind::Lattice => (4, u64::MAX),
+            // The first step finds all pairs and their contacts anew.
+            Kind::Rock | Kind::Particles => (1, run.scene().run.count(run.time_step())),
+        };
+        run.advance(before)?;
+        let mut left = LENGTH;
+        let mut batch = 1;
+        loop {
+            let start = Instant::now();
+            run.advance(batch)?;
+            let took = start.elapsed();
+            self.steps += batch;
+            self.seconds += took.as_secs_f64();
+            left = left.saturating_sub(took);
+            // The next batch is twice as long.
+            if left < 2 * took || self.steps >= most {
+                break;
+            }
+            batch = (2 * batch).min(most - self.steps);
         }
-        turn *= 2;
+        match kind {
+            // What is recorded is done once it can be read.
+            Kind::Particles => run.water().map(drop),
+            Kind::Lattice | Kind::Rock => Ok(()),
+        }
+    }
+
+    /// A step, s.
+    pub fn step(&self) -> f64 {
+        self.seconds / self.steps.max(1) as f64
     }
 }

@@ -1,6 +1,6 @@
 //! What a scene of particles will run.
 
-use super::{BlockFacts, lines::Lines};
+use super::{BlockFacts, lines::Lines, trial::Trial};
 use crate::{
     adapters::Adapter,
     print::{bytes, duration},
@@ -8,10 +8,6 @@ use crate::{
 };
 use riprap::sph::{Particle, ReferencePosition};
 use serde::Serialize;
-use std::time::{Duration, Instant};
-
-/// Length of the trial.
-const TRIAL: Duration = Duration::from_millis(400);
 
 /// All that `riprap check` says of particles.
 #[derive(Debug, Serialize)]
@@ -64,11 +60,11 @@ pub struct WaterReport {
 /// Tries a few steps of a scene of free water; says how the trial ended if it did so early. No report of a scene without.
 pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, riprap::Result<()>) {
     let steps = run.scene().run.count(run.time_step());
-    let (done, spent, ended) = try_out(run, steps);
+    let trial = Trial::of(run);
+    let (done, step) = (trial.steps, trial.step());
     let report = run.simulation.particles().map(|particles| {
         let (setup, counts) = (particles.setup(), particles.counts());
         let all = u64::from(counts.fluid) + u64::from(counts.boundary);
-        let step = spent.as_secs_f64() / done.max(1) as f64;
         // The step before the trial took as many.
         let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
         let updates = tried * all as f64;
@@ -99,30 +95,11 @@ pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, rip
             warnings: run.warnings.clone(),
             step_seconds: step,
             run_seconds: step * steps as f64,
-            particles_a_second: updates / spent.as_secs_f64().max(1e-9),
+            particles_a_second: updates / trial.seconds.max(1e-9),
             trial_steps: done,
         }
     });
-    (report, ended)
-}
-
-/// Steps for about half a second, at least one: how many, how long they took, and how they ended.
-fn try_out(run: &mut SceneRun, most: u64) -> (u64, Duration, riprap::Result<()>) {
-    // Drivers compile at the first dispatch.
-    let warm = run.advance(1).and_then(|()| run.water().map(drop));
-    if let Err(error) = warm {
-        return (0, Duration::ZERO, Err(error));
-    }
-    let (mut done, start) = (0, Instant::now());
-    while done < most.max(1) && (done == 0 || start.elapsed() < TRIAL) {
-        if let Err(error) = run.advance(1) {
-            return (done, start.elapsed(), Err(error));
-        }
-        done += 1;
-    }
-    // What is recorded is done once it can be read.
-    let ended = run.water().map(drop);
-    (done, start.elapsed(), ended)
+    (report, trial.ended)
 }
 
 impl WaterReport {

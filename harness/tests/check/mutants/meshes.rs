@@ -1,6 +1,6 @@
 //! Meshes, spoilt.
 
-use super::{dice::Dice, judge::judge};
+use super::{Dice, judge};
 use riprap::{
     Result,
     geometry::{Polyhedron, TriangleMesh},

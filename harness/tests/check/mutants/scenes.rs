@@ -1,6 +1,6 @@
 //! The scenes that ship, spoilt.
 
-use super::{dice::Dice, judge::judge};
+use super::{Dice, judge};
 use riprap::{
     Result,
     scene::{

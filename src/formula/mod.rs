@@ -1,6 +1,5 @@
 //! Numbers that may also be written as formulas of position and time.
 
-mod functions;
 mod parse;
 #[cfg(feature = "scene")]
 mod scene_text;

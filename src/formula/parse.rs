@@ -1,4 +1,4 @@
-//! Recursive descent from text to postfix operations.
+//! Recursive descent from text to postfix operations, and the functions and constants that a text may name.
 //!
 //! ```text
 //! sum    = term  { ("+" | "-") term }
@@ -8,7 +8,7 @@
 //! atom   = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 //! ```
 
-use super::{FormulaError, Op, STACK, VARIABLES, functions};
+use super::{FormulaError, Op, STACK, VARIABLES};
 
 pub(super) fn compile(text: &str) -> Result<Vec<Op>, FormulaError> {
     let mut parser = Parser {
@@ -161,13 +161,13 @@ impl Parser<'_> {
         let rest = &self.text[self.at..];
         let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'));
         let name = &rest[..end.unwrap_or(rest.len())];
-        if let Some(function) = functions::unary(name) {
+        if let Some(function) = unary(name) {
             self.arguments(name, 1)?;
             self.ops.push(Op::Unary(function));
-        } else if let Some(function) = functions::binary(name) {
+        } else if let Some(function) = binary(name) {
             self.arguments(name, 2)?;
             self.ops.push(Op::Binary(function));
-        } else if let Some(value) = functions::constant(name) {
+        } else if let Some(value) = constant(name) {
             self.at += name.len();
             self.ops.push(Op::Number(value));
         } else if let Some(index) = VARIABLES.iter().position(|v| *v == name) {
@@ -221,5 +221,72 @@ impl Parser<'_> {
             return Err(self.error(format!("nested deeper than {STACK} levels; simplify it")));
         }
         Ok(self.ops)
+    }
+}
+
+/// Value of a named constant.
+fn constant(name: &str) -> Option<f64> {
+    match name {
+        "pi" | "π" => Some(std::f64::consts::PI),
+        "e" => Some(std::f64::consts::E),
+        _ => None,
+    }
+}
+
+/// Function of one argument.
+fn unary(name: &str) -> Option<fn(f64) -> f64> {
+    Some(match name {
+        "sin" => f64::sin,
+        "cos" => f64::cos,
+        "tan" => f64::tan,
+        "asin" => f64::asin,
+        "acos" => f64::acos,
+        "atan" => f64::atan,
+        "sinh" => f64::sinh,
+        "cosh" => f64::cosh,
+        "tanh" => f64::tanh,
+        "exp" => f64::exp,
+        "log" | "ln" => f64::ln,
+        "log10" => f64::log10,
+        "sqrt" => f64::sqrt,
+        "abs" => f64::abs,
+        "sign" => sign,
+        "floor" => f64::floor,
+        "ceil" => f64::ceil,
+        _ => return None,
+    })
+}
+
+/// Function of two arguments.
+fn binary(name: &str) -> Option<fn(f64, f64) -> f64> {
+    Some(match name {
+        "min" => least,
+        "max" => greatest,
+        "atan2" => f64::atan2,
+        "mod" => f64::rem_euclid,
+        _ => return None,
+    })
+}
+
+/// −1, 0 or 1: zero stays zero, unlike in `f64::signum`.
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
+
+/// `f64::min` drops a NaN; here it must be seen by whoever samples the formula.
+fn least(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.min(b)
+    }
+}
+
+/// See [`least`].
+fn greatest(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
     }
 }

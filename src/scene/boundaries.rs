@@ -12,6 +12,7 @@ use crate::formula::Formula;
 /// The conditions on the six faces.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Boundaries {
     /// Face at the smallest x. Default periodic.
     pub x_min: Boundary,

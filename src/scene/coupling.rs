@@ -10,6 +10,7 @@ use crate::error::Result;
 /// How often fluid and blocks exchange poses and loads.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Coupling {
     /// Time steps of the fluid, of particles acoustic ones, from one exchange to the next, at least 1: meanwhile the blocks stand still for
     /// the fluid, and then they move under the mean of the loads since the last one. Default 1.

@@ -14,6 +14,7 @@ const ROUNDING: f64 = 1e-12;
 /// extent: there is none.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Domain {
     /// Lower corner, m. Default (0, 0, 0).
     #[serde(default)]

@@ -11,6 +11,7 @@ use crate::formula::Formula;
 /// The fluid and the body force on it. The default is none: density and viscosity 0.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Fluid {
     /// Density, kg/m³. Default 1000.
     #[serde(default = "water")]

@@ -16,6 +16,7 @@ const HYDROSTATIC: &str = "hydrostatic";
 /// Velocity and pressure at the time 0.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Initial {
     /// Velocity, m/s: three numbers or formulas of x, y, z. Default at rest.
     pub velocity: [Formula; 3],

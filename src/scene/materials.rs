@@ -67,6 +67,7 @@ impl Material {
 /// How two materials meet, where that does not follow from each of them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct MaterialPair {
     /// Names of the two materials; they may be the same.
     pub between: [String; 2],

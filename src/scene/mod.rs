@@ -92,6 +92,7 @@ pub use views::{View, ViewSlice};
 /// A fluid, blocks of rock, or both, in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Scene {
     /// Title. Default the name of the file without its extension.
     #[serde(default)]

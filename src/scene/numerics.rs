@@ -10,6 +10,7 @@ use crate::error::Result;
 /// Collision, precision and time step.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Numerics {
     /// Collision operator. Default `hermite`.
     pub collision: Collision,

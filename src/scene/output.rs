@@ -10,6 +10,7 @@ use crate::error::Result;
 /// Files that a run writes.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Output {
     /// Time between VTI files of the fluid, or VTP files of its particles, and VTU files of the blocks, s. Default: only the last
     /// state.

@@ -134,6 +134,7 @@ pub enum EquationOfState {
 /// A body of water at the time 0; blocks and solids in it displace it.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Water {
     /// The shape, in its own frame.
     #[serde(rename = "kind")]

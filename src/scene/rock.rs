@@ -10,6 +10,7 @@ use crate::error::Result;
 /// Gravity, damping and time step of the blocks.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
 pub struct Rock {
     /// Acceleration of gravity, m/s². Default (0, 0, −9.81): unless told otherwise, z points up.
     pub gravity: [f64; 3],

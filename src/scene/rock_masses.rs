@@ -14,6 +14,7 @@ use crate::error::Result;
 /// A convex volume of rock, cut into convex blocks by joints (Gardner, Kolb & Sitar 2017).
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct RockMass {
     /// Name; its blocks are called `_1`, `_2`, … after it. Default `rock_mass_` and the number of
     /// this table, from 1.

@@ -18,6 +18,7 @@ use crate::error::Result;
 /// solid is a fixed block; a half-space then reaches as far beyond the domain as the domain is wide.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Solid {
     /// Name for messages and reports. Default none.
     #[serde(default)]

@@ -10,6 +10,7 @@ use crate::error::Result;
 /// A camera: PNG pictures, a strip of them, and an animated PNG.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct View {
     /// Name of the files.
     pub name: String,
@@ -57,6 +58,7 @@ pub struct View {
 /// A plane through the fluid in a view; cells in static solids are left out.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ViewSlice {
     /// Normal of the plane.
     pub axis: Axis,

@@ -1,16 +1,14 @@
 //! The scene format: what it accepts, what it refuses and in which words, and what it samples.
 
-mod advice;
 mod blocks;
-mod deformable;
 mod format;
 mod formulas;
 mod particles;
 mod refusals;
 mod sampling;
 mod solids;
-mod suspicious_keys;
 mod units;
+mod warnings;
 
 use std::path::Path;
 

@@ -103,42 +103,40 @@ const REGION: Tagged = Tagged {
 
 /// Gives all tables with a kind in a document external tags.
 pub(super) fn tag(document: &mut Spanned<DeValue<'_>>) -> Result<(), Refusal> {
-    TAGGED.iter().try_for_each(|tagged| {
-        walk(document, tagged.path, "", &|key, value| {
-            tagged.tag(key, value)
-        })
-    })
-}
-
-/// Calls `apply` with each value at `path`, from `value` on, and its key.
-fn walk(
-    value: &mut Spanned<DeValue<'_>>,
-    path: &str,
-    key: &str,
-    apply: &dyn Fn(&str, &mut Spanned<DeValue<'_>>) -> Result<(), Refusal>,
-) -> Result<(), Refusal> {
-    if let DeValue::Array(list) = value.get_mut() {
-        let mut all = list.iter_mut();
-        return all.try_for_each(|value| walk(value, path, key, apply));
-    }
-    if path.is_empty() {
-        return apply(key, value);
-    }
-    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
-    let DeValue::Table(table) = value.get_mut() else {
-        return Ok(());
-    };
-    for (name, value) in table.iter_mut() {
-        let is_face = || Face::ALL.iter().any(|face| face.name() == name.get_ref());
-        if name.get_ref() == first || first == "*" && is_face() {
-            let key = format!("{key}.{}", name.get_ref());
-            walk(value, rest, key.trim_start_matches('.'), apply)?;
-        }
-    }
-    Ok(())
+    TAGGED
+        .iter()
+        .try_for_each(|tagged| tagged.tag_all(document, tagged.path, ""))
 }
 
 impl Tagged {
+    /// Gives all tables at `path`, from the `value` at `key` on, an external tag.
+    fn tag_all(
+        &self,
+        value: &mut Spanned<DeValue<'_>>,
+        path: &str,
+        key: &str,
+    ) -> Result<(), Refusal> {
+        if let DeValue::Array(list) = value.get_mut() {
+            let mut all = list.iter_mut();
+            return all.try_for_each(|value| self.tag_all(value, path, key));
+        }
+        if path.is_empty() {
+            return self.tag(key, value);
+        }
+        let (first, rest) = path.split_once('.').unwrap_or((path, ""));
+        let DeValue::Table(table) = value.get_mut() else {
+            return Ok(());
+        };
+        for (name, value) in table.iter_mut() {
+            let is_face = || Face::ALL.iter().any(|face| face.name() == name.get_ref());
+            if name.get_ref() == first || first == "*" && is_face() {
+                let key = format!("{key}.{}", name.get_ref());
+                self.tag_all(value, rest, key.trim_start_matches('.'))?;
+            }
+        }
+        Ok(())
+    }
+
     /// Gives the table `value` at `key` an external tag, if its keys fit its kind.
     fn tag(&self, key: &str, value: &mut Spanned<DeValue<'_>>) -> Result<(), Refusal> {
         let span = value.span();

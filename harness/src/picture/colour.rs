@@ -1,7 +1,6 @@
 //! Colours that mean a value or tell curves apart.
 
 use plotters::style::RGBColor;
-use plotters::style::colors::colormaps::ViridisRGB;
 
 /// Cells without fluid.
 pub const SOLID: RGBColor = RGBColor(120, 120, 120);
@@ -26,11 +25,12 @@ pub const CURVES: [RGBColor; 8] = [
 pub enum Palette {
     /// Viridis, dark blue to yellow, evenly lighter.
     Sequential,
-    /// Pale over orange to dark red: for bodies under light, whose lowest value must not be black.
+    /// Brewer's OrRd, pale over orange to dark red: for bodies under light, whose lowest value must not be black.
     FromPale,
-    /// Blue over green to pale yellow: for water under light, which at rest must look like it.
+    /// Brewer's YlGnBu from its other end, without the darkest quarter, which has no shades left: for water under light,
+    /// which at rest must look like it.
     FromBlue,
-    /// Blue over light grey to red, the middle being zero.
+    /// Brewer's RdBu from its other end, blue over light grey to red, the middle being zero.
     Diverging,
 }
 
@@ -52,12 +52,13 @@ impl Palette {
             return NOT_A_NUMBER;
         }
         let fraction = fraction.clamp(0.0, 1.0);
-        match self {
-            Self::Sequential => ViridisRGB::get_color(fraction),
-            Self::FromPale => between(&FROM_PALE, fraction),
-            Self::FromBlue => between(&FROM_BLUE, fraction),
-            Self::Diverging => diverging(fraction),
-        }
+        let colour = match self {
+            Self::Sequential => colorous::VIRIDIS.eval_continuous(fraction),
+            Self::FromPale => colorous::ORANGE_RED.eval_continuous(fraction),
+            Self::FromBlue => colorous::YELLOW_GREEN_BLUE.eval_continuous(0.75 * (1.0 - fraction)),
+            Self::Diverging => colorous::RED_BLUE.eval_continuous(1.0 - fraction),
+        };
+        RGBColor(colour.r, colour.g, colour.b)
     }
 
     /// The colour that lines over this palette have.
@@ -68,87 +69,6 @@ impl Palette {
             Self::Diverging => RGBColor(40, 40, 40),
         }
     }
-}
-
-/// Brewer, 2003, ColorBrewer's OrRd in nine classes; darker with the value.
-const FROM_PALE: [[u8; 3]; 9] = [
-    [255, 247, 236],
-    [254, 232, 200],
-    [253, 212, 158],
-    [253, 187, 132],
-    [252, 141, 89],
-    [239, 101, 72],
-    [215, 48, 31],
-    [179, 0, 0],
-    [127, 0, 0],
-];
-
-/// Its YlGnBu in nine classes from the other end, without the two darkest, which have no shades left.
-const FROM_BLUE: [[u8; 3]; 7] = [
-    [34, 94, 168],
-    [29, 145, 192],
-    [65, 182, 196],
-    [127, 205, 187],
-    [199, 233, 180],
-    [237, 248, 177],
-    [255, 255, 217],
-];
-
-/// Straight between the `classes`, which are evenly spaced.
-fn between(classes: &[[u8; 3]], fraction: f64) -> RGBColor {
-    let place = fraction * (classes.len() - 1) as f64;
-    let below = (place as usize).min(classes.len() - 2);
-    let part = place - below as f64;
-    let [r, g, b] = std::array::from_fn(|c| {
-        let [low, high] = [below, below + 1].map(|class| f64::from(classes[class][c]));
-        (low + part * (high - low)).round() as u8
-    });
-    RGBColor(r, g, b)
-}
-
-/// Moreland, 2009, "Diverging color maps for scientific visualization": even steps of lightness
-/// from either end to the middle, along straight lines in the polar form of CIELAB (Msh).
-fn diverging(fraction: f64) -> RGBColor {
-    // Magnitude, saturation angle and hue angle of the ends and the middle: his table for the map
-    // from (59, 76, 192) to (180, 4, 38). The hue turns on the way to grey, to stay vivid.
-    const BLUE: [f64; 3] = [80.0, 1.08, -1.1];
-    const BLUE_GREY: [f64; 3] = [88.0, 0.0, -1.661];
-    const RED_GREY: [f64; 3] = [88.0, 0.0, 1.061];
-    const RED: [f64; 3] = [80.0, 1.08, 0.5];
-    let (from, to, part) = if fraction < 0.5 {
-        (BLUE, BLUE_GREY, 2.0 * fraction)
-    } else {
-        (RED_GREY, RED, 2.0 * fraction - 1.0)
-    };
-    let mix = |index: usize| from[index] + part * (to[index] - from[index]);
-    let (magnitude, saturation, hue) = (mix(0), mix(1), mix(2));
-    rgb_of_lab(
-        magnitude * saturation.cos(),
-        magnitude * saturation.sin() * hue.cos(),
-        magnitude * saturation.sin() * hue.sin(),
-    )
-}
-
-/// CIELAB to sRGB, white point D65 (IEC 61966-2-1).
-fn rgb_of_lab(lightness: f64, a: f64, b: f64) -> RGBColor {
-    let y = (lightness + 16.0) / 116.0;
-    let cube = |value: f64| {
-        if value > 6.0 / 29.0 {
-            value.powi(3)
-        } else {
-            3.0 * (6.0_f64 / 29.0).powi(2) * (value - 4.0 / 29.0)
-        }
-    };
-    let (x, y, z) = (
-        0.95047 * cube(y + a / 500.0),
-        cube(y),
-        1.08883 * cube(y - b / 200.0),
-    );
-    RGBColor(
-        srgb_of_linear(3.2406 * x - 1.5372 * y - 0.4986 * z),
-        srgb_of_linear(-0.9689 * x + 1.8758 * y + 0.0415 * z),
-        srgb_of_linear(0.0557 * x - 0.2040 * y + 1.0570 * z),
-    )
 }
 
 /// A channel of sRGB (IEC 61966-2-1) for a part of the most light.

@@ -2,30 +2,18 @@
 
 use riprap_harness::picture::{Axis, Scale};
 
-/// The number that a label shows.
+/// The number that a label shows; powers of ten are printed with raised digits.
 fn parse(label: &str) -> f64 {
-    label
-        .replace('−', "-")
-        .parse()
-        .expect("a label is a number")
+    let plain = label.replace('−', "-");
+    plain.parse().expect("a label is a number")
 }
 
 /// The factor in an axis's title, such as 10⁻³.
 fn factor(title: &str) -> f64 {
-    let power: String = title
-        .chars()
-        .filter_map(|sign| match sign {
-            '⁻' => Some('-'),
-            '³' => Some('3'),
-            '⁵' => Some('5'),
-            '⁶' => Some('6'),
-            '⁹' => Some('9'),
-            '¹' => Some('1'),
-            '²' => Some('2'),
-            _ => None,
-        })
-        .collect();
-    10_f64.powi(power.parse().unwrap_or(0))
+    let raised = |sign: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|digit| digit == sign);
+    let digits = title.chars().filter_map(raised);
+    let power = digits.fold(0, |power, digit| 10 * power + digit as i32);
+    10_f64.powi(if title.contains('⁻') { -power } else { power })
 }
 
 #[test]

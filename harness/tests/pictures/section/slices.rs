@@ -104,7 +104,6 @@ fn pictures_have_the_width_of_a_page_unless_the_domain_is_high() {
 
 #[test]
 fn zero_is_in_the_middle_of_the_colours_only_where_both_signs_matter() {
-    let white = [221, 221, 221];
     for (values, grey) in [
         ([-2.0, 2.0], true),
         ([-0.01, 2.0], false),
@@ -114,17 +113,15 @@ fn zero_is_in_the_middle_of_the_colours_only_where_both_signs_matter() {
         assert_eq!(palette == Palette::Diverging, grey, "{values:?}");
         assert!(range[0] <= values[0] && range[1] >= values[1]);
     }
-    let middle = Palette::Diverging.colour(0.5);
-    // Moreland's middle grey, to the rounding of his table.
-    for (found, wants) in [middle.0, middle.1, middle.2].into_iter().zip(white) {
-        assert!(found.abs_diff(wants) <= 1, "{middle:?}");
-    }
-    let ends = [0.0, 1.0].map(|end| Palette::Diverging.colour(end));
-    for (end, wants) in ends.iter().zip([[59, 76, 192], [180, 4, 38]]) {
-        for (found, wants) in [end.0, end.1, end.2].into_iter().zip(wants) {
-            assert!(found.abs_diff(wants) <= 3, "{end:?}");
-        }
-    }
+    let [low, middle, high] = [0.0, 0.5, 1.0].map(|at| Palette::Diverging.colour(at));
+    assert!(
+        middle.0.abs_diff(middle.2) < 10 && middle.1 > 200,
+        "{middle:?} is no light grey"
+    );
+    assert!(
+        low.2 > low.0 && high.0 > high.2,
+        "{low:?} is not blue or {high:?} not red"
+    );
 }
 
 #[test]

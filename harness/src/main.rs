@@ -114,7 +114,7 @@ fn computed(args: &run::Args) -> anyhow::Result<ExitCode> {
     listen()?;
     let summary = run::run(args, &STOP)?;
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&summary.json()?)?);
+        println!("{}", serde_json::to_string_pretty(&summary)?);
     } else {
         println!("{summary}");
     }

@@ -57,9 +57,13 @@ pub fn print_header(run: &SceneRun, summary: &Summary, folder: &Path, last: u64)
 fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &Units) {
     let (scene, setup) = (run.scene(), lattice.setup());
     let [x, y, z] = scene.cells();
+    let bandwidth = summary
+        .lattice
+        .as_ref()
+        .map_or(0.0, |found| found.bandwidth);
     eprintln!(
         "            copies {:.1} GB/s; the kernel moves {} bytes a cell and step",
-        summary.bandwidth / 1e9,
+        bandwidth / 1e9,
         bytes_a_cell(setup)
     );
     let memory = run.memory.as_ref().map(|memory| {

@@ -1,6 +1,6 @@
 //! What a run did not do because its scene did not need it: counts, without measurement.
 
-use super::{coupling::Coupling, rock::Rocks, water::WaterSummary};
+use super::{lattice::Coupling, rock::Rocks, water::WaterSummary};
 use riprap::lattice::{Force, Lattice};
 use serde::Serialize;
 use std::fmt;

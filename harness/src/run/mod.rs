@@ -6,11 +6,11 @@
 
 mod checkpoints;
 mod collection;
-mod coupling;
 mod estimate;
 mod gauges;
 mod header;
 mod history;
+mod lattice;
 mod left_out;
 mod origin;
 mod progress;
@@ -29,8 +29,8 @@ mod water;
 pub(crate) use scene_run::SceneRun;
 pub(crate) use throughput::Batch;
 
-pub use coupling::Coupling;
 pub use estimate::{Estimate, Headline};
+pub use lattice::{Coupling, LatticeSummary};
 pub use left_out::LeftOut;
 pub use recorder::Schedule;
 pub use rock::{Factors, Rocks, Safety};

@@ -1,9 +1,8 @@
 //! A scene on a device of its own, or on the host where blocks without a fluid need none.
 
 use super::{
-    collection,
-    coupling::Coupling,
-    gauges,
+    collection, gauges,
+    lattice::{Coupling, LatticeSummary},
     left_out::LeftOut,
     recorder::{Recorders, RunLog, Schedule},
     rock::{Rock, Rocks, block_probe},
@@ -17,7 +16,7 @@ use super::{
 use crate::{bench::copy_bandwidth, gpu, search};
 use riprap::{
     Error, Result,
-    lattice::{Lattice, Memory, bytes_a_cell, bytes_a_step},
+    lattice::{Lattice, Memory},
     output::{Array, Image},
     rock::{Block, EnergyLedger},
     scene::{Field, Probe, ProbePlace, Scene, build::block_setup},
@@ -408,46 +407,28 @@ impl SceneRun {
     ///
     /// # Errors
     /// If the bandwidth of the device cannot be measured.
-    pub fn summary(&self) -> anyhow::Result<Summary> {
-        let simulation = &self.simulation;
-        let summary = Summary {
+    pub fn summary(&self) -> Result<Summary> {
+        let lattice = self.lattice();
+        Ok(Summary {
             title: self.scene().title.clone(),
             adapter: self.describe_device(),
+            lattice: LatticeSummary::of(self)?,
             time_step: self.time_step(),
             first_step: self.step(),
             warnings: self.warnings.clone(),
+            coupling: Coupling::of(&self.simulation, 0),
             rocks: self.rocks(Rocks::of(self)),
             pool: WaterSummary::of(self),
+            left_out: lattice.map_or_else(Vec::new, |(lattice, _)| LeftOut::of_lattice(lattice)),
             ..Summary::default()
-        };
-        let Some((lattice, units)) = self.lattice() else {
-            return Ok(summary);
-        };
-        let setup = lattice.setup();
-        Ok(Summary {
-            cells: self.scene().cells(),
-            fluid_cells: lattice.geometry().fluid_cells,
-            cell: units.cell,
-            tau: setup.tau(),
-            kernel: format!(
-                "{:?} {:?} {:?} lanes {}{}",
-                setup.collision,
-                setup.equilibrium,
-                setup.storage,
-                setup.lanes,
-                if setup.wale.is_some() { " Wale" } else { "" }
-            ),
-            bandwidth: self.bandwidth()?,
-            bytes_a_cell: bytes_a_cell(setup),
-            bytes_a_step: bytes_a_step(setup, lattice.grid(), lattice.geometry()),
-            coupling: Coupling::of(simulation, 0),
-            left_out: LeftOut::of_lattice(lattice),
-            ..summary
         })
     }
 
     /// Bytes a second that the device copies.
-    fn bandwidth(&self) -> Result<f64> {
+    ///
+    /// # Errors
+    /// If that cannot be measured.
+    pub fn bandwidth(&self) -> Result<f64> {
         match &self.device {
             Some((device, queue)) => copy_bandwidth(device, queue, BYTES),
             None => Ok(0.0),
@@ -464,8 +445,11 @@ impl SceneRun {
                 return format!("{rate:.0} steps/s, {}", activity.unwrap_or_default());
             }
             Kind::Lattice => {
-                let (mlups, share) = speed(summary, throughput);
-                format!("{mlups:.1} MLUPS, {:.0} % of memory speed", 100.0 * share)
+                let lattice = summary.lattice.as_ref();
+                let now = lattice.map(|lattice| lattice.at_speed(throughput));
+                let now = now.unwrap_or_default();
+                let share = 100.0 * now.bandwidth_share;
+                format!("{:.1} MLUPS, {share:.0} % of memory speed", now.mlups)
             }
             Kind::Particles => {
                 let pool = WaterSummary::of(self);
@@ -486,13 +470,8 @@ impl SceneRun {
         match self.simulation.kind() {
             Kind::Rock => {}
             Kind::Lattice => {
-                // Others may have kept the device busy the first time.
-                if let Ok(again) = self.bandwidth() {
-                    summary.bandwidth = summary.bandwidth.max(again);
-                }
-                (summary.mlups, summary.bandwidth_share) = speed(summary, throughput);
-                let units = self.simulation.units();
-                summary.max_mach = units.map_or(0.0, |units| units.mach(log.max_speed));
+                let lattice = summary.lattice.take();
+                summary.lattice = lattice.map(|l| l.finished(self, log, throughput));
                 summary.coupling = Coupling::of(&self.simulation, throughput.whole().steps);
                 self.report_wall_units(summary);
             }
@@ -507,14 +486,4 @@ impl SceneRun {
             }
         }
     }
-}
-
-/// Million cell updates a second, and the part of what memory allows, once kernels are compiled.
-fn speed(summary: &Summary, throughput: &Throughput) -> (f64, f64) {
-    let warm = throughput.warm();
-    let rate = warm.rate(warm.steps);
-    (
-        rate * summary.fluid_cells as f64 / 1e6,
-        rate * summary.bytes_a_step as f64 / summary.bandwidth,
-    )
 }

@@ -1,8 +1,8 @@
 //! What a run was, for people and for programs: `summary.json`.
 
 use super::{
-    coupling::Coupling,
     estimate::Estimate,
+    lattice::{Coupling, LatticeSummary},
     left_out::LeftOut,
     progress::clock,
     recorder::RunLog,
@@ -25,18 +25,11 @@ pub struct Summary {
     pub title: String,
     /// Adapter, interface and driver.
     pub adapter: String,
-    /// Cells along x, y, z.
-    pub cells: [u32; 3],
-    /// Cells that are not solid.
-    pub fluid_cells: u64,
-    /// Edge of a cell, m.
-    pub cell: f64,
+    /// The lattice, where there is one.
+    #[serde(flatten)]
+    pub lattice: Option<LatticeSummary>,
     /// Time step, s.
     pub time_step: f64,
-    /// Relaxation time, in time steps.
-    pub tau: f64,
-    /// Collision operator, storage and lanes of the kernel.
-    pub kernel: String,
     /// Step at which this run began: 0, or that of the checkpoint.
     pub first_step: u64,
     /// Steps that the flow has made, those before a restart included.
@@ -47,18 +40,6 @@ pub struct Summary {
     pub complete: bool,
     /// Seconds that this run took, with everything it wrote.
     pub seconds: f64,
-    /// Million updates of fluid cells a second, without what was written.
-    pub mlups: f64,
-    /// Bytes that the device copies a second, read and written.
-    pub bandwidth: f64,
-    /// Bytes that a step moves for a fluid cell away from walls.
-    pub bytes_a_cell: u64,
-    /// Bytes that a step moves in all.
-    pub bytes_a_step: u64,
-    /// Part of that bandwidth that the steps use.
-    pub bandwidth_share: f64,
-    /// Largest Mach number of the lattice that was seen.
-    pub max_mach: f64,
     /// Whether the flow left the range of the method.
     pub diverged: bool,
     /// Why, where, and what to change, if it did.
@@ -87,7 +68,7 @@ pub struct Summary {
     /// Where the energy of the particles is and where it went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub water_energies: Option<Energies>,
-    /// What blocks did, where there are some. Without a fluid the JSON has none of its numbers.
+    /// What blocks did, where there are some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
     /// What was not done because nothing needed it.
@@ -100,21 +81,6 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<Estimate>,
 }
-
-/// Keys that only a fluid has.
-const OF_FLUID: [&str; 11] = [
-    "cells",
-    "fluid_cells",
-    "cell",
-    "tau",
-    "kernel",
-    "mlups",
-    "bandwidth",
-    "bytes_a_cell",
-    "bytes_a_step",
-    "bandwidth_share",
-    "max_mach",
-];
 
 impl Summary {
     /// Takes over what recorders noted.
@@ -147,25 +113,9 @@ impl Summary {
         if !self.files.contains(&path) {
             self.files.push(path.clone());
         }
-        let text = serde_json::to_string_pretty(&self.json()?)? + "\n";
+        let text = serde_json::to_string_pretty(self)? + "\n";
         replace(&path, |file| file.write_all(text.as_bytes()))?;
         Ok(())
-    }
-
-    /// The summary as JSON: of what there was.
-    ///
-    /// # Errors
-    /// None that is known of.
-    pub fn json(&self) -> anyhow::Result<serde_json::Value> {
-        let mut json = serde_json::to_value(self)?;
-        if let (false, Some(keys)) = (self.has_fluid(), json.as_object_mut()) {
-            keys.retain(|key, _| !OF_FLUID.contains(&key.as_str()));
-        }
-        Ok(json)
-    }
-
-    fn has_fluid(&self) -> bool {
-        self.fluid_cells > 0
     }
 
     /// What is on disk, in a sentence.
@@ -204,15 +154,8 @@ impl fmt::Display for Summary {
             self.time,
             clock(self.seconds)
         )?;
-        if self.has_fluid() {
-            writeln!(
-                f,
-                "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
-                self.mlups,
-                100.0 * self.bandwidth_share,
-                self.bandwidth / 1e9,
-                self.max_mach
-            )?;
+        if let Some(lattice) = &self.lattice {
+            writeln!(f, "{lattice}")?;
         }
         for (what, y_plus) in [("walls", self.y_plus_walls), ("blocks", self.y_plus_blocks)] {
             if let Some(y_plus) = y_plus {

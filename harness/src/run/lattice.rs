@@ -1,0 +1,190 @@
+//! A fluid on a lattice in the summary of a run, and how it and blocks met.
+
+use super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
+use riprap::{
+    Result,
+    coupling::Exchanges,
+    lattice::{bytes_a_cell, bytes_a_step},
+    simulation::Simulation,
+};
+use serde::Serialize;
+use std::fmt;
+
+/// Cells, kernel and speed of a run.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct LatticeSummary {
+    /// Cells along x, y, z.
+    pub cells: [u32; 3],
+    /// Cells that are not solid.
+    pub fluid_cells: u64,
+    /// Edge of a cell, m.
+    pub cell: f64,
+    /// Relaxation time, in time steps.
+    pub tau: f64,
+    /// Collision operator, storage and lanes of the kernel.
+    pub kernel: String,
+    /// Million updates of fluid cells a second, without what was written.
+    pub mlups: f64,
+    /// Bytes that the device copies a second, read and written.
+    pub bandwidth: f64,
+    /// Bytes that a step moves for a fluid cell away from walls.
+    pub bytes_a_cell: u64,
+    /// Bytes that a step moves in all.
+    pub bytes_a_step: u64,
+    /// Part of that bandwidth that the steps use.
+    pub bandwidth_share: f64,
+    /// Largest Mach number of the lattice that was seen.
+    pub max_mach: f64,
+}
+
+impl LatticeSummary {
+    /// What is known of the lattice of `run` before the first step, if it has one.
+    ///
+    /// # Errors
+    /// If the bandwidth of the device cannot be measured.
+    pub fn of(run: &SceneRun) -> Result<Option<Self>> {
+        let Some((lattice, units)) = run.lattice() else {
+            return Ok(None);
+        };
+        let setup = lattice.setup();
+        Ok(Some(Self {
+            cells: run.scene().cells(),
+            fluid_cells: lattice.geometry().fluid_cells,
+            cell: units.cell,
+            tau: setup.tau(),
+            kernel: format!(
+                "{:?} {:?} {:?} lanes {}{}",
+                setup.collision,
+                setup.equilibrium,
+                setup.storage,
+                setup.lanes,
+                if setup.wale.is_some() { " Wale" } else { "" }
+            ),
+            bandwidth: run.bandwidth()?,
+            bytes_a_cell: bytes_a_cell(setup),
+            bytes_a_step: bytes_a_step(setup, lattice.grid(), lattice.geometry()),
+            ..Self::default()
+        }))
+    }
+
+    /// With the speed of the steps so far, once kernels are compiled.
+    pub fn at_speed(&self, throughput: &Throughput) -> Self {
+        let warm = throughput.warm();
+        let rate = warm.rate(warm.steps);
+        Self {
+            mlups: rate * self.fluid_cells as f64 / 1e6,
+            bandwidth_share: rate * self.bytes_a_step as f64 / self.bandwidth,
+            ..self.clone()
+        }
+    }
+
+    /// At the end of `run`.
+    pub fn finished(&self, run: &SceneRun, log: &RunLog, throughput: &Throughput) -> Self {
+        let units = run.simulation.units();
+        // Others may have kept the device busy the first time.
+        let again = run.bandwidth().unwrap_or_default();
+        let found = Self {
+            bandwidth: self.bandwidth.max(again),
+            max_mach: units.map_or(0.0, |units| units.mach(log.max_speed)),
+            ..self.clone()
+        };
+        found.at_speed(throughput)
+    }
+}
+
+impl fmt::Display for LatticeSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "  {:.1} MLUPS, {:.0} % of the {:.1} GB/s that the device copies; largest Mach number {:.3}",
+            self.mlups,
+            100.0 * self.bandwidth_share,
+            self.bandwidth / 1e9,
+            self.max_mach
+        )
+    }
+}
+
+/// What the coupling of a run did, and what it could leave out.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Coupling {
+    /// Blocks in the fluid; the others are its solids.
+    pub in_fluid: usize,
+    /// Convex parts of blocks in lanes of bricks at the end.
+    pub tiles: usize,
+    /// Bricks of the lattice that blocks reach at the end.
+    pub saturated_bricks: usize,
+    /// Bricks without walls that no block reaches.
+    pub plain_bricks: usize,
+    /// Bricks with walls or solids that no block reaches.
+    pub mixed_bricks: usize,
+    /// Tiles whose solid fractions were computed, all steps together.
+    pub tiles_computed: u64,
+    /// Lanes of bricks whose saturation was computed, all steps together.
+    pub lanes_computed: u64,
+    /// Times that the tiles of blocks were looked for.
+    pub searches: u64,
+    /// Loads of a step that were read back.
+    pub readings: u64,
+    /// Steps of this run whose loads nobody needed.
+    pub readings_skipped: u64,
+    /// Bytes that blocks take on the device, without the saturation of their bricks.
+    pub bytes: u64,
+}
+
+impl Coupling {
+    /// Of the blocks in `simulation`, if there are any, after `steps` of this run.
+    pub fn of(simulation: &Simulation, steps: u64) -> Option<Self> {
+        let coupled = simulation.coupled()?;
+        let cells = coupled.solid_cells();
+        let geometry = simulation.lattice()?.geometry();
+        let solid_bricks = cells.bricks();
+        let others = |list: &[u32]| {
+            let reached = |brick: &&u32| solid_bricks.binary_search(brick).is_err();
+            list.iter().filter(reached).count()
+        };
+        let Exchanges {
+            readings,
+            cells: work,
+        } = coupled.exchanges();
+        Some(Self {
+            in_fluid: coupled.in_fluid(),
+            tiles: cells.tiles(),
+            saturated_bricks: solid_bricks.len(),
+            plain_bricks: others(&geometry.plain),
+            mixed_bricks: others(&geometry.mixed),
+            tiles_computed: work.tiles,
+            lanes_computed: work.lanes,
+            searches: work.searches,
+            readings,
+            readings_skipped: steps.saturating_sub(readings),
+            bytes: cells.bytes(),
+        })
+    }
+
+    /// How many bricks of which kind there are, in words.
+    pub fn kinds(&self) -> String {
+        format!(
+            "{} tiles in {} bricks with blocks, {} mixed and {} plain ones without",
+            self.tiles, self.saturated_bricks, self.mixed_bricks, self.plain_bricks
+        )
+    }
+}
+
+impl fmt::Display for Coupling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let steps = (self.readings + self.readings_skipped).max(1) as f64;
+        write!(
+            f,
+            "  {} blocks in the fluid: {}; a step computed {:.1} tiles and {:.1} lanes of bricks anew, in {} \
+             searches; {} loads read back, {} steps without",
+            self.in_fluid,
+            self.kinds(),
+            self.tiles_computed as f64 / steps,
+            self.lanes_computed as f64 / steps,
+            self.searches,
+            self.readings,
+            self.readings_skipped
+        )
+    }
+}

@@ -66,10 +66,8 @@ impl ColourGrid {
     /// # Errors
     /// If the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<()> {
-        let widths = self.rows.iter().map(|row| Canvas::text_width(row, TEXT));
-        let widest = widths.collect::<Result<Vec<_>>>()?;
         // Row names, and the name of the axis upwards beside them.
-        let side = widest.into_iter().fold(0.0, f64::max) + TEXT + 3.0 * 6.0;
+        let side = self.widest_row()? + TEXT + 3.0 * 6.0;
         let size = [
             side + self.columns.len() as f64 * SQUARE[0] + MARGIN,
             self.rows.len() as f64 * SQUARE[1] + 4.0 * TEXT + MARGIN,
@@ -99,6 +97,12 @@ impl ColourGrid {
         }
         self.legend(&mut canvas, height - foot)?;
         canvas.save(path)
+    }
+
+    /// Width of the longest name of a row, pixels.
+    fn widest_row(&self) -> Result<f64> {
+        let mut widths = self.rows.iter().map(|row| Canvas::text_width(row, TEXT));
+        widths.try_fold(0.0, |widest, width| Ok(f64::max(widest, width?)))
     }
 
     /// A panel whose upper left square begins at `corner`.
@@ -142,9 +146,7 @@ impl ColourGrid {
             Anchor::Centre,
             INK,
         )?;
-        let widths = self.rows.iter().map(|row| Canvas::text_width(row, TEXT));
-        let widest = widths.collect::<Result<Vec<_>>>()?;
-        let beside = corner[0] - widest.into_iter().fold(0.0, f64::max) - 12.0 - 0.5 * TEXT;
+        let beside = corner[0] - self.widest_row()? - 12.0 - 0.5 * TEXT;
         let along = count[1] as f64 * SQUARE[1];
         let size = fitting(&self.y, TEXT, along)?;
         let at = [beside, corner[1] + 0.5 * along];

@@ -10,7 +10,6 @@ mod document;
 mod estimate;
 mod finding;
 mod flows;
-mod limit;
 mod page;
 mod row;
 mod water;
@@ -25,7 +24,7 @@ use crate::{
     validate::Stand,
 };
 use anyhow::Context;
-use class::{Class, Point, Reference, classes};
+use class::{Class, Point, Reference, classes, limit};
 use estimate::Estimate;
 use riprap::output::replace;
 use std::{path::PathBuf, time::Instant};
@@ -149,7 +148,7 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
         Reference::Known(value, uncertainty) => Some((Some(value), uncertainty)),
         Reference::Limit => None,
         Reference::Recorded(values) => {
-            let (limit, uncertainty) = limit::limit(values);
+            let (limit, uncertainty) = limit(values);
             Some((Some(limit), uncertainty))
         }
     };
@@ -170,7 +169,7 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
             if let Some(values) = three.collect::<Option<Vec<f64>>>()
                 && let Some(values) = values.first_chunk::<3>()
             {
-                let (limit, uncertainty) = limit::limit(*values);
+                let (limit, uncertainty) = limit(*values);
                 println!(
                     "     limit {limit:.6}, off by at most {}",
                     percent(uncertainty)

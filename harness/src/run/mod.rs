@@ -12,7 +12,6 @@ mod header;
 mod history;
 mod lattice;
 mod left_out;
-mod origin;
 mod progress;
 mod recorder;
 mod rock;
@@ -124,7 +123,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
     runner.summary.scene = args.scene.display().to_string();
     runner.print_header(&run);
-    if let Some(warning) = restart.and_then(|path| origin::warning(path, &text)) {
+    if let Some(warning) = restart.and_then(|path| checkpoints::other_scene(path, &text)) {
         eprintln!("warning: {warning}");
         runner.summary.warnings.push(warning);
     }

@@ -10,6 +10,7 @@ use riprap::{
     geometry::{Pose, Shape},
     rock::Block,
     scene::{Material, Scene, build::block_setup},
+    sph::SphSolver,
 };
 use std::{collections::HashMap, sync::Arc};
 
@@ -51,29 +52,22 @@ impl SceneRun {
             return Ok(None);
         }
         let water = self.water()?;
-        let setup = self
-            .simulation
-            .particles()
-            .map(|particles| particles.setup());
-        let drop = |(x, v): (&glam::DVec3, &glam::Vec3)| Drop {
-            centre: *x,
-            value: v.as_dvec3().length(),
-        };
-        let drops = |setup: &riprap::sph::Setup| Drops {
-            drops: water
-                .positions
-                .iter()
-                .zip(&water.velocities)
-                .map(drop)
-                .collect(),
+        let moving = water.positions.iter().zip(&water.velocities);
+        let drops = moving.map(|(centre, velocity)| Drop {
+            centre: *centre,
+            value: velocity.as_dvec3().length(),
+        });
+        let drops: Vec<Drop> = drops.collect();
+        let setup = self.simulation.particles().map(SphSolver::setup);
+        Ok(setup.map(|setup| Drops {
+            drops,
             radius: SPHERE_RADIUS * setup.spacing,
             colours: Colours {
                 label: "speed".into(),
                 unit: "m/s".into(),
                 range: Some([0.0, speed.unwrap_or(setup.largest_speed())]),
             },
-        };
-        Ok(setup.map(drops))
+        }))
     }
 }
 

@@ -106,7 +106,7 @@ pub struct Geometry {
     pub stages: Stages,
     /// Bricks of plain fluid, ascending.
     pub plain: Vec<u32>,
-    /// Bricks with flagged cells, and with [`Setup::whole_rows`] the others of their rows; ascending.
+    /// Bricks with flagged cells, and with [`Setup::whole_rows`] others of their rows; ascending.
     pub mixed: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -246,8 +246,8 @@ impl Geometry {
         } else {
             (1 << (8 * grid.lanes)) - 1
         };
-        // Where the plain bricks of the present row begin, and whether all of it is mixed.
-        let (mut row, mut row_mixed) = (0, false);
+        // Plain and mixed bricks before the present row.
+        let mut row = [0, 0];
         for (brick, [x, y, z]) in (0..)
             .zip((0..bz).flat_map(|z| (0..by).flat_map(move |y| (0..bx).map(move |x| [x, y, z]))))
         {
@@ -263,22 +263,20 @@ impl Geometry {
                 }
             }
             let first = [x * grid.brick[0], y * grid.brick[1], z * grid.brick[2]];
-            if x == 0 {
-                row = self.plain.len();
-                row_mixed = false;
-            }
             match (flagged, solid) {
                 // It is padding behind the last cells, which no kernel has to leave out.
                 (_, true) if !grid.contains(first) => {}
                 (_, true) => self.solid_bricks += 1,
-                (false, _) if !row_mixed => self.plain.push(brick),
-                (flagged, _) => {
-                    if flagged && setup.whole_rows && !row_mixed {
-                        row_mixed = true;
-                        self.mixed.extend(self.plain.drain(row..));
-                    }
-                    self.mixed.push(brick);
+                (true, _) => self.mixed.push(brick),
+                (false, _) => self.plain.push(brick),
+            }
+            if x + 1 == bx {
+                let [plain, mixed] = [self.plain.len(), self.mixed.len()];
+                if setup.whole_rows && mixed - row[1] >= plain - row[0] {
+                    self.mixed.extend(self.plain.drain(row[0]..));
+                    self.mixed[row[1]..].sort_unstable();
                 }
+                row = [self.plain.len(), self.mixed.len()];
             }
         }
     }

@@ -176,9 +176,9 @@ pub struct Setup {
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
     pub wide: bool,
-    /// Whether all bricks of a row along x run by the kernel for flagged cells if one of them has such cells. Two kernels
-    /// would sweep twice over the same pages: on lavapipe a box with an inlet, an outlet and walls takes 1.1 to 1.2 times
-    /// as long. The bits are the same.
+    /// Whether all bricks of a row along x run by the kernel for flagged cells if at least half of them have such cells. Two
+    /// kernels sweep twice over the same pages: on lavapipe a box of three bricks a row with an inlet and an outlet takes
+    /// 1.1 to 1.2 times as long. The bits are the same.
     pub whole_rows: bool,
 }
 
@@ -217,7 +217,7 @@ impl Setup {
     /// after the other, so that rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
     /// Invocations beyond the cells cost as much as others there, so that rows are the longest that leave
     /// the fewest; rows without any cell, of the padding behind the last ones alone, are left out. A row of bricks
-    /// runs by one kernel.
+    /// that are mostly at walls runs by one kernel.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
         let length = self.cells[0];

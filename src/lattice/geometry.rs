@@ -104,9 +104,9 @@ pub struct Geometry {
     pub open: Vec<(usize, usize, Vec<FaceCell>)>,
     /// The order in which the cells of both are completed.
     pub stages: Stages,
-    /// Bricks of plain fluid, ascending.
+    /// Bricks of plain fluid.
     pub plain: Vec<u32>,
-    /// Bricks with flagged cells, and with [`Setup::whole_rows`] others of their rows; ascending.
+    /// Bricks with flagged cells.
     pub mixed: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -170,7 +170,7 @@ impl Geometry {
         for (_, _, cells) in &mut geometry.open {
             geometry.stages.sort(cells);
         }
-        geometry.sort_bricks(setup, grid);
+        geometry.sort_bricks(grid);
         geometry
     }
 
@@ -237,7 +237,7 @@ impl Geometry {
         bits
     }
 
-    fn sort_bricks(&mut self, setup: &Setup, grid: &Grid) {
+    fn sort_bricks(&mut self, grid: &Grid) {
         let [bx, by, bz] = grid.bricks();
         let [nx, ny, nz] = grid.elements;
         let all_solid = (0..grid.lanes).fold(0, |word, l| word | u32::from(SOLID) << (8 * l));
@@ -246,8 +246,6 @@ impl Geometry {
         } else {
             (1 << (8 * grid.lanes)) - 1
         };
-        // Plain and mixed bricks before the present row.
-        let mut row = [0, 0];
         for (brick, [x, y, z]) in (0..)
             .zip((0..bz).flat_map(|z| (0..by).flat_map(move |y| (0..bx).map(move |x| [x, y, z]))))
         {
@@ -269,14 +267,6 @@ impl Geometry {
                 (_, true) => self.solid_bricks += 1,
                 (true, _) => self.mixed.push(brick),
                 (false, _) => self.plain.push(brick),
-            }
-            if x + 1 == bx {
-                let [plain, mixed] = [self.plain.len(), self.mixed.len()];
-                if setup.whole_rows && mixed - row[1] >= plain - row[0] {
-                    self.mixed.extend(self.plain.drain(row[0]..));
-                    self.mixed[row[1]..].sort_unstable();
-                }
-                row = [self.plain.len(), self.mixed.len()];
             }
         }
     }

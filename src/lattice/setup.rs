@@ -176,10 +176,6 @@ pub struct Setup {
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
     pub wide: bool,
-    /// Whether all bricks of a row along x run by the kernel for flagged cells if at least half of them have such cells. Two
-    /// kernels sweep twice over the same pages: on lavapipe a box of three bricks a row with an inlet and an outlet takes
-    /// 1.1 to 1.2 times as long. The bits are the same.
-    pub whole_rows: bool,
 }
 
 impl Setup {
@@ -208,7 +204,6 @@ impl Setup {
             brick: [16, 2, 2],
             bindings: None,
             wide: false,
-            whole_rows: false,
         }
     }
 
@@ -216,8 +211,7 @@ impl Setup {
     /// 64 elements, and words as wide as it has. Its threads walk through an invocation's neighbours one
     /// after the other, so that rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
     /// Invocations beyond the cells cost as much as others there, so that rows are the longest that leave
-    /// the fewest; rows without any cell, of the padding behind the last ones alone, are left out. A row of bricks
-    /// that are mostly at walls runs by one kernel.
+    /// the fewest; rows without any cell, of the padding behind the last ones alone, are left out.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
         let length = self.cells[0];
@@ -228,7 +222,6 @@ impl Setup {
         };
         self.brick = [long, (32 / long).max(1), 1];
         self.wide = features.contains(wgpu::Features::SHADER_INT64);
-        self.whole_rows = true;
     }
 
     /// Whether the kernels have words of 64 bits.

@@ -83,21 +83,6 @@ fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
 }
 
 #[test]
-fn rows_that_run_by_one_kernel_change_no_bit() {
-    let rig = Rig::new();
-    let mut apart = setup();
-    apart.brick = [2, 1, 16];
-    let mut rows = apart.clone();
-    rows.whole_rows = true;
-    let [(apart, expected), (rows, found)] = [apart, rows].map(|setup| run(&rig, setup, 51));
-    let plain = |of: &Lattice| of.geometry().plain.len();
-    assert!(0 < plain(&rows) && plain(&rows) < plain(&apart));
-    let sorted = |of: &Lattice| of.geometry().mixed.is_sorted() && of.geometry().plain.is_sorted();
-    assert!(sorted(&apart) && sorted(&rows));
-    assert!(bits(&found) == bits(&expected));
-}
-
-#[test]
 fn words_of_64_bits_change_no_bit() {
     let rig = Rig::new();
     if !rig.device.features().contains(wgpu::Features::SHADER_INT64) {

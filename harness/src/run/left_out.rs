@@ -54,11 +54,7 @@ impl LeftOut {
         Self::some([
             (kernel.as_str(), of - absent_count, of),
             ("bricks of cells, the others being solid", run, all),
-            (
-                "bricks run by the kernel for walls, the others by that without",
-                walls,
-                run,
-            ),
+            ("bricks with walls, the others being plain", walls, run),
         ])
     }
 

@@ -203,7 +203,7 @@ pub fn vibration(_: &Stand) -> Outcome {
 const LENGTH: f64 = 10.0;
 
 /// A bar that hangs by a point of its upper face: V P = mg ⊗ X, which is the mean stress ρgL/2 and the elongation
-/// ρgL²/2E of the exact solution. Stress, elongation, support and energies at rest.
+/// ρgL²/2E of the exact solution. Stress, elongation, thinning by Poisson's ratio, support and energies at rest.
 pub fn bar(_: &Stand) -> Outcome {
     let top = DVec3::Z * (0.5 * LENGTH);
     let mut bar = Block::new("bar", cuboid(1.0, 0.8, LENGTH)?, DVec3::ZERO);
@@ -223,6 +223,9 @@ pub fn bar(_: &Stand) -> Outcome {
     let support = rock.blocks.support(0).map_or(f64::NAN, |force| force.z);
     let mean = 0.5 * DENSITY * G * LENGTH;
     let longer = (pose.point(top) - pose.point(-top)).length() - LENGTH;
+    let thinner = (pose.deformation * DVec3::Y).length() - 1.0;
+    let von_mises = rock.blocks.von_mises(0).unwrap_or(f64::NAN);
+    let strain = rock.blocks.ledger().strain;
     let error = rock.energy_error() / rock.blocks.ledger().taken();
     let trial = rock.trial();
     // Strains of 1.2e-4 set the stresses by area and by length apart.
@@ -233,6 +236,19 @@ pub fn bar(_: &Stand) -> Outcome {
             longer,
             mean * LENGTH / ROCK.youngs_modulus,
             5e-4,
+        ),
+        trial.relative("von Mises stress, Pa", von_mises, mean, 5e-4),
+        trial.relative(
+            "thinning",
+            thinner,
+            -ROCK.poissons_ratio * mean / ROCK.youngs_modulus,
+            1e-3,
+        ),
+        trial.relative(
+            "strain energy, J",
+            strain,
+            0.5 * mean * mean / ROCK.youngs_modulus * 0.8 * LENGTH,
+            1e-3,
         ),
         trial.relative("support, N", support, rock.blocks.mass(0) * G, 1e-6),
         trial.at_most(

@@ -1,6 +1,6 @@
 //! Loads on the faces of blocks.
 
-use crate::fixture::{DENSITY, WALLS, World, accelerated_fluid, fluid, material};
+use crate::fixture::{DENSITY, WALLS, World, accelerated_fluid, fluid, material, resting};
 use glam::DVec3;
 use kit::{assert_near, assert_relative};
 use riprap::psm::FaceLoad;
@@ -382,29 +382,12 @@ fn faces_end_at_the_walls() {
 /// where it falls asleep, and between two exchanges of a sleeping one.
 #[test]
 fn long_advances_end_with_the_face_loads_of_single_steps() {
-    let text = format!(
-        r#"{}{}damping = 0.7
-        [boundaries]
-        z_min = {{ kind = "wall" }}
-        z_max = {{ kind = "wall" }}
-        [rock]
-        sleep = {{ speed = 2e-3, time = 1.5 }}
-        gravity = [0, 0, -0.01]
-        [numerics]
-        time_step = 0.25
-        velocity_scale = 0.1
-        [[probes]]
+    let text = resting(
+        r#"[[probes]]
         name = "load"
         kind = "block"
         block = "stone"
-        faces = true
-        [[blocks]]
-        name = "stone"
-        kind = "box"
-        size = [2, 2, 1]
-        position = [2, 3, 0.5]"#,
-        fluid([12, 12, 8], 0.1),
-        material("rock", 10_000.0)
+        faces = true"#,
     );
     let mut single = World::new(&text);
     let mut slept = None;

@@ -31,6 +31,30 @@ pub fn accelerated_fluid(cells: [u32; 3], nu: f64, acceleration: [f64; 3]) -> St
     fluid(cells, nu).replace("viscosity", &accelerated)
 }
 
+/// A block on the floor in water that stands still, of the name "stone", which falls asleep; `more` is added to the scene.
+pub fn resting(more: &str) -> String {
+    format!(
+        r#"{}{}damping = 0.7
+        [boundaries]
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "wall" }}
+        [rock]
+        sleep = {{ speed = 2e-3, time = 1.5 }}
+        gravity = [0, 0, -0.01]
+        [numerics]
+        time_step = 0.25
+        velocity_scale = 0.1
+        [[blocks]]
+        name = "stone"
+        kind = "box"
+        size = [2, 2, 1]
+        position = [2, 3, 0.5]
+        {more}"#,
+        fluid([12, 12, 8], 0.1),
+        material("rock", 10_000.0)
+    )
+}
+
 /// Walls on all sides.
 pub const WALLS: &str = r#"[boundaries]
     x_min = { kind = "wall" }

@@ -1,6 +1,6 @@
 //! Work that a step does not need is left out.
 
-use crate::fixture::{World, fluid, material};
+use crate::fixture::{World, fluid, material, resting};
 use kit::assert_relative;
 use riprap::coupling::Exchanges;
 
@@ -11,28 +11,12 @@ fn exchanges(world: &World) -> Exchanges {
 /// A block on the floor in water that stands still, and a fixed one beside it.
 #[test]
 fn blocks_that_rest_cost_a_look_now_and_then() {
-    let mut world = World::new(&format!(
-        r#"{}{}damping = 0.7
-        [boundaries]
-        z_min = {{ kind = "wall" }}
-        z_max = {{ kind = "wall" }}
-        [rock]
-        sleep = {{ speed = 2e-3, time = 1.5 }}
-        gravity = [0, 0, -0.01]
-        [numerics]
-        time_step = 0.25
-        velocity_scale = 0.1
-        [[blocks]]
-        kind = "box"
-        size = [2, 2, 1]
-        position = [2, 3, 0.5]
-        [[blocks]]
+    let mut world = World::new(&resting(
+        r#"[[blocks]]
         kind = "sphere"
         radius = 1
         position = [5, 5, 2]
         motion = "fixed""#,
-        fluid([12, 12, 8], 0.1),
-        material("rock", 10_000.0)
     ));
     world.advance(150);
     let before = exchanges(&world);

@@ -126,7 +126,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         None => Machine::host(),
     };
     println!("{machine}");
-    let asked = |part| !args.all && args.only.is_none_or(|only| only == part);
+    let selected = |part| !args.all && args.only.is_none_or(|only| only == part);
     let bench = device.as_ref().map(|(_, device, queue)| Bench {
         device,
         queue,
@@ -137,28 +137,28 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     let mut measured: Vec<Measured> = Vec::new();
     let mut targets = Vec::new();
     if let Some(bench) = &bench
-        && asked(Part::Fluid)
+        && selected(Part::Fluid)
     {
         let (rows, judged) = fluid::measure(&args, bench)?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Fluid));
     }
-    if asked(Part::Rock) {
+    if selected(Part::Rock) {
         let plan = rock::Plan::new(args.quick, args.full);
         let (rows, judged) = rock::measure(&plan, bench.as_ref())?;
         targets.extend(judged);
         measured.extend(rows.into_iter().map(Measured::Rock));
     }
     if let Some(bench) = &bench {
-        if asked(Part::Water) {
+        if selected(Part::Water) {
             measured.extend(water::measure(bench)?.into_iter().map(Measured::Water));
         }
-        if asked(Part::Solids) {
+        if selected(Part::Solids) {
             let (rows, judged) = solids::measure(bench)?;
             targets.extend(judged);
             measured.extend(rows.into_iter().map(Measured::Solids));
         }
-        if asked(Part::Unused) {
+        if selected(Part::Unused) {
             let (rows, judged) = unused::measure(bench)?;
             targets.extend(judged);
             measured.extend(rows.into_iter().map(Measured::Solids));

@@ -62,7 +62,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let middle = [0.5 * f64::from(n) + 0.3; 3];
     let mut worlds = [
         World::spheres(n, ACROSS, &[middle], false)?,
-        World::asked(n, ACROSS, middle)?,
+        World::with_face_loads(n, ACROSS, middle)?,
     ];
     let times = turns.measure(&mut worlds)?;
     let more = 100.0 * (times.ratio(1, 0) - 1.0);

@@ -61,7 +61,7 @@ pub struct Accuracy {
 
 /// A scene as far as the table goes.
 #[derive(Clone, Copy, Debug)]
-struct Asked {
+struct Conditions {
     across: f64,
     tau: f64,
     /// U D/ν of a block, if a speed is known.
@@ -80,14 +80,14 @@ impl Accuracy {
         let cell = scene.domain.cell;
         let narrowest = simulation.coupled().and_then(|coupled| coupled.narrowest());
         let blocks = narrowest.and_then(|width| {
-            let asked = Asked {
+            let conditions = Conditions {
                 across: width / cell,
                 tau,
                 reynolds: speed.map(|speed| speed * width / scene.fluid.viscosity),
             };
             let [.., [widest, _]] = NEIGHBOURS;
             let coupled = simulation.coupled()?;
-            let found = of_blocks(&rows, asked)?;
+            let found = of_blocks(&rows, conditions)?;
             Some(match coupled.narrowest_gap(widest * cell) {
                 None => found,
                 Some(gap) => {
@@ -196,12 +196,12 @@ fn of_neighbours(gap: f64) -> f64 {
 }
 
 /// The drag on blocks.
-fn of_blocks(rows: &[Row], asked: Asked) -> Option<Accuracy> {
-    let Asked {
+fn of_blocks(rows: &[Row], conditions: Conditions) -> Option<Accuracy> {
+    let Conditions {
         across,
         tau,
         reynolds,
-    } = asked;
+    } = conditions;
     let [slow, fast] = around(
         BLOCKS.iter().map(|class| class.1),
         reynolds.unwrap_or_default(),
@@ -234,7 +234,12 @@ fn of_blocks(rows: &[Row], asked: Asked) -> Option<Accuracy> {
     if y_plus.is_some_and(|y_plus| y_plus > resolved) {
         beyond.push("at this y⁺ friction is not resolved, and comes out too small".into());
     }
-    let found = Accuracy::of("drag on blocks", asked, y_plus, (&near, measured, beyond))?;
+    let found = Accuracy::of(
+        "drag on blocks",
+        conditions,
+        y_plus,
+        (&near, measured, beyond),
+    )?;
     Some(Accuracy {
         known: reynolds.is_none_or(|reynolds| reynolds <= fastest),
         ..found
@@ -247,21 +252,21 @@ fn of_walls(rows: &[Row], across: f64, tau: f64) -> Option<Accuracy> {
         .iter()
         .filter(|row| row.class == CHANNEL && row.default);
     let near = neighbours(&default.collect::<Vec<_>>(), across, tau);
-    let asked = Asked {
+    let conditions = Conditions {
         across,
         tau,
         reynolds: None,
     };
     let measured = vec!["Poiseuille flow"];
     let of = "laminar shear at the walls";
-    Accuracy::of(of, asked, None, (&near, measured, Vec::new()))
+    Accuracy::of(of, conditions, None, (&near, measured, Vec::new()))
 }
 
 impl Accuracy {
     /// The band of the rows that are near.
     fn of(
         of: &'static str,
-        asked: Asked,
+        conditions: Conditions,
         y_plus: Option<f64>,
         (near, measured, mut beyond): (&[&Row], Vec<&'static str>, Vec<String>),
     ) -> Option<Self> {
@@ -276,15 +281,15 @@ impl Accuracy {
             })
         };
         let [coarsest, finest] = range(&|row| Some(row.resolution));
-        if asked.across < 0.99 * coarsest {
+        if conditions.across < 0.99 * coarsest {
             beyond.push(format!(
                 "coarser than those, {coarsest:.1} cells: expect more"
             ));
-        } else if asked.across > 1.01 * finest {
+        } else if conditions.across > 1.01 * finest {
             beyond.push(format!("finer than those, {finest:.1} cells"));
         }
         let [low, high] = range(&|row| row.tau);
-        if asked.tau < low - 0.01 || asked.tau > high + 0.01 {
+        if conditions.tau < low - 0.01 || conditions.tau > high + 0.01 {
             beyond.push(match low == high {
                 true => format!("τ = {low:.3} there"),
                 false => format!("τ = {low:.3} to {high:.3} there"),
@@ -292,8 +297,8 @@ impl Accuracy {
         }
         (!near.is_empty()).then_some(Self {
             of,
-            across: asked.across,
-            tau: asked.tau,
+            across: conditions.across,
+            tau: conditions.tau,
             y_plus,
             gap: None,
             band,
@@ -375,12 +380,12 @@ mod tests {
     }
 
     fn band(across: f64, tau: f64, reynolds: Option<f64>) -> [f64; 2] {
-        let asked = Asked {
+        let conditions = Conditions {
             across,
             tau,
             reynolds,
         };
-        of_blocks(&table(), asked).map_or([f64::NAN; 2], |found| found.band)
+        of_blocks(&table(), conditions).map_or([f64::NAN; 2], |found| found.band)
     }
 
     #[test]
@@ -398,12 +403,12 @@ mod tests {
     #[test]
     fn what_lies_beyond_the_table_is_said() {
         let text = |across, tau, reynolds| {
-            let asked = Asked {
+            let conditions = Conditions {
                 across,
                 tau,
                 reynolds,
             };
-            of_blocks(&table(), asked).map_or(String::new(), |found| found.text())
+            of_blocks(&table(), conditions).map_or(String::new(), |found| found.text())
         };
         assert_eq!(
             text(10.0, 0.6, None),
@@ -478,12 +483,12 @@ mod tests {
             (11.03, 13.86, 0.05),
         ];
         for (across, apart, error) in known {
-            let asked = Asked {
+            let conditions = Conditions {
                 across,
                 tau: 1.0,
                 reynolds: None,
             };
-            let alone = of_blocks(&rows, asked).unwrap();
+            let alone = of_blocks(&rows, conditions).unwrap();
             assert!(alone.band[1] < 0.02, "{alone:?}");
             let found = alone.crowded(apart - across, "ball and its image");
             assert_eq!(found.gap, Some(apart - across));
@@ -500,12 +505,12 @@ mod tests {
     #[test]
     fn wide_gaps_add_nothing_and_what_is_not_measured_is_said() {
         let rows = table();
-        let asked = |tau| Asked {
+        let conditions = |tau| Conditions {
             across: 10.0,
             tau,
             reynolds: None,
         };
-        let alone = |tau| of_blocks(&rows, asked(tau)).unwrap();
+        let alone = |tau| of_blocks(&rows, conditions(tau)).unwrap();
         assert_eq!(alone(1.0).crowded(6.1, "a and b"), alone(1.0));
         let text = |tau, gap| alone(tau).crowded(gap, "a and b").text();
         assert!(text(1.0, 0.2).contains("narrower than 0.59 cells are not measured"));

@@ -145,11 +145,11 @@ impl Report {
                 (time, all[0], SAME.max(1.0 + noise)),
                 (updates, all[1], SAME),
             ];
-            let asked = TARGETS
+            let targets = TARGETS
                 .iter()
                 .flat_map(|target| costs.map(|cost| (*target, cost)));
-            let asked = asked.filter(|_| !rows.is_empty());
-            let found = asked.map(|(target, cost)| Finding::of(class.name, &rows, target, cost));
+            let targets = targets.filter(|_| !rows.is_empty());
+            let found = targets.map(|(target, cost)| Finding::of(class.name, &rows, target, cost));
             found.collect::<Vec<_>>()
         });
         self.findings = findings.collect();

@@ -31,14 +31,14 @@ pub struct Checkpoints {
 
 impl Checkpoints {
     pub fn new(run: &SceneRun, folder: &Path, last: u64, text: &str) -> Self {
-        let (asked, time_step) = (run.scene().run.checkpoint_every, run.time_step());
+        let (requested, time_step) = (run.scene().run.checkpoint_every, run.time_step());
         let parted = Parted { time_step, last };
         Self {
-            schedule: match asked {
+            schedule: match requested {
                 Some(every) => Schedule::new(Some(every), time_step, last),
                 None => parted.schedule(run.step(), 0),
             },
-            own: asked.is_none().then_some(parted),
+            own: requested.is_none().then_some(parted),
             path: folder.join("checkpoint.riprap"),
             text: text.to_owned(),
         }
@@ -74,7 +74,7 @@ impl Recorder for Checkpoints {
         }
         let written = run.checkpoint(&self.path).map_err(Into::into);
         match written.and_then(|()| keep_scene(&self.text, &self.path)) {
-            // Nobody asked for it, and the run goes on without.
+            // The scene does not request it, and the run goes on without.
             Err(error) if self.own.is_some() => {
                 const FAILED: &str = "no checkpoint at step";
                 // A full disk stays full: one warning is enough.

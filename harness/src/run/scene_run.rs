@@ -360,8 +360,8 @@ impl SceneRun {
                 },
                 kind,
             ) => {
-                let asked = [*faces && kind == Kind::Lattice, *safety];
-                block_probe::recorders(self, folder, last, (probe, block), asked)
+                let tables = [*faces && kind == Kind::Lattice, *safety];
+                block_probe::recorders(self, folder, last, (probe, block), tables)
             }
             (_, Kind::Rock) => {
                 let message = "measures a fluid, and there is none";

@@ -49,7 +49,7 @@ pub fn measure(args: &Args, bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<
     Ok((rows, judged))
 }
 
-/// Why a grid that nobody asked for takes too long, from the speed on the grids before.
+/// Why a grid of the default list takes too long, from the speed on the grids before.
 fn too_slow(args: &Args, grid: u32, rows: &[Row]) -> Option<String> {
     // A group takes tens of steps: 0.2 s each are seconds.
     const PATIENCE: f64 = 0.2;

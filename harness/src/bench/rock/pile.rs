@@ -76,7 +76,7 @@ struct Film {
 }
 
 impl Film {
-    /// Goes on with the pile for some steps.
+    /// Records some steps of the pile.
     fn new(pile: &mut Pile) -> Result<Self> {
         let pairs = pollster::block_on(HostBroadphase.pairs(&pile.blocks.aabbs()))?;
         let mut frames = Vec::new();

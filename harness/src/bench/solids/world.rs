@@ -62,7 +62,7 @@ impl World {
     ///
     /// # Errors
     /// If the scene is none.
-    pub fn asked(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
+    pub fn with_face_loads(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
         let mut world = Self::spheres(n, across, &[place], false)?;
         let name = String::from("sphere");
         world.scene.blocks[0].name = Some(name.clone());

@@ -61,7 +61,8 @@ impl Headline {
 /// The tables that a scene writes, and the quantities of those that are histories.
 pub fn tables(scene: &Scene) -> Vec<(String, &[Quantity])> {
     let histories = scene.output.histories.iter().enumerate();
-    let histories = histories.map(|(n, asked)| (history::name(n), asked.quantities.as_slice()));
+    let histories =
+        histories.map(|(n, requested)| (history::name(n), requested.quantities.as_slice()));
     let probes = scene.probes.iter();
     let probes = probes.map(|probe| (probe.name.clone(), [].as_slice()));
     histories.chain(probes).collect()
@@ -80,8 +81,8 @@ pub fn of(
     type Found = ((String, &'static str), Vec<f64>, Vec<f64>);
     let mut found: Vec<Found> = Vec::new();
     for (column, values) in &read[0].columns {
-        let asked = quantities.iter().find(|known| known.name() == column);
-        let known = asked.map(|asked| (column.clone(), history::unit(*asked)));
+        let requested = quantities.iter().find(|known| known.name() == column);
+        let known = requested.map(|requested| (column.clone(), history::unit(*requested)));
         let Some(quantity) = known.or_else(|| headline(column)) else {
             continue;
         };

@@ -1,10 +1,7 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
 // e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, workgroup, psm_planes, joint_gap, $cell_flags, $operator, $reals
-
-// See psm_planes.wgsl; WORKGROUP elements a plane.
-@group(0) @binding(35) var<storage, read_write> psm_planes: array<Reals>;
+// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $reals
 
 // Largest B in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations in
 // such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
@@ -22,16 +19,12 @@ struct PsmCell {
     joint: Mask,
 }
 
-fn plane(slot: u32, n: u32, local: u32) -> u32 {
-    return plane_element(slot, n, WORKGROUP, local);
-}
-
 fn psm_cell(slot: u32, local: u32) -> PsmCell {
-    let sum = decode_sum(get_reals(psm_planes[plane(slot, PLANE_SUM, local)]));
+    let sum = decode_sum(get_reals(read_psm(PLANE_SUM, slot, local)));
     let velocity = Vector(
-        get_reals(psm_planes[plane(slot, PLANE_VELOCITY, local)]),
-        get_reals(psm_planes[plane(slot, PLANE_VELOCITY + 1u, local)]),
-        get_reals(psm_planes[plane(slot, PLANE_VELOCITY + 2u, local)]),
+        get_reals(read_psm(PLANE_VELOCITY, slot, local)),
+        get_reals(read_psm(PLANE_VELOCITY + 1u, slot, local)),
+        get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
     return PsmCell(sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
 }
@@ -95,11 +88,11 @@ fn apply_solid(
     let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
     let a = factor * rho;
     let each = 2.0 * closure / max(psm.fraction, Real(1.0));
-    psm_planes[plane(slot, PLANE_BETA, local)] = put_reals(select(beta, Real(1.0), adjacent));
-    psm_planes[plane(slot, PLANE_A, local)] = put_reals(select(beta * a, (*h)[0u], adjacent));
-    psm_planes[plane(slot, PLANE_G, local)] = put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, adjacent));
-    psm_planes[plane(slot, PLANE_G + 1u, local)] = put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, adjacent));
-    psm_planes[plane(slot, PLANE_G + 2u, local)] = put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, adjacent));
+    write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
+    write_psm(PLANE_A, slot, local, put_reals(select(beta * a, (*h)[0u], adjacent)));
+    write_psm(PLANE_G, slot, local, put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, adjacent)));
+    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, adjacent)));
+    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, adjacent)));
 }
 
 // Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where

@@ -2,7 +2,7 @@
 // the body force on what is fluid, (1 - B) F, and half of what the solid does. A plane of cells then carries in a steady flow what
 // crosses it, wherever solids are: exactly with the operator of Holdych; the others have a part of the body force more. Corrects what
 // macroscopic.wgsl has written.
-// needs scalar_grid, psm_planes, $cell_force
+// needs scalar_grid, psm_planes, psm_storage, $cell_force
 
 override BRICK_X: u32;
 override BRICK_Y: u32;
@@ -10,8 +10,6 @@ override BRICK_Z: u32;
 
 // Their number, and those that blocks reach.
 @group(0) @binding(40) var<storage, read> bricks: array<u32>;
-// See psm_planes.wgsl.
-@group(0) @binding(35) var<storage, read> psm_planes: array<f32>;
 @group(0) @binding(50) var<storage, read> density: array<f32>;
 @group(0) @binding(51) var<storage, read_write> velocity_x_out: array<f32>;
 @group(0) @binding(52) var<storage, read_write> velocity_y_out: array<f32>;
@@ -35,23 +33,22 @@ fn velocity_psm(
     if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
         return;
     }
-    let first = plane_element(slot, 0u, elements, element) * LANES_OF_ELEMENT + lane;
-    let stride = elements * LANES_OF_ELEMENT;
-    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
-    let beta = psm_planes[first + PLANE_BETA * stride];
+    let at = element * LANES_OF_ELEMENT + lane;
+    let sum = decode_sum(read_psm(PLANE_SUM, slot, at));
+    let beta = read_psm(PLANE_BETA, slot, at);
     if (!(sum.fraction > 0.0) || !(beta > 0.0)) {
         return;
     }
     let v = vec3(
-        psm_planes[first + PLANE_VELOCITY * stride],
-        psm_planes[first + (PLANE_VELOCITY + 1u) * stride],
-        psm_planes[first + (PLANE_VELOCITY + 2u) * stride],
+        read_psm(PLANE_VELOCITY, slot, at),
+        read_psm(PLANE_VELOCITY + 1u, slot, at),
+        read_psm(PLANE_VELOCITY + 2u, slot, at),
     );
     let n = cell.x + CELLS_X * (cell.y + CELLS_Y * cell.z);
     let rho = 1.0 + density[n];
     let force = cell_force(cell) / rho;
     let before = vec3(velocity_x_out[n], velocity_y_out[n], velocity_z_out[n]) - 0.5 * force;
-    let coupling = sum.fraction * psm_planes[first + PLANE_A * stride] / rho;
+    let coupling = sum.fraction * read_psm(PLANE_A, slot, at) / rho;
     let u = before + 0.5 * (1.0 - sum.fraction * beta) * force + 0.5 * coupling * (v - before);
     velocity_x_out[n] = u.x;
     velocity_y_out[n] = u.y;

@@ -1,6 +1,6 @@
 // Gardner & Sitar 2018, eq. 10: the solid fraction of each cell, and how that solid moves, over all parts that share the
 // cell, where one of them can reach. A workgroup is a lane of a brick with blocks; its invocations share the cells.
-// needs tables, psm_planes, brick, joint_closure
+// needs tables, psm_planes, psm_storage, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
 
@@ -12,7 +12,6 @@ override LANES_OF_ELEMENT: u32;
 @group(0) @binding(3) var<storage, read> lane_first: array<u32>;
 @group(0) @binding(4) var<storage, read> lane_tiles: array<u32>;
 @group(0) @binding(5) var<storage, read> solid_fractions: array<f32>;
-@group(0) @binding(6) var<storage, read_write> psm_planes: array<f32>;
 
 // Sums over the parts in one cell.
 struct Sums {
@@ -97,12 +96,11 @@ fn write(lane: u32, place: u32, sums: Sums) {
     let closure = select(0.0, joint_closure(fraction), sums.several && !sums.interior);
     let joint = closure > 0.0;
     let slot = lane / LANES_OF_ELEMENT;
-    let first = plane_element(slot, 0u, WORKGROUP, place) * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
-    let stride = WORKGROUP * LANES_OF_ELEMENT;
+    let at = place * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let all = sums.solid + closure * sums.touching;
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    psm_planes[first + PLANE_SUM * stride] = encode_sum(fraction, sums.near, sums.interior, joint);
-    psm_planes[first + PLANE_VELOCITY * stride] = u.x;
-    psm_planes[first + (PLANE_VELOCITY + 1u) * stride] = u.y;
-    psm_planes[first + (PLANE_VELOCITY + 2u) * stride] = u.z;
+    write_psm(PLANE_SUM, slot, at, encode_sum(fraction, sums.near, sums.interior, joint));
+    write_psm(PLANE_VELOCITY, slot, at, u.x);
+    write_psm(PLANE_VELOCITY + 1u, slot, at, u.y);
+    write_psm(PLANE_VELOCITY + 2u, slot, at, u.z);
 }

@@ -1,7 +1,6 @@
-// Partially saturated cells: the planes of numbers that blocks and fluid exchange, PLANES for each brick that blocks reach.
+// Partially saturated cells: the nine planes of numbers that blocks and fluid exchange, for each brick that blocks reach.
 // needs $lanes
 
-const PLANES = 9u;
 // Sum of the solid fractions of all blocks, with a code: see encode_sum.
 const PLANE_SUM = 0u;
 // Mean velocity of the blocks (3).
@@ -28,11 +27,6 @@ struct SolidSum {
     adjacent: Mask,
     interior: Mask,
     joint: Mask,
-}
-
-// The element `local` of plane `n` of a brick of `elements` elements.
-fn plane_element(slot: u32, n: u32, elements: u32, local: u32) -> u32 {
-    return (slot * PLANES + n) * elements + local;
 }
 
 fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask) -> Real {

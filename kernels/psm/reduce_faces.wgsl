@@ -32,11 +32,10 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     if (hidden == SEAM) {
         return;
     }
-    let first = plane_element(tile.slot, 0u, WORKGROUP, local) * LANES_OF_ELEMENT + tile.lane;
-    let stride = WORKGROUP * LANES_OF_ELEMENT;
+    let at = local * LANES_OF_ELEMENT + tile.lane;
     // Another block may be in the cell, or a wall.
-    let sum = decode_sum(psm_planes[first + PLANE_SUM * stride]);
-    let fluid = sum.adjacent && psm_planes[first + PLANE_BETA * stride] != 0.0;
+    let sum = decode_sum(read_psm(PLANE_SUM, tile.slot, at));
+    let fluid = sum.adjacent && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
     if (!fluid && hidden == CUT) {
         return;
     }
@@ -47,12 +46,12 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     let motion = motions[tile.block];
     let foot = centre_from(cell, motion.base, motion.fraction) - layer.height * layer.normal;
     let u = vec3(
-        psm_planes[first + PLANE_G * stride],
-        psm_planes[first + (PLANE_G + 1u) * stride],
-        psm_planes[first + (PLANE_G + 2u) * stride],
+        read_psm(PLANE_G, tile.slot, at),
+        read_psm(PLANE_G + 1u, tile.slot, at),
+        read_psm(PLANE_G + 2u, tile.slot, at),
     ) - velocity_at(motion, foot);
     let along = u - dot(u, layer.normal) * layer.normal;
-    let p = psm_planes[first + PLANE_A * stride] / 3.0;
+    let p = read_psm(PLANE_A, tile.slot, at) / 3.0;
     let traction = VISCOSITY / layer.height * along - p * layer.normal;
     let moment = cross(foot, traction);
     for (var i = 0u; i < 3u; i++) { // unroll

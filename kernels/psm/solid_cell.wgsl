@@ -1,13 +1,12 @@
 // Gardner & Sitar 2018, eqs. 11-12, with the minus that their text has and the equations lack: what the fluid does to
 // one part in one cell, f = -e (a u_p + G), e being the solid fraction; a and G come from the fluid kernel.
-// needs workgroup, tables, psm_planes, brick, joint_closure
+// needs workgroup, tables, psm_planes, psm_storage, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
 
 @group(0) @binding(0) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(1) var<storage, read> motions: array<Motion>;
 @group(0) @binding(2) var<storage, read> solid_fractions: array<f32>;
-@group(0) @binding(3) var<storage, read> psm_planes: array<f32>;
 
 struct SolidCell {
     // Its centre from that of the block.
@@ -24,24 +23,23 @@ struct SolidCell {
 // `motion` is that of the tile's block.
 fn solid_cell(tile: Tile, motion: Motion, fraction: f32, local: u32) -> SolidCell {
     let r = centre_from(tile.cell + vec3<i32>(place_in_brick(local)), motion.base, motion.fraction);
-    let first = plane_element(tile.slot, 0u, WORKGROUP, local) * LANES_OF_ELEMENT + tile.lane;
-    let stride = WORKGROUP * LANES_OF_ELEMENT;
-    let a = psm_planes[first + PLANE_A * stride];
+    let at = local * LANES_OF_ELEMENT + tile.lane;
+    let a = read_psm(PLANE_A, tile.slot, at);
     let g = vec3(
-        psm_planes[first + PLANE_G * stride],
-        psm_planes[first + (PLANE_G + 1u) * stride],
-        psm_planes[first + (PLANE_G + 2u) * stride],
+        read_psm(PLANE_G, tile.slot, at),
+        read_psm(PLANE_G + 1u, tile.slot, at),
+        read_psm(PLANE_G + 2u, tile.slot, at),
     );
     let e = min(fraction, 1.0);
     // Blocks that meet slide on what is between them: none of it is due to how they differ.
     let mean = vec3(
-        psm_planes[first + PLANE_VELOCITY * stride],
-        psm_planes[first + (PLANE_VELOCITY + 1u) * stride],
-        psm_planes[first + (PLANE_VELOCITY + 2u) * stride],
+        read_psm(PLANE_VELOCITY, tile.slot, at),
+        read_psm(PLANE_VELOCITY + 1u, tile.slot, at),
+        read_psm(PLANE_VELOCITY + 2u, tile.slot, at),
     );
     let own = velocity_at(motion, r);
     // decode_sum would give the same number, but drivers round `mix` otherwise behind it.
-    let joint = psm_planes[first + PLANE_SUM * stride] - JOINT_SUM;
+    let joint = read_psm(PLANE_SUM, tile.slot, at) - JOINT_SUM;
     let u = select(own, mix(own, mean, joint_closure(joint)), joint >= 0.0);
-    return SolidCell(r, e, -e * (a * u + g), psm_planes[first + PLANE_BETA * stride]);
+    return SolidCell(r, e, -e * (a * u + g), read_psm(PLANE_BETA, tile.slot, at));
 }

@@ -242,6 +242,14 @@ fn compile(
     })
 }
 
+/// Bytes of the largest storage binding of a device, as far as words of 4 bytes have an index of 32 bits.
+pub fn largest_binding(limits: &wgpu::Limits) -> u64 {
+    let bytes = limits.max_storage_buffer_binding_size;
+    bytes
+        .min(limits.max_buffer_size)
+        .min(4 * u64::from(u32::MAX))
+}
+
 /// Workgroups that WebGPU promises in one dimension.
 pub const MAX_GROUPS: u32 = 65_535;
 

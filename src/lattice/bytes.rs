@@ -7,7 +7,7 @@ impl Lattice {
     pub fn bytes(&self) -> Vec<(&'static str, u64)> {
         let buffers = &self.buffers;
         let size = |buffer: &Option<wgpu::Buffer>| buffer.as_ref().map_or(0, wgpu::Buffer::size);
-        let velocity = buffers.velocity.iter().flatten();
+        let velocity = buffers.velocity.iter().flatten().flatten();
         let open = buffers.open_faces.iter();
         let geometry = &self.geometry;
         // The kernels of even and odd steps keep a list each.
@@ -23,7 +23,10 @@ impl Lattice {
                 velocity.map(wgpu::Buffer::size).sum(),
             ),
             ("flags of cells", size(&buffers.flags)),
-            ("body force", size(&buffers.force)),
+            (
+                "body force",
+                buffers.force.iter().map(wgpu::Buffer::size).sum(),
+            ),
             (
                 "links at walls",
                 list(size_of_val(&geometry.links[..]))

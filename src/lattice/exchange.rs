@@ -55,13 +55,13 @@ impl Lattice {
         }
         let mut velocity = Vec::new();
         if let Some(buffers) = &self.buffers.velocity {
-            let scalars = (self.grid.element_count() * self.grid.lanes) as usize;
-            let all: Vec<f32> = readback
-                .read(device, queue, &buffers[self.parity()], 3 * scalars)
-                .await?;
-            for a in 0..3 {
-                let of = |cell| all[a * scalars + self.grid.scalar_of(cell) as usize];
-                velocity.extend(self.grid.domain().map(of));
+            for buffer in &buffers[self.parity()] {
+                let count = (buffer.size() / 4) as usize;
+                let planes: Vec<f32> = readback.read(device, queue, buffer, count).await?;
+                for plane in planes.chunks(self.grid.scalar_count() as usize) {
+                    let of = |cell| plane[self.grid.scalar_of(cell) as usize];
+                    velocity.extend(self.grid.domain().map(of));
+                }
             }
         }
         let mut carried = Vec::new();

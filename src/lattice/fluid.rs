@@ -1,11 +1,12 @@
 //! The fluid on a device: its buffers, its kernels, and what a step records.
 
 use super::{
-    Face, Force, Geometry, Grid, Setup,
+    Bindings, Face, Force, Geometry, Grid, Setup,
     cell_kernels::CellKernels,
     check::finite,
     geometry::{FaceCell, MovingCell},
     populations,
+    spread::{PSM_NAMES, planes},
     streams::Streams,
 };
 use crate::{
@@ -47,7 +48,7 @@ pub struct Lattice {
     pub(super) setup: Setup,
     pub(super) grid: Grid,
     pub(super) geometry: Geometry,
-    pub(super) bindings: u32,
+    pub(super) bindings: Bindings,
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
@@ -67,14 +68,23 @@ pub(super) struct Buffers {
     pub(super) populations: Vec<wgpu::Buffer>,
     pub(super) names: Vec<String>,
     /// Velocity of the last and the coming step, exchanged each step.
-    pub(super) velocity: Option<[wgpu::Buffer; 2]>,
+    pub(super) velocity: Option<[Vec<wgpu::Buffer>; 2]>,
     pub(super) flags: Option<wgpu::Buffer>,
-    pub(super) force: Option<wgpu::Buffer>,
+    pub(super) force: Vec<wgpu::Buffer>,
     pub(super) guard: Option<wgpu::Buffer>,
     pub(super) wall_velocity: Option<wgpu::Buffer>,
     /// Cells of each open face, and what they carry from step to step.
     pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
 }
+
+/// Names of the bindings of fields of vectors.
+const BEFORE: [&str; 3] = [
+    "velocity_before_0",
+    "velocity_before_1",
+    "velocity_before_2",
+];
+const AFTER: [&str; 3] = ["velocity_after_0", "velocity_after_1", "velocity_after_2"];
+const FORCE: [&str; 3] = ["force_field_0", "force_field_1", "force_field_2"];
 
 impl Buffers {
     /// All by their names in WGSL, for a step of the given parity.
@@ -82,12 +92,12 @@ impl Buffers {
         let names = self.names.iter().map(String::as_str);
         let mut all: Vec<_> = names.zip(&self.populations).collect();
         if let Some(velocity) = &self.velocity {
-            all.push(("velocity_before", &velocity[usize::from(odd)]));
-            all.push(("velocity_after", &velocity[usize::from(!odd)]));
+            all.extend(BEFORE.into_iter().zip(&velocity[usize::from(odd)]));
+            all.extend(AFTER.into_iter().zip(&velocity[usize::from(!odd)]));
         }
+        all.extend(FORCE.into_iter().zip(&self.force));
         let optional = [
             ("flags", &self.flags),
-            ("force_field", &self.force),
             ("guard_state", &self.guard),
             ("wall_velocity", &self.wall_velocity),
         ];
@@ -239,10 +249,16 @@ impl Lattice {
     }
 
     /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of
-    /// [`Lattice::set_psm_bricks`], laid out as `kernels/psm/psm_planes.wgsl` says. Another
-    /// buffer after that call, if it had to grow.
-    pub fn psm_planes(&self) -> Option<&wgpu::Buffer> {
-        self.streams.psm_planes()
+    /// [`Lattice::set_psm_bricks`], as `kernels/psm/psm_planes.wgsl` lists them: each binding with its name in WGSL. It has
+    /// [`super::PSM_PLANES`] over their number, rounded up, for one brick after the other. Other buffers after that
+    /// call, if they had to grow; none without a solid operator.
+    pub fn psm_planes(&self) -> impl Iterator<Item = (&str, &wgpu::Buffer)> {
+        PSM_NAMES.into_iter().zip(self.streams.psm_planes())
+    }
+
+    /// Over how many bindings its fields are spread.
+    pub fn bindings(&self) -> Bindings {
+        self.bindings
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
@@ -324,36 +340,31 @@ fn make_buffers(
     setup: &Setup,
     grid: &Grid,
     geometry: &Geometry,
-    bindings: u32,
+    bindings: Bindings,
 ) -> Buffers {
-    let scalars = u64::from(grid.element_count()) * u64::from(grid.lanes);
+    let scalars = u64::from(grid.scalar_count());
     let word = super::bytes_a_population(setup.storage);
-    let each = populations::Q.div_ceil(bindings);
-    let populations: Vec<_> = (0..populations::Q.div_ceil(each))
-        .map(|b| {
-            let directions = u64::from(each.min(populations::Q - b * each));
-            result_buffer(device, "populations", directions * scalars * word)
-        })
-        .collect();
+    let spread = |label, count, bindings, bytes| {
+        let planes = planes(count, bindings).into_iter();
+        planes
+            .map(|own| result_buffer(device, label, own.len() as u64 * bytes))
+            .collect::<Vec<_>>()
+    };
+    let populations = spread(
+        "populations",
+        populations::Q,
+        bindings.populations,
+        scalars * word,
+    );
     let names = (0..populations.len())
         .map(|b| format!("populations_{b}"))
         .collect();
-    let velocity = || result_buffer(device, "velocity", 12 * scalars);
+    let velocity = || spread("velocity", 3, bindings.vectors, 4 * scalars);
     let force = match &setup.force {
-        Force::Field(field) => {
-            let mut values = vec![0f32; 3 * scalars as usize];
-            for (cell, force) in grid.domain().zip(field) {
-                for a in 0..3 {
-                    values[a * scalars as usize + grid.scalar_of(cell) as usize] = force[a];
-                }
-            }
-            Some(storage(
-                device,
-                "force field",
-                bytemuck::cast_slice(&values),
-            ))
-        }
-        _ => None,
+        Force::Field(field) => vectors(grid, bindings.vectors, |n| field[n])
+            .map(|values| storage(device, "force field", bytemuck::cast_slice(&values)))
+            .collect(),
+        _ => Vec::new(),
     };
     let moving = wall_velocities(setup, grid, &geometry.moving);
     let list = |label, values: &[u32]| {
@@ -385,6 +396,25 @@ fn make_buffers(
         wall_velocity: (!moving.is_empty())
             .then(|| storage(device, "wall velocity", bytemuck::cast_slice(&moving))),
     }
+}
+
+/// What each binding of a field of vectors holds; `of` gives the vector of a domain cell.
+pub(super) fn vectors(
+    grid: &Grid,
+    bindings: u32,
+    of: impl Fn(usize) -> [f32; 3],
+) -> impl Iterator<Item = Vec<f32>> {
+    let scalars = grid.scalar_count() as usize;
+    planes(3, bindings).into_iter().map(move |own| {
+        let mut values = vec![0f32; own.len() * scalars];
+        for (n, cell) in grid.domain().enumerate() {
+            let (at, vector) = (grid.scalar_of(cell) as usize, of(n));
+            for (plane, a) in own.clone().enumerate() {
+                values[plane * scalars + at] = vector[a as usize];
+            }
+        }
+        values
+    })
 }
 
 /// Velocities of the moving faces of each cell: normal to x, y, z, three components each.

@@ -1,7 +1,7 @@
 //! Where a cell lies: padding, lanes, elements, bricks.
 
 use super::{Setup, Storage};
-use crate::{Error, Result};
+use crate::{Error, Result, gpu::kernel::MAX_GROUPS};
 
 /// The grid as it lies in memory.
 ///
@@ -63,7 +63,8 @@ impl Grid {
         let elements = [pad(x, 0), pad(y, 1), depth.div_ceil(lanes)];
         let elements_all = elements.iter().map(|&n| u128::from(n)).product::<u128>();
         let total = elements_all * u128::from(lanes);
-        let most = u64::from(u32::MAX) / 27;
+        // What folding a dispatch adds has an index, too.
+        let most = u64::from(u32::MAX - 64 * MAX_GROUPS);
         if total > u128::from(most) {
             return Err(Error::Limit {
                 name: "cells of one grid".into(),
@@ -83,6 +84,11 @@ impl Grid {
     /// Elements in all.
     pub fn element_count(&self) -> u32 {
         self.elements.iter().product()
+    }
+
+    /// Cells of all elements, padding included.
+    pub fn scalar_count(&self) -> u32 {
+        self.element_count() * self.lanes
     }
 
     /// Fluid cells in all.

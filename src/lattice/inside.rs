@@ -63,7 +63,7 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<Inside> {
-        if lattice.psm_planes().is_none() {
+        if lattice.setup().solid_operator.is_none() {
             return Ok(Inside::default());
         }
         let shown = self.state(device, queue, lattice).await?.velocity;

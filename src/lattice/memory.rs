@@ -1,16 +1,16 @@
 //! What a fluid takes on a device, and over how many bindings it is spread.
 
-use super::{Face, Force, Grid, Setup, Storage, populations::Q};
-use crate::{Error, Result};
+use super::{Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q};
+use crate::{Error, Result, gpu::kernel::largest_binding};
 
 /// Bytes and bindings of a fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// Storage bindings of the populations.
-    pub bindings: u32,
+    /// Storage bindings of its fields.
+    pub bindings: Bindings,
     /// Bytes of the populations.
     pub populations: u64,
-    /// Bytes of everything else that stays on the device.
+    /// Bytes of everything else that stays on the device; what blocks leave in cells, 36 bytes each, comes as they reach them.
     pub others: u64,
     /// Bytes of the largest binding.
     pub largest_binding: u64,
@@ -26,98 +26,196 @@ pub fn bytes_a_population(storage: Storage) -> u64 {
     }
 }
 
+/// A setup on a device.
+struct Room<'a> {
+    setup: &'a Setup,
+    /// Bytes of a binding.
+    binding: u64,
+    /// Storage buffers of a kernel.
+    buffers: u32,
+}
+
+impl Room<'_> {
+    /// Bindings that fields with so many planes of so many bytes need; none if one does not hold a plane.
+    fn bindings(&self, planes: u32, bytes: u64) -> Option<u32> {
+        let each = (self.binding / bytes.max(1)).min(planes.into()) as u32;
+        (each > 0).then(|| planes.div_ceil(each))
+    }
+
+    /// Bindings of the populations of so many scalars.
+    fn populations(&self, scalars: u64) -> Option<u32> {
+        // In 16 bits, too, scalars have an index of 32 bits.
+        let bytes = scalars * bytes_a_population(self.setup.storage);
+        let indexed = u64::from(u32::MAX) / scalars.max(1) * bytes;
+        let least = Self {
+            binding: self.binding.min(indexed),
+            ..*self
+        }
+        .bindings(Q, bytes)?;
+        match self.setup.bindings {
+            Some(n) => (least <= n.clamp(1, Q)).then_some(n.clamp(1, Q)),
+            None => Some(least),
+        }
+    }
+
+    fn has_vectors(&self) -> bool {
+        self.setup.wale.is_some() || self.has_force()
+    }
+
+    fn has_force(&self) -> bool {
+        matches!(self.setup.force, Force::Field(_))
+    }
+
+    /// Bindings besides the populations, one of them for the planes of blocks, if each field of vectors has so many: of
+    /// collide_stream, of a boundary pass, of macroscopic.
+    fn others(&self, vectors: u32) -> u32 {
+        let setup = self.setup;
+        let moving = setup.faces.iter().flatten().any(|f| match f {
+            Face::Wall(velocity) => *velocity != [0.0; 3],
+            Face::Velocity(_) => true,
+            _ => false,
+        });
+        let field = vectors * u32::from(self.has_force());
+        let flags = u32::from(!setup.is_all_fluid());
+        let step = field
+            + 2 * flags
+            + 2 * vectors * u32::from(setup.wale.is_some())
+            + u32::from(setup.max_speed > 0.0)
+            + u32::from(setup.solid_operator.is_some());
+        let boundary = if moving { 2 } else { flags };
+        step.max(boundary).max(4 + flags + field)
+    }
+
+    /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm.
+    fn with_psm_planes(&self, vectors: u32) -> u32 {
+        7.max(5 + vectors * u32::from(self.has_force()))
+    }
+
+    /// How a grid of so many scalars, so many of them in bricks, is spread; none if the device does not hold it.
+    fn spread(&self, scalars: u64, in_bricks: u64) -> Option<Bindings> {
+        let vectors = match self.has_vectors() {
+            true => self.bindings(3, 4 * scalars)?,
+            false => 1,
+        };
+        self.bindings(1, 4 * scalars)?;
+        let populations = self.populations(scalars)?;
+        let left = self
+            .buffers
+            .checked_sub(populations + self.others(vectors))?;
+        let psm_planes = match self.setup.solid_operator {
+            // As if blocks reached all bricks. Where that is too many, fewer may be reached.
+            Some(_) => self
+                .bindings(PSM_PLANES, 4 * in_bricks)
+                .unwrap_or(PSM_PLANES)
+                .min(1 + left)
+                .min(self.buffers.saturating_sub(self.with_psm_planes(vectors)))
+                .max(1),
+            None => 1,
+        };
+        Some(Bindings {
+            populations,
+            vectors,
+            psm_planes,
+        })
+    }
+
+    /// The largest number of scalars that the device holds.
+    fn most_scalars(&self) -> u64 {
+        let (mut fits, mut too_many) = (0, u64::from(u32::MAX));
+        while too_many - fits > 1 {
+            let middle = fits.midpoint(too_many);
+            match self.spread(middle, middle) {
+                Some(_) => fits = middle,
+                None => too_many = middle,
+            }
+        }
+        fits
+    }
+}
+
 /// The bytes that a fluid takes, spread so that the limits hold.
 ///
 /// # Errors
 /// [`Error::Limit`] that names the limit, and how many cells would fit if it is one of bytes.
 pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memory> {
-    let scalars = u64::from(grid.element_count()) * u64::from(grid.lanes);
-    let direction = scalars * bytes_a_population(setup.storage);
-    let binding_limit = limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size);
-    let fluid = setup.is_all_fluid();
-    let moving = setup.faces.iter().flatten().any(|f| match f {
-        Face::Wall(velocity) => *velocity != [0.0; 3],
-        Face::Velocity(_) => true,
-        _ => false,
-    });
-    // Bindings besides the populations: of collide_stream, of a boundary pass, of macroscopic.
-    let field = u32::from(matches!(setup.force, Force::Field(_)));
-    let flags = u32::from(!fluid);
-    let step = field
-        + 2 * flags
-        + 2 * u32::from(setup.wale.is_some())
-        + u32::from(setup.max_speed > 0.0)
-        + u32::from(setup.solid_operator.is_some());
-    let boundary = if moving { 2 } else { flags };
-    let other_bindings = step.max(boundary).max(4 + flags + field);
-    let free = limits
-        .max_storage_buffers_per_shader_stage
-        .saturating_sub(other_bindings);
-    let each = (binding_limit / direction.max(1)).min(Q.into()) as u32;
-    let wanted = match setup.bindings {
-        Some(n) => n.clamp(1, Q),
-        None if each == 0 => Q,
-        None => Q.div_ceil(each),
+    let room = Room {
+        setup,
+        binding: largest_binding(limits),
+        buffers: limits.max_storage_buffers_per_shader_stage,
     };
+    let scalars = u64::from(grid.scalar_count());
+    let direction = scalars * bytes_a_population(setup.storage);
+    let (least, others) = (setup.bindings.map_or(1, |n| n.clamp(1, Q)), room.others(1));
     // A smaller grid mends neither of these.
-    if free == 0 || setup.bindings.is_some() && wanted > free {
-        let least = setup.bindings.map_or(1, |_| wanted);
+    if least + others > room.buffers {
         let mut remedy = format!(
-            "the populations take {least} of them and the rest of this setup {other_bindings}; open the device with a higher \
+            "the populations take {least} of them and the rest of this setup {others}; open the device with a higher \
              `max_storage_buffers_per_shader_stage`, if its adapter has it"
         );
-        if wanted > free && free > 0 {
+        if let Some(free) = room.buffers.checked_sub(others).filter(|&free| free > 0) {
             remedy += &format!(", or set `bindings` to at most {free}");
         }
         return Err(Error::Limit {
             name: "storage buffers a shader stage of this device".into(),
-            wants: u64::from(least + other_bindings),
-            has: limits.max_storage_buffers_per_shader_stage.into(),
+            wants: u64::from(least + others),
+            has: room.buffers.into(),
             remedy,
         });
     }
-    // Of what is not populations, the vectors of a field have one binding, and each result has one.
-    let vectors = setup.wale.is_some() || field == 1;
-    let widest = if vectors { 12 } else { 4 };
-    let spread = each > 0 && wanted <= free && Q.div_ceil(wanted) <= each;
-    if !spread || widest * scalars > binding_limit {
-        // The largest number of directions a binding that the free bindings leave.
-        let fit = binding_limit / u64::from(Q.div_ceil(free.clamp(1, Q)));
-        let fit = (fit / bytes_a_population(setup.storage)).min(binding_limit / widest);
-        let (what, wants) = match (spread, vectors) {
-            (false, _) => (
+    let padded = |a: usize| u64::from(grid.bricks()[a]) * u64::from(grid.brick[a]);
+    let in_bricks = padded(0) * padded(1) * padded(2) * u64::from(grid.lanes);
+    let Some(bindings) = room.spread(scalars, in_bricks) else {
+        // Each plane has one binding, and of the populations as many as are free share one.
+        let vectors = room.bindings(3, 4 * scalars).unwrap_or(3);
+        let free = match room.has_vectors() {
+            true => room.buffers.saturating_sub(room.others(vectors)),
+            false => room.buffers - others,
+        };
+        let (what, wants) = match room.populations(scalars) {
+            Some(wanted) if wanted <= free => ("a number in each cell".into(), 4 * scalars),
+            _ => (
                 format!("{free} of them free for the populations"),
-                direction * u64::from(Q.div_ceil(wanted.min(free).max(1))),
+                direction * u64::from(Q.div_ceil(least.max(free).min(Q).max(1))),
             ),
-            (true, true) => ("a vector in each cell".into(), widest * scalars),
-            (true, false) => ("a number in each cell".into(), widest * scalars),
         };
         return Err(Error::Limit {
             name: format!("bytes of one storage binding ({what})"),
             wants,
-            has: binding_limit,
+            has: room.binding,
             remedy: format!(
-                "the adapter holds about {fit} cells in one grid; use a larger cell, 16-bit storage, \
-                 or another adapter"
+                "the adapter holds about {} cells in one grid; use a larger cell, 16-bit storage, or another adapter",
+                room.most_scalars()
             ),
         });
-    }
+    };
+    let Bindings {
+        populations,
+        vectors,
+        psm_planes,
+    } = bindings;
     let others = [
         (setup.wale.is_some(), 24 * scalars),
-        (!fluid, 4 * u64::from(grid.element_count())),
-        (field == 1, 12 * scalars),
+        (!setup.is_all_fluid(), 4 * u64::from(grid.element_count())),
+        (room.has_force(), 12 * scalars),
     ];
+    let widest = match room.has_vectors() {
+        true => 4 * scalars * u64::from(3_u32.div_ceil(vectors)),
+        false => 4 * scalars,
+    };
+    let step = populations + room.others(vectors) + psm_planes - 1;
+    let of_blocks = match setup.solid_operator {
+        Some(_) => room.with_psm_planes(vectors) + psm_planes,
+        None => 0,
+    };
     Ok(Memory {
-        bindings: wanted,
+        bindings,
         populations: direction * u64::from(Q),
         others: others
             .iter()
             .filter(|(used, _)| *used)
             .map(|(_, bytes)| bytes)
             .sum(),
-        largest_binding: (direction * u64::from(Q.div_ceil(wanted))).max(widest * scalars),
-        most_bindings: wanted + other_bindings,
+        largest_binding: (direction * u64::from(Q.div_ceil(populations))).max(widest),
+        most_bindings: step.max(of_blocks),
     })
 }

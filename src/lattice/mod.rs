@@ -49,6 +49,7 @@ mod observe;
 mod populations;
 mod program;
 mod setup;
+mod spread;
 mod stages;
 mod start;
 mod streams;
@@ -65,6 +66,9 @@ pub use observe::{Derived, Fault, Observer, Sums};
 #[doc(hidden)]
 pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
+pub use spread::{Bindings, PSM_PLANES};
+#[doc(hidden)]
+pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;
 pub use start::State;
 pub use traffic::{bytes_a_cell, bytes_a_step};

@@ -119,7 +119,7 @@ impl Observer {
             lattice.cell_dispatch(device, &dispatch)
         };
         let macroscopic = [make(0)?, make(1)?];
-        let velocity_psm = match lattice.psm_planes() {
+        let velocity_psm = match lattice.setup.solid_operator {
             Some(_) => {
                 let program = lattice.cell_program("velocity_psm");
                 let kernel = lattice.cell_kernel(device, &program, "velocity_psm", &[])?;
@@ -164,7 +164,7 @@ impl Observer {
         };
         // Both may be other buffers than the last time.
         let mut buffers = vec![("bricks", list), ("density", &self.density)];
-        buffers.extend(lattice.psm_planes().map(|kept| ("psm_planes", kept)));
+        buffers.extend(lattice.psm_planes());
         buffers.extend(VELOCITY_OUT.into_iter().zip(&self.velocity));
         buffers.extend(lattice.buffers.named(false));
         let bind = kernel.bind(device, &buffers)?;

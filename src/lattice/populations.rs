@@ -1,15 +1,16 @@
-//! The one piece of shader text that is generated: populations over the bindings of the device.
+//! How shaders reach the populations.
 
-use super::{Setup, Storage};
-use std::fmt::Write;
+use super::{
+    Setup, Storage,
+    spread::{ELEMENTS, Field, SCALARS, planes, vector},
+};
 
 /// Directions of the lattice.
 pub const Q: u32 = 27;
 
 /// Words of direction `s` and element `e` behind `read_word(s, e)` and `write_word(s, e, word)`.
 ///
-/// The directions are spread over `bindings` buffers, the same number in each but the last. After
-/// inlining `s` is a literal, so that of the chain of comparisons one access is left.
+/// The directions are spread over `bindings` buffers, the same number in each but the last.
 pub fn accessors(bindings: u32, setup: &Setup) -> String {
     let (word, file) = match (setup.storage, setup.lanes) {
         (Storage::F32, _) => ("Reals", ", $reals"),
@@ -17,28 +18,16 @@ pub fn accessors(bindings: u32, setup: &Setup) -> String {
         (Storage::F16, 4) => ("vec2<u32>", ""),
         (Storage::F16, _) => ("u32", ""),
     };
-    let each = Q.div_ceil(bindings);
-    let used = Q.div_ceil(each);
-    let mut text = format!("// needs grid{file}\nalias Word = {word};\n");
-    let mut get = String::from("fn read_word(s: u32, e: u32) -> Word {\n");
-    let mut put = String::from("fn write_word(s: u32, e: u32, word: Word) {\n");
-    let elements = "NX * NY * SLICES";
-    for b in 0..used {
-        let _ = writeln!(
-            text,
-            "@group(0) @binding({b}) var<storage, read_write> populations_{b}: array<Word>;"
-        );
-        let at = format!("populations_{b}[(s - {}u) * ({elements}) + e]", b * each);
-        let last = (b + 1) * each;
-        if b + 1 < used {
-            let _ = writeln!(get, "    if (s < {last}u) {{ return {at}; }}");
-            let _ = writeln!(put, "    if (s < {last}u) {{ {at} = word; return; }}");
-        } else {
-            let _ = writeln!(get, "    return {at};\n}}");
-            let _ = writeln!(put, "    {at} = word;\n}}");
-        }
-    }
-    text + &get + &put
+    let field = Field {
+        name: "populations",
+        binding: 0,
+        word: "Word",
+        parameters: "e: u32",
+        read: Some("read_word"),
+        write: Some("write_word"),
+    };
+    let text = field.text(&planes(Q, bindings), |own| vector(own, ELEMENTS));
+    format!("// needs grid{file}\nalias Word = {word};\n{text}")
 }
 
 /// `read_scalar(s, n)` and `write_scalar(s, n, value)`: one cell's population, of direction `s` and
@@ -48,34 +37,21 @@ pub fn accessors(bindings: u32, setup: &Setup) -> String {
 /// parity `half` of the pass, and whoever writes is dispatched once for each, so that no two invocations
 /// write one word.
 pub fn scalars(bindings: u32, storage: Storage) -> String {
-    let each = Q.div_ceil(bindings);
-    let used = Q.div_ceil(each);
-    let count = "NX * NY * SLICES * LANES_OF_ELEMENT";
-    let (kind, shift) = match storage {
+    let (word, shift) = match storage {
         Storage::F32 => ("f32", ""),
         Storage::F16 => ("u32", " >> 1u"),
     };
-    let mut text = String::from("// needs scalar_grid\n");
-    let mut read = format!("fn read_word(s: u32, n: u32) -> {kind} {{\n");
-    let mut write = format!("fn write_word(s: u32, n: u32, word: {kind}) {{\n");
-    for b in 0..used {
-        let _ = writeln!(
-            text,
-            "@group(0) @binding({b}) var<storage, read_write> populations_{b}: array<{kind}>;"
-        );
-        let at = format!(
-            "populations_{b}[((s - {}u) * ({count}) + n){shift}]",
-            b * each
-        );
-        let last = (b + 1) * each;
-        if b + 1 < used {
-            let _ = writeln!(read, "    if (s < {last}u) {{ return {at}; }}");
-            let _ = writeln!(write, "    if (s < {last}u) {{ {at} = word; return; }}");
-        } else {
-            let _ = writeln!(read, "    return {at};\n}}");
-            let _ = writeln!(write, "    {at} = word;\n}}");
-        }
-    }
+    let field = Field {
+        name: "populations",
+        binding: 0,
+        word,
+        parameters: "e: u32",
+        read: Some("read_word"),
+        write: Some("write_word"),
+    };
+    let text = field.text(&planes(Q, bindings), |own| {
+        format!("({}){shift}", vector(own, SCALARS))
+    });
     let access = match storage {
         Storage::F32 => {
             "fn read_scalar(s: u32, n: u32) -> f32 { return read_word(s, n); }
@@ -95,5 +71,5 @@ fn write_scalar(s: u32, n: u32, value: f32) {
 "
         }
     };
-    text + &read + &write + access
+    format!("// needs scalar_grid\n{text}{access}")
 }

@@ -1,7 +1,8 @@
 //! Which files and numbers make the kernels of a setup.
 
 use super::{
-    Collision, Equilibrium, Face, Force, Grid, Setup, SolidOperator, Storage, populations,
+    Bindings, Collision, Equilibrium, Face, Force, Grid, PsmAccess, Setup, SolidOperator, Storage,
+    populations, psm_storage, spread,
 };
 use crate::gpu::link::Program;
 
@@ -19,12 +20,21 @@ pub enum BrickKind {
 }
 
 /// A kernel over elements, with the storage, lanes and bindings of the setup.
-fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
+fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
     let workgroup: u32 = setup.brick.iter().product();
     let program = Program::new(entry)
         .text("workgroup", format!("const WORKGROUP = {workgroup}u;\n"))
         .slot("lanes", &format!("lanes_{}", setup.lanes))
-        .text("populations", populations::accessors(bindings, setup));
+        .text(
+            "populations",
+            populations::accessors(bindings.populations, setup),
+        )
+        .text("velocities", spread::velocities(bindings.vectors))
+        .text("forces", spread::forces(bindings.vectors, false))
+        .text(
+            "psm_storage",
+            psm_storage(bindings.psm_planes, PsmAccess::Elements),
+        );
     let wide = setup.is_wide();
     let word = format!(
         "word_f16_{}{}",
@@ -48,7 +58,7 @@ fn base(entry: &str, setup: &Setup, bindings: u32) -> Program {
 }
 
 /// The fused collision and streaming of a setup.
-pub fn collide_stream(setup: &Setup, bindings: u32, kind: BrickKind) -> Program {
+pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickKind) -> Program {
     let either = |condition, yes, no| if condition { yes } else { no };
     let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
     let operator = setup
@@ -59,7 +69,7 @@ pub fn collide_stream(setup: &Setup, bindings: u32, kind: BrickKind) -> Program 
             SolidOperator::Noble => "operator_noble",
             SolidOperator::Superposition => "operator_superposition",
         });
-    let program = base("collide_stream", setup, bindings);
+    let program = base("collide_stream", setup, bindings.into());
     let program = match operator {
         Some(operator) => program
             .slot("psm", "psm_cells")
@@ -107,7 +117,8 @@ pub fn collide_stream(setup: &Setup, bindings: u32, kind: BrickKind) -> Program 
 }
 
 /// A kernel of a setup for single cells: at walls and faces, at the start, for output.
-pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
+pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -> Program {
+    let bindings = bindings.into();
     let flags = match setup.is_all_fluid() {
         true => "neighbour_flags_none",
         false => "neighbour_flags_stored",
@@ -118,7 +129,15 @@ pub fn single_cells(setup: &Setup, bindings: u32, entry: &str) -> Program {
         Force::Field(_) => "cell_force_field",
     };
     Program::new(entry)
-        .text("scalars", populations::scalars(bindings, setup.storage))
+        .text(
+            "scalars",
+            populations::scalars(bindings.populations, setup.storage),
+        )
+        .text("forces", spread::forces(bindings.vectors, true))
+        .text(
+            "psm_storage",
+            psm_storage(bindings.psm_planes, PsmAccess::Cells),
+        )
         .slot("lanes", "lanes_1")
         .slot("neighbour_flags", flags)
         .slot("equilibrium", equilibrium(setup.equilibrium))

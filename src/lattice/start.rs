@@ -110,14 +110,10 @@ impl Lattice {
         let Some(buffers) = &self.buffers.velocity else {
             return;
         };
-        let scalars = (self.grid.element_count() * self.grid.lanes) as usize;
-        let mut values = vec![0f32; 3 * scalars];
-        for (n, cell) in self.grid.domain().enumerate() {
-            let at = self.grid.scalar_of(cell) as usize;
-            for a in 0..3 {
-                values[a * scalars + at] = velocity[a][n];
-            }
+        let of = |n: usize| [0, 1, 2].map(|a: usize| velocity[a][n]);
+        let values = fluid::vectors(&self.grid, self.bindings.vectors, of);
+        for (buffer, values) in buffers[self.parity()].iter().zip(values) {
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
         }
-        queue.write_buffer(&buffers[self.parity()], 0, bytemuck::cast_slice(&values));
     }
 }

@@ -1,13 +1,14 @@
 //! Collision and streaming by kinds of brick.
 
 use super::{
-    Geometry, Grid, Setup,
+    Bindings, Geometry, Grid, PSM_PLANES, Setup,
     fluid::{Buffers, result_buffer, storage},
     program::{self, BrickKind},
+    spread::{PSM_NAMES, planes},
 };
 use crate::{
     Error, Result,
-    gpu::kernel::{Kernel, Shader},
+    gpu::kernel::{Kernel, Shader, largest_binding},
 };
 use std::collections::HashSet;
 
@@ -28,9 +29,9 @@ struct Stream {
 pub(super) struct Streams {
     streams: Vec<Stream>,
     /// What blocks leave of the cells of the bricks that they reach.
-    psm_planes: Option<wgpu::Buffer>,
-    /// Bytes of that for one brick.
-    brick_bytes: u64,
+    psm_planes: Vec<wgpu::Buffer>,
+    /// Bytes of that for one brick, in each of them; the first has the most.
+    brick_bytes: Vec<u64>,
 }
 
 impl Streams {
@@ -39,7 +40,7 @@ impl Streams {
         setup: &Setup,
         grid: &Grid,
         geometry: &Geometry,
-        bindings: u32,
+        bindings: Bindings,
         buffers: &Buffers,
     ) -> Result<Self> {
         let all: u32 = grid.bricks().iter().product();
@@ -49,15 +50,16 @@ impl Streams {
             Ok(Shader::new(device, program.link()?))
         };
         let shaders = kinds.iter().map(linked).collect::<Result<Vec<_>>>()?;
-        // Only kernels for bricks with blocks have planes.
-        let planes = shaders
-            .iter()
-            .find_map(|shader| shader.linked().constant("PLANES"));
         let brick: u32 = grid.brick.iter().product();
-        let brick_bytes = 4 * u64::from(planes.unwrap_or_default() * brick * grid.lanes);
-        let psm_planes = setup
-            .solid_operator
-            .map(|_| result_buffer(device, "psm_planes", brick_bytes));
+        let plane = 4 * u64::from(brick * grid.lanes);
+        let brick_bytes: Vec<_> = match setup.solid_operator {
+            Some(_) => planes(PSM_PLANES, bindings.psm_planes),
+            None => Vec::new(),
+        }
+        .iter()
+        .map(|own| own.len() as u64 * plane)
+        .collect();
+        let psm_planes = psm_buffers(device, &brick_bytes, 1);
         let mut streams = Vec::new();
         for (n, ((kind, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
             let kernel = |odd| {
@@ -77,13 +79,12 @@ impl Streams {
             let groups = bricks.len() as u32;
             let list = (kind != BrickKind::All).then(|| {
                 let mut list = counted(&bricks);
-                if psm_planes.is_some() {
+                if !psm_planes.is_empty() {
                     list.resize(all as usize + 1, 0);
                 }
                 storage(device, "bricks", bytemuck::cast_slice(&list))
             });
-            let kept = psm_planes.as_ref();
-            let binds = bind(device, &kernels, buffers, list.as_ref(), kept)?;
+            let binds = bind(device, &kernels, buffers, list.as_ref(), &psm_planes)?;
             streams.push(Stream {
                 kind,
                 kernels,
@@ -100,8 +101,8 @@ impl Streams {
     }
 
     /// What blocks leave of the cells of the bricks that they reach.
-    pub fn psm_planes(&self) -> Option<&wgpu::Buffer> {
-        self.psm_planes.as_ref()
+    pub fn psm_planes(&self) -> &[wgpu::Buffer] {
+        &self.psm_planes
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
@@ -120,19 +121,23 @@ impl Streams {
         psm: &[u32],
     ) -> Result<()> {
         let slots = psm.len().max(1) as u64;
-        if let Some(kept) = &mut self.psm_planes {
-            if kept.size() < slots * self.brick_bytes {
+        if let (Some(kept), Some(&brick_bytes)) =
+            (self.psm_planes.first(), self.brick_bytes.first())
+        {
+            if kept.size() < slots * brick_bytes {
                 // Half as much again, so that a block that rotates does not reallocate repeatedly.
-                let most = most_slots(device, self.brick_bytes, slots)?;
-                let bytes = most.min(slots + slots / 2) * self.brick_bytes;
-                *kept = result_buffer(device, "psm_planes", bytes);
+                let most = most_slots(device, brick_bytes, slots)?;
+                self.psm_planes =
+                    psm_buffers(device, &self.brick_bytes, most.min(slots + slots / 2));
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
-                    stream.binds = bind(device, &stream.kernels, buffers, list, Some(kept))?;
+                    stream.binds = bind(device, &stream.kernels, buffers, list, &self.psm_planes)?;
                 }
             }
             if psm.is_empty() {
-                queue.write_buffer(kept, 0, &vec![0; self.brick_bytes as usize]);
+                for (kept, bytes) in self.psm_planes.iter().zip(&self.brick_bytes) {
+                    queue.write_buffer(kept, 0, &vec![0; *bytes as usize]);
+                }
             }
         }
         for (stream, (_, bricks)) in self.streams.iter_mut().zip(sorted(setup, geometry, psm)) {
@@ -168,7 +173,7 @@ impl Streams {
             .filter_map(|stream| stream.list.as_ref());
         [
             lists.map(wgpu::Buffer::size).sum(),
-            self.psm_planes.as_ref().map_or(0, wgpu::Buffer::size),
+            self.psm_planes.iter().map(wgpu::Buffer::size).sum(),
         ]
     }
 }
@@ -216,23 +221,28 @@ fn bind(
     kernels: &[Kernel; 2],
     buffers: &Buffers,
     list: Option<&wgpu::Buffer>,
-    psm_planes: Option<&wgpu::Buffer>,
+    psm_planes: &[wgpu::Buffer],
 ) -> Result<[wgpu::BindGroup; 2]> {
     let bind = |parity: usize| {
         let mut named = buffers.named(parity == 1);
         named.extend(list.map(|list| ("bricks", list)));
-        named.extend(psm_planes.map(|kept| ("psm_planes", kept)));
+        named.extend(PSM_NAMES.into_iter().zip(psm_planes));
         kernels[parity].bind(device, &named)
     };
     Ok([bind(0)?, bind(1)?])
 }
 
+/// The planes of so many bricks.
+fn psm_buffers(device: &wgpu::Device, brick_bytes: &[u64], slots: u64) -> Vec<wgpu::Buffer> {
+    let bytes = brick_bytes.iter();
+    bytes
+        .map(|bytes| result_buffer(device, "psm_planes", slots * bytes))
+        .collect()
+}
+
 /// Slots that a binding holds.
 fn most_slots(device: &wgpu::Device, brick_bytes: u64, wanted: u64) -> Result<u64> {
-    let limits = device.limits();
-    let has = limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size);
+    let has = largest_binding(&device.limits());
     let most = has / brick_bytes;
     if wanted <= most {
         return Ok(most);

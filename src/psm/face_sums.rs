@@ -36,7 +36,7 @@ pub(super) struct FaceSums {
 impl FaceSums {
     pub fn new(device: &wgpu::Device, lattice: &Lattice, requested: Vec<usize>) -> Result<Self> {
         let grid = lattice.grid();
-        let linked = program::reduce_faces(grid).link()?;
+        let linked = program::spread(program::reduce_faces(grid), lattice).link()?;
         let mut constants = linked.constants_of(&program::constants(grid));
         constants.push(("VISCOSITY", lattice.setup().nu));
         Ok(Self {
@@ -108,8 +108,7 @@ impl FaceSums {
                 .map(|(name, b)| (*name, &b.buffer))
         };
         let shared = SHARED.iter().map(|name| (*name, kernels.buffer(name)));
-        let planes = lattice.psm_planes().map(|buffer| ("psm_planes", buffer));
-        let named: Vec<_> = own().chain(shared).chain(planes).collect();
+        let named: Vec<_> = own().chain(shared).chain(lattice.psm_planes()).collect();
         self.binds = Some([
             self.reduce.bind(device, &named)?,
             self.sum.bind(device, &own().collect::<Vec<_>>())?,

@@ -4,7 +4,7 @@ use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     gpu::{
-        kernel::{Kernel, MAX_GROUPS, fold},
+        kernel::{Kernel, MAX_GROUPS, fold, largest_binding},
         link::Program,
     },
     lattice::Lattice,
@@ -30,10 +30,7 @@ impl Growing {
         if bytes <= self.buffer.size() {
             return Ok(false);
         }
-        let limits = device.limits();
-        let most = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
+        let most = largest_binding(&device.limits());
         if bytes > most {
             return Err(Error::Limit {
                 name: format!("bytes of one storage binding ({})", self.label),
@@ -128,8 +125,8 @@ impl Kernels {
         let programs = [
             program::voxelise(grid, walk, forms),
             program::voxelise_edges(grid, forms),
-            program::combine_parts(grid, walk),
-            program::reduce_tiles(grid, walk),
+            program::spread(program::combine_parts(grid, walk), lattice),
+            program::spread(program::reduce_tiles(grid, walk), lattice),
             program::reduce_blocks(),
         ];
         let constants = program::constants(grid);
@@ -198,15 +195,15 @@ impl Kernels {
 
     /// The planes belong to the lattice, which may have made another one.
     fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
-        let Some(planes) = lattice.psm_planes() else {
+        if lattice.setup().solid_operator.is_none() {
             let message = "the lattice has no solid operator, so that no block may be in it";
             return Err(Error::argument("solid_operator", message));
-        };
+        }
         let named: Vec<_> = NAMES
             .iter()
             .zip(&self.buffers)
             .map(|(name, growing)| (*name, &growing.buffer))
-            .chain([("psm_planes", planes)])
+            .chain(lattice.psm_planes())
             .collect();
         let bind = |(kernel, (_, work)): (&Kernel, &(&str, Option<&str>))| {
             let mut named = named.clone();

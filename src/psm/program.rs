@@ -1,6 +1,9 @@
 //! Which files and numbers make the kernels of immersed blocks.
 
-use crate::{gpu::link::Program, lattice::Grid};
+use crate::{
+    gpu::link::Program,
+    lattice::{Grid, Lattice, PsmAccess, psm_storage},
+};
 
 /// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
 /// cell that many faces cut takes four columns through all of them.
@@ -83,13 +86,19 @@ pub fn voxelise_edges(grid: &Grid, forms: Forms) -> Program {
         .slot("hull_fraction", hull)
 }
 
+/// A program whose `psm_planes` are spread as those of `lattice`; without this they have one binding.
+pub(super) fn spread(program: Program, lattice: &Lattice) -> Program {
+    let planes = lattice.bindings().psm_planes;
+    program.text("psm_storage", psm_storage(planes, PsmAccess::Tiles))
+}
+
 /// `combine_parts`: a workgroup a lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
-/// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes`.
+/// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes_0`.
 pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
     walked("combine_parts", grid, walk)
 }
 
-/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes`,
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`,
 /// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
 pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
@@ -107,7 +116,7 @@ pub fn reduce_blocks() -> Program {
 /// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells along it, from where cells no longer
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
 /// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
-/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes`, and
+/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers a job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid) -> Program {
@@ -133,6 +142,7 @@ fn base(entry: &str, grid: &Grid) -> Program {
     let cells = cells(grid);
     Program::new(entry)
         .text("workgroup", format!("const WORKGROUP = {cells}u;\n"))
+        .text("psm_storage", psm_storage(1, PsmAccess::Tiles))
         .slot("lanes", "lanes_1")
 }
 
@@ -146,6 +156,7 @@ fn walked(entry: &str, grid: &Grid, walk: Walk) -> Program {
     let text = format!("const WORKGROUP = {cells}u;\nconst INVOCATIONS = {invocations}u;\n");
     Program::new(entry)
         .text("workgroup", text)
+        .text("psm_storage", psm_storage(1, PsmAccess::Tiles))
         .slot("lanes", "lanes_1")
 }
 

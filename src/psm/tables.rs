@@ -19,7 +19,7 @@ pub const INTERIOR_SUM: f32 = 8.0;
 pub const JOINT_SUM: f32 = 16.0;
 
 /// Numbers that each cell of a brick with blocks has on the device.
-pub const PLANES: usize = 9;
+pub const PLANES: usize = crate::lattice::PSM_PLANES as usize;
 
 /// Numbers that the device adds up for each block.
 pub const WRENCH: usize = 20;

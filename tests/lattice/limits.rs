@@ -6,7 +6,8 @@ use riprap::{
     Error,
     gpu::readback::Readback,
     lattice::{
-        Derived, Face, Force, Grid, Lattice, Observer, Rates, Setup, State, Storage, Sums, memory,
+        Derived, Face, Force, Grid, Lattice, Observer, Rates, Setup, SolidOperator, State, Storage,
+        Sums, memory,
     },
     wgpu,
 };
@@ -94,6 +95,68 @@ fn populations_above_a_binding_of_128_mib_are_spread() {
     let all = Rig::new();
     let (_, found) = run(all.device.limits(), Some(all.most_bindings()));
     assert!(found == expected);
+}
+
+/// Two planes of a field fit in a binding, then one.
+#[test]
+fn vectors_above_a_binding_are_spread() {
+    let mut setup = Setup::periodic([20, 20, 8], 1e-3);
+    (setup.storage, setup.lanes) = (Storage::F16, 2);
+    setup.wale = Some(0.5);
+    setup.force = Force::Field((0..3200).map(|n| [1e-9 * n as f32, 2e-6, 1e-6]).collect());
+    setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+    let state = waves(&setup);
+    let all = Rig::new().device.limits();
+    let run = |limits| {
+        let rig = Rig::with_limits(limits);
+        let mut lattice = rig.start(setup.clone(), &state, true);
+        rig.run(&mut lattice, 5);
+        (lattice.bindings().vectors, rig.populations(&mut lattice))
+    };
+    let (one, expected) = run(all.clone());
+    assert_eq!(one, 1);
+    let plane = 4 * u64::from(Grid::new(&setup).unwrap().scalar_count());
+    for (planes, bindings, buffers) in [(2, 2, 16), (1, 3, 26)] {
+        if all.max_storage_buffers_per_shader_stage >= buffers {
+            let (count, found) = run(wgpu::Limits {
+                max_storage_buffer_binding_size: planes * plane,
+                ..all.clone()
+            });
+            assert_eq!(count, bindings);
+            assert!(found == expected, "{bindings} bindings");
+        }
+    }
+}
+
+/// Bindings of 2 GiB, as discrete adapters have them.
+#[test]
+fn blocks_in_512_cells_an_axis_fit_in_80_gigabytes() {
+    let limits = |buffers| wgpu::Limits {
+        max_storage_buffer_binding_size: (1 << 31) - 4,
+        max_buffer_size: (1 << 31) - 4,
+        max_storage_buffers_per_shader_stage: buffers,
+        ..wgpu::Limits::default()
+    };
+    for (storage, lanes) in [(Storage::F32, 1), (Storage::F16, 2)] {
+        let mut setup = Setup::periodic([512; 3], 1e-3);
+        (setup.storage, setup.lanes) = (storage, lanes);
+        setup.faces = [const { [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])] }; 3];
+        setup.wale = Some(0.325);
+        setup.max_speed = 0.3;
+        setup.solid_operator = Some(SolidOperator::Holdych);
+        let grid = Grid::new(&setup).unwrap();
+        assert!(memory(&setup, &grid, &limits(16)).is_ok());
+        let found = memory(&setup, &grid, &limits(32)).unwrap();
+        assert!(found.most_bindings <= 32 && found.largest_binding < 1 << 31);
+        // Blocks may reach every cell.
+        let cells: u64 = (0..3)
+            .map(|a| u64::from(grid.bricks()[a] * grid.brick[a]))
+            .product::<u64>()
+            * u64::from(lanes);
+        let planes = 4 * cells;
+        assert!(planes * u64::from(9_u32.div_ceil(found.bindings.psm_planes)) < 1 << 31);
+        assert!(found.populations + found.others + 9 * planes < 80_000_000_000);
+    }
 }
 
 /// The message of [`Error::Limit`], after a look at its numbers.

@@ -157,7 +157,7 @@ fn shares_add_and_velocities_are_their_mean() {
             ("lane_first", &bench.buffer(&lane_first)),
             ("lane_tiles", &bench.buffer(&lane_tiles)),
             ("solid_fractions", &bench.buffer(&shares)),
-            ("psm_planes", &saturation),
+            ("psm_planes_0", &saturation),
         ];
         // Either walk.
         let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];

@@ -187,7 +187,7 @@ impl Case {
             ("faces", &bench.buffer(&self.tiling.faces)),
             ("motions", &bench.buffer(&motions)),
             ("solid_fractions", &bench.buffer(&self.shares)),
-            ("psm_planes", &bench.buffer(&self.saturation)),
+            ("psm_planes_0", &bench.buffer(&self.saturation)),
             ("face_first", &bench.buffer(&face_first)),
             ("face_partials", &partials),
             ("face_loads", &loads),

@@ -143,7 +143,7 @@ impl Subject {
         let grid = *self.lattice.grid();
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         self.lattice.set_psm_bricks(device, queue, bricks).unwrap();
-        let buffer = self.lattice.psm_planes().unwrap();
+        let buffer = self.lattice.psm_planes().next().unwrap().1;
         let mut values = vec![f32::NAN; (buffer.size() / 4) as usize];
         for slot in 0..bricks.len() {
             let first = place(&grid, slot, 0, 0, 0);
@@ -177,7 +177,7 @@ impl Subject {
 
     /// What the fluid kernel left of the saturation.
     pub fn psm_planes(&self) -> Vec<f32> {
-        let buffer = self.lattice.psm_planes().unwrap();
+        let buffer = self.lattice.psm_planes().next().unwrap().1;
         let count = (buffer.size() / 4) as usize;
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         let mut readback = Readback::default();

@@ -7,8 +7,8 @@ use riprap::{
         link::{Program, source},
     },
     psm::{
-        FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, TOUCHES,
-        Tile, WRENCH, reduce_faces,
+        FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, Part, TOUCHES, Tile,
+        WRENCH, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -79,7 +79,6 @@ fn constants() {
         ("TOUCHES", TOUCHES),
         ("INTERIOR_SUM", INTERIOR_SUM),
         ("JOINT_SUM", JOINT_SUM),
-        ("PLANES", PLANES as f32),
         ("WRENCH", WRENCH as f32),
         ("FACE_LOAD", FACE_LOAD as f32),
     ] {

@@ -1,5 +1,6 @@
 //! Partially saturated cells: the kernels against formulas in f64, the lattice step against its f64 twin, and the null model.
 
+mod bindings;
 mod combine_solids;
 mod exact;
 mod faces;

@@ -132,7 +132,7 @@ impl Case {
             ("tiles", &bench.buffer(&listed)),
             ("motions", &bench.buffer(&motions)),
             ("solid_fractions", &bench.buffer(&self.shares)),
-            ("psm_planes", &bench.buffer(&self.saturation)),
+            ("psm_planes_0", &bench.buffer(&self.saturation)),
             ("block_first", &bench.buffer(&self.tiling.by_block(BLOCKS))),
             ("partials", &partials),
             ("wrenches", &wrenches),

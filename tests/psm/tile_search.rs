@@ -71,7 +71,7 @@ impl World {
         self.immersed.record_cells(&mut pass);
         drop(pass);
         queue.submit([encoder.finish()]);
-        let buffer = self.lattice.psm_planes().unwrap();
+        let buffer = self.lattice.psm_planes().next().unwrap().1;
         let bricks = self.immersed.bricks();
         let grid = self.lattice.grid();
         let plane = (grid.brick.iter().product::<u32>() * grid.lanes) as usize;

@@ -70,7 +70,7 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
         format!(
             "; {} in {} bindings",
             print::bytes(memory.populations + memory.others),
-            memory.bindings
+            memory.bindings.populations
         )
     });
     eprintln!(

@@ -152,7 +152,7 @@ fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow:
 /// Bytes that blocks take on the device.
 fn buffers(tank: &Tank<'_>) -> u64 {
     let lattice = tank.lattice();
-    let saturation = lattice.psm_planes().map_or(0, riprap::wgpu::Buffer::size);
+    let saturation: u64 = lattice.psm_planes().map(|(_, buffer)| buffer.size()).sum();
     let blocks = tank
         .simulation
         .coupled()

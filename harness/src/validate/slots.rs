@@ -89,13 +89,13 @@ fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let mut names: Vec<_> = (0..bindings).map(|b| format!("populations_{b}")).collect();
     let wale = setup.wale.is_some();
     let optional = [
-        (wale, "velocity_before"),
-        (wale, "velocity_after"),
-        (matches!(setup.force, Force::Field(_)), "force_field"),
+        (wale, "velocity_before_0"),
+        (wale, "velocity_after_0"),
+        (matches!(setup.force, Force::Field(_)), "force_field_0"),
         (setup.max_speed > 0.0, "guard_state"),
         (kind != BrickKind::All, "bricks"),
         (matches!(kind, BrickKind::Flagged | BrickKind::Psm), "flags"),
-        (kind == BrickKind::Psm, "psm_planes"),
+        (kind == BrickKind::Psm, "psm_planes_0"),
     ];
     let used = optional.into_iter().filter(|(used, _)| *used);
     names.extend(used.map(|(_, name)| name.to_owned()));

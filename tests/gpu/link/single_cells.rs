@@ -53,7 +53,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         &["velocity_psm"],
         &[
             "bricks",
-            "psm_planes",
+            "psm_planes_0",
             "density",
             "velocity_x_out",
             "velocity_y_out",
@@ -125,7 +125,7 @@ fn kernels_for_single_cells_in_all_variants() {
             for name in &found {
                 let known = wanted.contains(&name.as_str())
                     || name == "flags" && walls == 1
-                    || name == "force_field" && force == 2;
+                    || name == "force_field_0" && force == 2;
                 assert!(known, "{entry} binds {name}");
             }
             assert!([0, count as usize].contains(&populations), "{entry}");

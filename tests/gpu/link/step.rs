@@ -34,13 +34,13 @@ fn the_step_in_all_variants() {
             .link()
             .unwrap_or_else(|error| panic!("{setup:?} {kind:?} {count}: {error}"));
         let wanted = [
-            ("velocity_before", setup.wale.is_some()),
-            ("velocity_after", setup.wale.is_some()),
-            ("force_field", force == 2),
+            ("velocity_before_0", setup.wale.is_some()),
+            ("velocity_after_0", setup.wale.is_some()),
+            ("force_field_0", force == 2),
             ("guard_state", guard == 1),
             ("bricks", kind != BrickKind::All),
             ("flags", flagged),
-            ("psm_planes", operator.is_some()),
+            ("psm_planes_0", operator.is_some()),
         ];
         let wanted = wanted.iter().filter(|w| w.1).map(|w| w.0.to_owned());
         let found = names(&linked, "collide_stream");

@@ -109,7 +109,7 @@ impl Row {
             grid,
             storage: storage(variant.setup.storage),
             lanes: variant.setup.lanes,
-            bindings: variant.memory.bindings,
+            bindings: variant.memory.bindings.populations,
             brick: variant.setup.brick,
             ms_wall: 1e3 * step.spent.wall,
             ms_device: step.device.map(|s| 1e3 * s),

@@ -1,0 +1,211 @@
+//! Fields of several planes, a number of each cell a plane, spread over the bindings of a device, and the shader text
+//! that finds their planes.
+
+use std::fmt::Write;
+
+/// Bindings of each field of a fluid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bindings {
+    /// Of the populations, [`super::C`] planes.
+    pub populations: u32,
+    /// Of each field of vectors, 3 planes: the velocity of a step, the body force.
+    pub vectors: u32,
+    /// Of what blocks leave in cells, [`PSM_PLANES`] planes.
+    pub psm_planes: u32,
+}
+
+/// So many bindings of the populations, and one of each other field.
+impl From<u32> for Bindings {
+    fn from(populations: u32) -> Self {
+        Self {
+            populations,
+            vectors: 1,
+            psm_planes: 1,
+        }
+    }
+}
+
+/// Numbers that each cell of a brick with blocks has on the device.
+pub const PSM_PLANES: u32 = 9;
+
+/// Names of the bindings of those planes.
+pub(super) const PSM_NAMES: [&str; PSM_PLANES as usize] = [
+    "psm_planes_0",
+    "psm_planes_1",
+    "psm_planes_2",
+    "psm_planes_3",
+    "psm_planes_4",
+    "psm_planes_5",
+    "psm_planes_6",
+    "psm_planes_7",
+    "psm_planes_8",
+];
+
+/// Planes of each of so many bindings: the same number in each but the last.
+pub(super) fn planes(count: u32, bindings: u32) -> Vec<std::ops::Range<u32>> {
+    let each = count.div_ceil(bindings.clamp(1, count));
+    let starts = (0..count).step_by(each as usize);
+    starts.map(|s| s..count.min(s + each)).collect()
+}
+
+/// A field, and how shaders reach it.
+pub(super) struct Field<'a> {
+    /// Name of its bindings, which are numbered from 0.
+    pub name: &'a str,
+    /// Number of the first one.
+    pub binding: u32,
+    /// Type of what stands in a place.
+    pub word: &'a str,
+    /// Parameters of the functions that read and write, after the plane s.
+    pub parameters: &'a str,
+    /// Name of the function that reads; none: there is none.
+    pub read: Option<&'a str>,
+    /// Name of the function that writes; none: there is none.
+    pub write: Option<&'a str>,
+}
+
+impl Field<'_> {
+    /// Bindings and functions; `at` gives the place in a binding that has these planes.
+    ///
+    /// After inlining s is a literal, so that of the chain of comparisons one access is left.
+    pub fn text(
+        &self,
+        planes: &[std::ops::Range<u32>],
+        at: impl Fn(&std::ops::Range<u32>) -> String,
+    ) -> String {
+        let Self {
+            name,
+            word,
+            parameters,
+            ..
+        } = self;
+        let access = if self.write.is_some() {
+            "read_write"
+        } else {
+            "read"
+        };
+        let (mut text, mut get, mut put) = (String::new(), String::new(), String::new());
+        for (n, own) in (0..).zip(planes) {
+            let binding = self.binding + n;
+            let _ = writeln!(
+                text,
+                "@group(0) @binding({binding}) var<storage, {access}> {name}_{n}: array<{word}>;"
+            );
+            let place = format!("{name}_{n}[{}]", at(own));
+            if n as usize + 1 < planes.len() {
+                let end = own.end;
+                let _ = writeln!(get, "    if (s < {end}u) {{ return {place}; }}");
+                let _ = writeln!(put, "    if (s < {end}u) {{ {place} = word; return; }}");
+            } else {
+                let _ = writeln!(get, "    return {place};");
+                let _ = writeln!(put, "    {place} = word;");
+            }
+        }
+        if let Some(read) = self.read {
+            let _ = write!(
+                text,
+                "fn {read}(s: u32, {parameters}) -> {word} {{\n{get}}}\n"
+            );
+        }
+        if let Some(write) = self.write {
+            let _ = write!(
+                text,
+                "fn {write}(s: u32, {parameters}, word: {word}) {{\n{put}}}\n"
+            );
+        }
+        text
+    }
+}
+
+/// `read_before(s, e)` and `write_after(s, e, word)`: component s of the velocity of the step before and of this one, of
+/// element e.
+pub(super) fn velocities(bindings: u32) -> String {
+    let before = Field {
+        name: "velocity_before",
+        binding: 60,
+        word: "Reals",
+        parameters: "e: u32",
+        read: Some("read_before"),
+        write: None,
+    };
+    let after = Field {
+        name: "velocity_after",
+        binding: 63,
+        read: None,
+        write: Some("write_after"),
+        ..before
+    };
+    let text = |field: Field<'_>| field.text(&planes(3, bindings), |own| vector(own, ELEMENTS));
+    format!("// needs grid, $reals\n{}{}", text(before), text(after))
+}
+
+/// `read_force(s, n)`: component s of the force field, of an element or, with `scalars`, of a cell.
+pub(super) fn forces(bindings: u32, scalars: bool) -> String {
+    let (word, count, needs) = match scalars {
+        true => ("f32", SCALARS, "scalar_grid"),
+        false => ("Reals", ELEMENTS, "grid, $reals"),
+    };
+    let field = Field {
+        name: "force_field",
+        binding: 66,
+        word,
+        parameters: "e: u32",
+        read: Some("read_force"),
+        write: None,
+    };
+    let text = field.text(&planes(3, bindings), |own| vector(own, count));
+    format!("// needs {needs}\n{text}")
+}
+
+/// Elements of the grid, and its scalars.
+pub(super) const ELEMENTS: &str = "NX * NY * SLICES";
+pub(super) const SCALARS: &str = "NX * NY * SLICES * LANES_OF_ELEMENT";
+
+/// The place of element e in plane s, where each has `count`.
+pub(super) fn vector(own: &std::ops::Range<u32>, count: &str) -> String {
+    format!("(s - {}u) * ({count}) + e", own.start)
+}
+
+/// Who reaches the planes of partially saturated cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PsmAccess {
+    /// The fluid kernel, by elements.
+    Elements,
+    /// A kernel of tiles, by cells.
+    Tiles,
+    /// A kernel of output, by cells.
+    Cells,
+}
+
+/// `read_psm(s, slot, e)` and `write_psm(s, slot, e, word)`: plane s of the brick `slot`, at its element or cell e.
+pub fn psm_storage(bindings: u32, access: PsmAccess) -> String {
+    let (word, stride, needs) = match access {
+        PsmAccess::Elements => ("Reals", "WORKGROUP", "// needs workgroup, $reals\n"),
+        PsmAccess::Tiles => (
+            "f32",
+            "(WORKGROUP * LANES_OF_ELEMENT)",
+            "// needs workgroup\n",
+        ),
+        PsmAccess::Cells => (
+            "f32",
+            "(BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT)",
+            "",
+        ),
+    };
+    let field = Field {
+        name: "psm_planes",
+        binding: 70,
+        word,
+        parameters: "slot: u32, e: u32",
+        read: Some("read_psm"),
+        write: (access != PsmAccess::Cells).then_some("write_psm"),
+    };
+    let text = field.text(&planes(PSM_PLANES, bindings), |own| {
+        let count = own.len();
+        format!(
+            "slot * ({count}u * {stride}) + (s - {}u) * {stride} + e",
+            own.start
+        )
+    });
+    format!("{needs}{text}")
+}

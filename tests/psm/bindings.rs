@@ -1,0 +1,86 @@
+//! What blocks leave in cells, over several bindings.
+
+use glam::{DQuat, DVec3};
+use kit::Rig;
+use riprap::{
+    geometry::{Polyhedron, Pose},
+    gpu::readback::Readback,
+    lattice::{Grid, Lattice, Populations, Setup, SolidOperator, State, Storage},
+    psm::{Frame, SolidBlock, SolidCells},
+    units::Units,
+    wgpu,
+};
+use std::sync::Arc;
+
+fn setup() -> Setup {
+    let mut setup = Setup::periodic([48, 40, 20], 0.02);
+    (setup.storage, setup.lanes, setup.brick) = (Storage::F16, 2, [8, 2, 2]);
+    setup.wale = Some(0.3);
+    setup.solid_operator = Some(SolidOperator::Holdych);
+    setup
+}
+
+/// A box that turns, for some steps; the bindings of the planes, and the loads of the last step.
+fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
+    let rig = Rig::with_limits(limits);
+    let (device, queue) = (&rig.device, &rig.queue);
+    let mut lattice: Lattice = rig.start(setup(), &State::rest(48 * 40 * 20), false);
+    let units = Units {
+        cell: 1.0,
+        time_step: 1.0,
+        density: 1.0,
+    };
+    let frame = Frame {
+        origin: DVec3::ZERO,
+        units,
+    };
+    let shape = Polyhedron::cuboid(DVec3::new(7.0, 5.0, 6.0))
+        .unwrap()
+        .into();
+    let block = SolidBlock {
+        shape: Arc::new(shape),
+        loaded: true,
+        faces: true,
+    };
+    let mut cells = SolidCells::new(device, &lattice, frame, vec![block]).unwrap();
+    for step in 0..6 {
+        let turned = DQuat::from_rotation_x(0.02 * f64::from(step));
+        let at = DVec3::new(11.3 + 0.05 * f64::from(step), 9.0, 8.0);
+        let pose = Pose::rigid(at, turned, DVec3::X * 0.05, DVec3::X * 0.02);
+        cells.place(device, queue, &mut lattice, &[pose]).unwrap();
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            cells.record_cells(&mut pass);
+            lattice.record_psm(&mut pass);
+            cells.record_loads(&mut pass);
+            lattice.record_rest(&mut pass);
+        }
+        queue.submit([encoder.finish()]);
+    }
+    let mut readback = Readback::default();
+    let count = cells.wrench_count();
+    let read = readback.read::<u32>(device, queue, cells.wrenches(), count);
+    let wrenches = rig.wait(read).unwrap();
+    let bindings = lattice.bindings().psm_planes;
+    (bindings, wrenches, rig.populations(&mut lattice))
+}
+
+#[test]
+fn planes_above_a_binding_are_spread() {
+    let all = Rig::new().device.limits();
+    if all.max_storage_buffers_per_shader_stage < 16 {
+        return;
+    }
+    let (one, loads, populations) = run(all.clone());
+    assert_eq!(one, 1);
+    // Two planes of all cells, of nine.
+    let plane = 4 * u64::from(Grid::new(&setup()).unwrap().scalar_count());
+    let (several, found, there) = run(wgpu::Limits {
+        max_storage_buffer_binding_size: 2 * plane,
+        ..all
+    });
+    assert!(several > 1);
+    assert!(loads.iter().any(|&bits| bits != 0));
+    assert!((found, there) == (loads, populations), "{several} bindings");
+}

@@ -3,6 +3,9 @@
 use super::{Setup, Storage};
 use crate::{Error, Result, gpu::kernel::MAX_GROUPS};
 
+/// Most cells of a grid: each has an index of 32 bits, and so has what folding a dispatch adds.
+const MAX_CELLS: u32 = u32::MAX - 64 * MAX_GROUPS;
+
 /// The grid as it lies in memory.
 ///
 /// Axes that are not periodic carry a layer of cells that are not fluid behind the last one: it
@@ -63,8 +66,7 @@ impl Grid {
         let elements = [pad(x, 0), pad(y, 1), depth.div_ceil(lanes)];
         let elements_all = elements.iter().map(|&n| u128::from(n)).product::<u128>();
         let total = elements_all * u128::from(lanes);
-        // What folding a dispatch adds has an index, too.
-        let most = u64::from(u32::MAX - 64 * MAX_GROUPS);
+        let most = u64::from(MAX_CELLS);
         if total > u128::from(most) {
             return Err(Error::Limit {
                 name: "cells of one grid".into(),

@@ -107,8 +107,8 @@ impl Domain {
 /// How far from whole the number of cells may be: far above the rounding of a division, far
 /// below anything that a user could mean.
 const WHOLE: f64 = 1e-6;
-/// Most cells: kernels index the 27 populations of each with 32 bits.
-const MOST_CELLS: f64 = (u32::MAX / 27) as f64;
+/// Most cells: kernels index them, and what folding a dispatch adds, with 32 bits.
+const MOST_CELLS: f64 = 4_290_773_055.0;
 
 impl Scene {
     pub(super) fn check_domain(&self) -> Result<()> {

@@ -185,8 +185,8 @@ fn more_cells_than_the_device_holds() {
         let remedy = "use a larger cell, 16-bit storage, or another adapter".into();
         ("cell = 1.25e-4", [numbers, remedy])
     } else {
-        let numbers = "2.560e8 cells, more than 1.591e8".into();
-        ("cell = 1e-4", [numbers, "use cell ≥ 1.172e-4 m".into()])
+        let numbers = "1.638e10 cells, more than 4.291e9".into();
+        ("cell = 2.5e-5", [numbers, "use cell ≥ 3.908e-5 m".into()])
     };
     let said = refusal(&mut check("large", &RIGHT.replace("cell = 0.01", cell)));
     for word in &words {

@@ -175,7 +175,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
             Some(wanted) if wanted <= free => ("a number in each cell".into(), 4 * scalars),
             _ => (
                 format!("{free} of them free for the populations"),
-                direction * u64::from(Q.div_ceil(least.max(free).min(Q).max(1))),
+                direction * u64::from(Q.div_ceil(least.max(free).clamp(1, Q))),
             ),
         };
         return Err(Error::Limit {

@@ -7,6 +7,7 @@ use crate::{
     rock::{Period, contact::Placed},
 };
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Heights over a face, cells, at which another block makes it a joint: the thinner fluid transmits only pressure. The
 /// first height finds blocks in contact.
@@ -37,7 +38,8 @@ impl Coupled<'_> {
             poses: &self.blocks().poses(),
             period: self.blocks().period(),
         };
-        let found = neighbour_parts(|n| &*setup[n].shape, poses, block, distance);
+        let all = 0..setup.len();
+        let found = neighbour_parts(|n| &*setup[n].shape, poses, block, (all, distance));
         found.into_iter().map(|other| other.part).collect()
     }
 }
@@ -75,17 +77,96 @@ pub(super) struct Poses<'a> {
     pub period: Option<Period>,
 }
 
-/// The parts of the other blocks, solids and walls that may lie within `distance` (m) of a block, in all periodic images,
+/// Blocks in cells of space, so that those near one are found without a look at all of them.
+#[derive(Debug)]
+pub(super) struct NearBlocks<'a> {
+    poses: Poses<'a>,
+    /// m.
+    cell: DVec3,
+    /// Cells along axes that repeat.
+    count: [Option<i64>; 3],
+    blocks: HashMap<[i64; 3], Vec<usize>>,
+    /// Those that reach farther than a cell.
+    large: Vec<bool>,
+}
+
+impl<'a> NearBlocks<'a> {
+    /// Of blocks at `poses` with radii (m) of which those within `distance` (m) are wanted.
+    pub fn new(radius: impl Fn(usize) -> f64, poses: Poses<'a>, distance: f64) -> Self {
+        let radii: Vec<f64> = (0..poses.poses.len()).map(radius).collect();
+        let mut ascending = radii.clone();
+        ascending.sort_by(f64::total_cmp);
+        // A pile has few sizes, and walls are few.
+        let usual = 2.0 * ascending.get(radii.len() / 2).copied().unwrap_or_default();
+        let least = 2.0 * usual + distance;
+        let count = [0, 1, 2].map(|axis| {
+            let period = poses
+                .period
+                .filter(|period| period.size[axis].is_finite())?;
+            Some(((period.size[axis] / least) as i64).max(1))
+        });
+        let cell = DVec3::from([0, 1, 2].map(|axis| match (count[axis], poses.period) {
+            (Some(count), Some(period)) => period.size[axis] / count as f64,
+            _ => least,
+        }));
+        let mut found = Self {
+            poses,
+            cell,
+            count,
+            blocks: HashMap::new(),
+            large: radii.iter().map(|radius| *radius > usual).collect(),
+        };
+        for block in (0..radii.len()).filter(|block| !found.large[*block]) {
+            let at = found.cell_of(block);
+            found.blocks.entry(at).or_default().push(block);
+        }
+        found
+    }
+
+    fn cell_of(&self, block: usize) -> [i64; 3] {
+        let centre = self.poses.poses[block].centre;
+        let place = match self.poses.period {
+            Some(period) => period.wrapped(centre) - period.origin,
+            None => centre,
+        };
+        let at = (place / self.cell).floor();
+        [0, 1, 2].map(|axis| self.wrapped(axis, at[axis] as i64))
+    }
+
+    fn wrapped(&self, axis: usize, at: i64) -> i64 {
+        self.count[axis].map_or(at, |count| at.rem_euclid(count))
+    }
+
+    /// All that may be within the distance of a block, itself among them, in ascending order.
+    pub fn near(&self, block: usize) -> Vec<usize> {
+        if self.large[block] {
+            return (0..self.large.len()).collect();
+        }
+        let at = self.cell_of(block);
+        let mut found: Vec<usize> = (0..self.large.len()).filter(|n| self.large[*n]).collect();
+        for n in 0..27 {
+            let step = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+            let key = [0, 1, 2].map(|axis| self.wrapped(axis, at[axis] + step[axis]));
+            found.extend(self.blocks.get(&key).into_iter().flatten());
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+/// The parts of the blocks, solids and walls `others` that may lie within `distance` (m) of a block, in all periodic images,
 /// and those of its own images.
 pub(super) fn neighbour_parts<'a>(
     shape: impl Fn(usize) -> &'a Shape,
     Poses { poses, period }: Poses<'_>,
     block: usize,
-    distance: f64,
+    (others, distance): (impl IntoIterator<Item = usize>, f64),
 ) -> Vec<NeighbourPart> {
     let mut found = Vec::new();
     let (centre, reach) = (poses[block].centre, shape(block).radius() + distance);
-    for (other, pose) in poses.iter().enumerate() {
+    for other in others {
+        let pose = &poses[other];
         let limit = reach + shape(other).radius();
         let apart = pose.centre - centre;
         let offsets = match period {
@@ -191,6 +272,53 @@ mod tests {
     use super::*;
     use crate::geometry::Polyhedron;
     use glam::{DQuat, DVec3};
+
+    /// Spheres of two sizes and a large one, in a box that may repeat.
+    #[test]
+    fn the_parts_near_a_block_are_those_of_a_look_at_all_blocks() {
+        let sizes = [0.2, 0.3, 5.0].map(|radius| Shape::sphere(radius).unwrap());
+        let shape = |n: usize| match n {
+            0 => &sizes[2],
+            _ => &sizes[n % 2],
+        };
+        let poses: Vec<Pose> = (0..400)
+            .map(|n| {
+                // Irrational steps spread evenly.
+                let at = DVec3::new(0.7548, 0.5698, 0.3172) * f64::from(n);
+                let centre = (at - at.floor()) * DVec3::new(9.0, 7.0, 8.0) - DVec3::splat(2.0);
+                Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+            })
+            .collect();
+        let period = |size: [f64; 3]| Period {
+            origin: DVec3::splat(-2.0),
+            size: DVec3::from(size),
+        };
+        let periods = [
+            None,
+            Some(period([9.0, f64::INFINITY, 8.0])),
+            Some(period([f64::INFINITY, 7.0, f64::INFINITY])),
+        ];
+        for period in periods {
+            let poses = Poses {
+                poses: &poses,
+                period,
+            };
+            let near = NearBlocks::new(|n| shape(n).radius(), poses, 0.1);
+            let mut fewest = usize::MAX;
+            for block in 0..400 {
+                let of = |others: Vec<usize>| {
+                    let found = neighbour_parts(shape, poses, block, (others, 0.1));
+                    let found = found.into_iter();
+                    found
+                        .map(|part| (part.block, part.offset))
+                        .collect::<Vec<_>>()
+                };
+                fewest = fewest.min(near.near(block).len());
+                assert_eq!(of(near.near(block)), of((0..400).collect()), "{block}");
+            }
+            assert!(fewest < 100, "{fewest}");
+        }
+    }
 
     #[test]
     fn a_face_is_in_a_joint_under_a_near_block() {

@@ -1,7 +1,9 @@
 //! Uplift in joints too thin for SPH particles.
 
 use super::{
-    joint_faces::{NeighbourPart, Poses, add_pressure, covered_polygon, neighbour_parts},
+    joint_faces::{
+        NearBlocks, NeighbourPart, Poses, add_pressure, covered_polygon, neighbour_parts,
+    },
     joint_rim::{Contiguity, RimEdge, RimParams, RimPressure, RimSample, find_rim, propagate},
     kernel_deficit::KernelDeficit,
 };
@@ -104,20 +106,29 @@ impl JointSeal {
             rims: vec![Vec::new(); poses.len()],
             ..SealedJoints::default()
         };
+        let all = Poses {
+            poses,
+            period: self.period,
+        };
+        let radius = |block: usize| self.shapes[block].radius();
+        let near = NearBlocks::new(radius, all, self.deficit.max_height());
         for block in (0..poses.len()).filter(|block| self.loaded[*block] && wet[*block]) {
-            self.add_joints_of(&mut sealed, poses, block);
+            self.add_joints_of(&mut sealed, (all, &near), block);
         }
         sealed
     }
 
     /// Adds the closed joints of a block.
-    fn add_joints_of(&self, sealed: &mut SealedJoints, poses: &[Pose], block: usize) {
+    fn add_joints_of(
+        &self,
+        sealed: &mut SealedJoints,
+        (all, near): (Poses<'_>, &NearBlocks<'_>),
+        block: usize,
+    ) {
         let max_height = self.deficit.max_height();
-        let all = Poses {
-            poses,
-            period: self.period,
-        };
-        let neighbours = neighbour_parts(|n| &*self.shapes[n], all, block, max_height);
+        let poses = all.poses;
+        let within = (near.near(block), max_height);
+        let neighbours = neighbour_parts(|n| &*self.shapes[n], all, block, within);
         if neighbours.is_empty() {
             return;
         }

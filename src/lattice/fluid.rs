@@ -13,7 +13,7 @@ use crate::{
     Error, Result,
     gpu::{filled::filled, kernel::Kernel},
 };
-use std::{collections::HashSet, sync::Arc};
+use std::sync::Arc;
 
 /// A dispatch that is ready to be recorded.
 #[derive(Debug)]
@@ -240,8 +240,10 @@ impl Lattice {
             return Err(Error::argument("bricks", message));
         }
         // Two workgroups would share a brick and write over each other.
-        let mut seen = HashSet::with_capacity(bricks.len());
-        if let Some(bad) = bricks.iter().find(|&&brick| !seen.insert(brick)) {
+        let mut ascending = bricks.to_vec();
+        ascending.sort_unstable();
+        if let Some(twice) = ascending.windows(2).find(|pair| pair[0] == pair[1]) {
+            let bad = twice[0];
             let message = format!("brick {bad} is listed twice; list each brick once");
             return Err(Error::argument("bricks", message));
         }

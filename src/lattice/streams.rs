@@ -10,7 +10,6 @@ use crate::{
     Error, Result,
     gpu::kernel::{Kernel, Shader, largest_binding},
 };
-use std::collections::HashSet;
 
 /// The dispatches of one kind of brick.
 #[derive(Debug)]
@@ -32,6 +31,8 @@ pub(super) struct Streams {
     psm_planes: Vec<wgpu::Buffer>,
     /// Bytes of that for one brick, in each of them; the first has the most.
     brick_bytes: Vec<u64>,
+    /// The bricks that blocks reach.
+    psm_bricks: Vec<u32>,
 }
 
 impl Streams {
@@ -97,6 +98,7 @@ impl Streams {
             streams,
             psm_planes,
             brick_bytes,
+            psm_bricks: Vec::new(),
         })
     }
 
@@ -120,6 +122,9 @@ impl Streams {
         (setup, geometry, buffers): (&Setup, &Geometry, &Buffers),
         psm: &[u32],
     ) -> Result<()> {
+        if self.psm_bricks == psm {
+            return Ok(());
+        }
         let slots = psm.len().max(1) as u64;
         if let (Some(kept), Some(&brick_bytes)) =
             (self.psm_planes.first(), self.brick_bytes.first())
@@ -146,6 +151,7 @@ impl Streams {
                 queue.write_buffer(list, 0, bytemuck::cast_slice(&counted(&bricks)));
             }
         }
+        self.psm_bricks = psm.to_vec();
         Ok(())
     }
 
@@ -198,15 +204,28 @@ fn sorted(setup: &Setup, geometry: &Geometry, psm: &[u32]) -> Vec<(BrickKind, Ve
         [] => spare.into_iter().copied().collect(),
         _ => psm.to_vec(),
     };
-    let taken: HashSet<u32> = first.iter().copied().collect();
-    let others = |list: &[u32]| -> Vec<u32> {
-        let others = list.iter().filter(|brick| !taken.contains(brick));
-        others.copied().collect()
-    };
-    let fixed = fixed.map(|(kind, list)| (kind, others(list)));
+    let mut taken = first.clone();
+    taken.sort_unstable();
+    let fixed = fixed.map(|(kind, list)| (kind, without(list, &taken)));
     std::iter::once((BrickKind::Psm, first))
         .chain(fixed)
         .collect()
+}
+
+/// A list without some bricks, both ascending; what lies between these is copied as a whole.
+fn without(list: &[u32], taken: &[u32]) -> Vec<u32> {
+    let mut others = Vec::with_capacity(list.len());
+    let mut rest = list;
+    for brick in taken {
+        let at = rest.partition_point(|other| other < brick);
+        others.extend_from_slice(&rest[..at]);
+        rest = &rest[at..];
+        if rest.first() == Some(brick) {
+            rest = &rest[1..];
+        }
+    }
+    others.extend_from_slice(rest);
+    others
 }
 
 /// A list with its length before it.

@@ -59,11 +59,21 @@ pub struct SolidCells {
     faces: usize,
     pub(super) poses: Vec<Pose>,
     outlines: Vec<Vec<Outline>>,
+    /// What is on the device of the blocks, in its order.
+    tables: Tables,
     plan: Plan,
     pub(super) kernels: Kernels,
     /// `None` unless a block requests faces.
     pub(super) face_sums: Option<FaceSums>,
     work: CellWork,
+}
+
+/// What the host passes to the device about blocks, in its order.
+#[derive(Debug, Default)]
+struct Tables {
+    parts: Vec<Part>,
+    faces: Vec<[f32; 4]>,
+    motions: Vec<Motion>,
 }
 
 impl SolidCells {
@@ -116,6 +126,7 @@ impl SolidCells {
             true => None,
             false => Some(FaceSums::new(device, lattice, requested)?),
         };
+        let parts = first_face.len() - 1;
         Ok(Self {
             face_sums,
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
@@ -129,6 +140,11 @@ impl SolidCells {
             faces: faces as usize,
             poses: Vec::new(),
             outlines: vec![Vec::new(); blocks.len()],
+            tables: Tables {
+                parts: vec![Part::default(); parts],
+                faces: vec![[0.0; 4]; faces as usize],
+                motions: vec![Motion::default(); blocks.len()],
+            },
             blocks,
             work: CellWork::default(),
         })
@@ -220,7 +236,7 @@ impl SolidCells {
             self.work.searches += 1;
         }
         self.poses = poses;
-        self.upload_tables(queue);
+        self.upload_tables(queue, &changed, anew);
         if anew {
             let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
             let lanes: Vec<u32> = (0..self.plan.lane_count() as u32).collect();
@@ -316,28 +332,51 @@ impl SolidCells {
         self.kernels.set_sums(tiles, self.loaded);
     }
 
-    fn upload_tables(&mut self, queue: &wgpu::Queue) {
-        let mut parts: Vec<Part> = Vec::with_capacity(self.first_face.len());
-        let mut faces: Vec<[f32; 4]> = Vec::with_capacity(self.faces);
-        for (block, outlines) in (0..).zip(&self.outlines) {
-            for outline in outlines {
-                let (part, its) = rows(outline, block, self.first_face[parts.len()]);
-                parts.push(part);
-                faces.extend(its);
+    /// Computes the rows of the blocks `changed`, ascending, and uploads them with those between; or all with `anew`.
+    fn upload_tables(&mut self, queue: &wgpu::Queue, changed: &[usize], anew: bool) {
+        for &block in changed {
+            let parts = self.first_part[block] as usize..;
+            for (n, outline) in parts.zip(&self.outlines[block]) {
+                let first = self.first_face[n];
+                let (part, faces) = rows(outline, block as u32, first);
+                self.tables.parts[n] = part;
+                for (row, face) in self.tables.faces[first as usize..].iter_mut().zip(faces) {
+                    *row = face;
+                }
             }
+            self.tables.motions[block] = self.frame.motion(&self.poses[block]);
         }
-        let motions: Vec<Motion> = self
-            .poses
-            .iter()
-            .map(|pose| self.frame.motion(pose))
-            .collect();
-        let tables = [
-            ("parts", bytemuck::cast_slice(&parts)),
-            ("faces", bytemuck::cast_slice(&faces)),
-            ("motions", bytemuck::cast_slice(&motions)),
+        let (first, end) = match changed {
+            [first, .., last] if !anew => (*first, last + 1),
+            [only] if !anew => (*only, only + 1),
+            _ => (0, self.blocks.len()),
+        };
+        let parts = self.first_part[first] as usize..self.first_part[end] as usize;
+        let faces = self.first_face[parts.start] as usize..self.first_face[parts.end] as usize;
+        let Tables {
+            parts: all_parts,
+            faces: all_faces,
+            motions,
+        } = &self.tables;
+        let tables: [(_, usize, &[u8]); 3] = [
+            (
+                "parts",
+                size_of::<Part>() * parts.start,
+                bytemuck::cast_slice(&all_parts[parts]),
+            ),
+            (
+                "faces",
+                16 * faces.start,
+                bytemuck::cast_slice(&all_faces[faces]),
+            ),
+            (
+                "motions",
+                size_of::<Motion>() * first,
+                bytemuck::cast_slice(&motions[first..end]),
+            ),
         ];
-        for (name, bytes) in tables {
-            queue.write_buffer(self.kernels.buffer(name), 0, bytes);
+        for (name, offset, bytes) in tables {
+            queue.write_buffer(self.kernels.buffer(name), offset as u64, bytes);
         }
     }
 

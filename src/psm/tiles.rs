@@ -187,7 +187,12 @@ impl Tiling {
         let mut spans = Vec::new();
         for image in first..=last {
             for lane in 0..lanes {
-                for brick in 0..slab.div_ceil(size) {
+                // One more at each end than rounding leaves out.
+                let from = (image * cells + i64::from(lane * slab)) as f64;
+                let [below, above] =
+                    [low, high].map(|end| ((end - from) / f64::from(size)).floor());
+                let end = ((above + 2.0) as u32).min(slab.div_ceil(size));
+                for brick in (below - 1.0) as u32..end {
                     let start = lane * slab + brick * size;
                     let end =
                         (lane * slab + ((brick + 1) * size).min(slab)).min(self.grid.cells[axis]);
@@ -232,6 +237,8 @@ pub struct Plan {
     pub lane_tiles: Vec<u32>,
     /// Lanes of a brick.
     lanes: u32,
+    /// Place of each brick of the grid in `bricks`.
+    slot_of: Vec<u32>,
 }
 
 /// The tiles of a block.
@@ -305,7 +312,11 @@ impl Plan {
     pub fn assemble(&mut self, geometry: &Geometry, grid: &Grid) {
         const NONE: u32 = u32::MAX;
         let lanes = grid.lanes;
-        let mut slot_of = vec![NONE; grid.bricks().iter().product::<u32>() as usize];
+        let slot_of = &mut self.slot_of;
+        slot_of.resize(grid.bricks().iter().product::<u32>() as usize, NONE);
+        for brick in &self.bricks {
+            slot_of[*brick as usize] = NONE;
+        }
         let all = self.found.iter().flat_map(|found| &found.tiles);
         self.bricks.clear();
         for (brick, _) in all {

@@ -19,6 +19,7 @@ use crate::{
     units::Units,
 };
 use glam::DVec3;
+use std::time::Instant;
 
 /// The cells of blocks in a lattice, and the loads of the fluid on these blocks.
 #[derive(Debug)]
@@ -93,6 +94,7 @@ impl LatticeCoupling {
             return Ok(());
         }
         self.placed = None;
+        let start = phases.is_some().then(Instant::now);
         let in_fluid = self.in_fluid;
         let cells = &mut self.cells;
         let place = async { cells.place(device, queue, lattice, &poses[..in_fluid]) };
@@ -103,6 +105,9 @@ impl LatticeCoupling {
                 "it does not hold the cells of {in_fluid} blocks in the fluid ({error}); use fewer or smaller ones, or \
                  a larger cell"
             )));
+        }
+        if let (Some(phases), Some(start)) = (&mut *phases, start) {
+            phases.add("place blocks", start.elapsed().as_secs_f64());
         }
         self.cells
             .record_cells(&mut begin_pass(phases, encoder, "voxelise"));

@@ -16,7 +16,7 @@ use crate::{
     },
 };
 use glam::{DMat3, DVec3};
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 /// Exchange intervals between two exchanges while every block is asleep.
 const ASLEEP_INTERVALS: u64 = 16;
@@ -65,6 +65,8 @@ pub struct Rock {
     /// State before an exchange, restored if it fails; kept to reuse its memory.
     backup: (Snapshot, Vec<InteriorInertia>),
     exchanges: u64,
+    /// Time that exchanges took on the host, s, if requested.
+    exchange_time_spent: Option<f64>,
     /// Work of the free and driven blocks on the fluid since the start, J.
     pub(crate) work_on_fluid: f64,
 }
@@ -114,6 +116,7 @@ impl Rock {
             interior: vec![InteriorInertia::default(); coupled],
             backup: (Snapshot::default(), Vec::new()),
             exchanges: 0,
+            exchange_time_spent: None,
             work_on_fluid: 0.0,
             setup,
             blocks,
@@ -167,6 +170,15 @@ impl Rock {
     /// # Errors
     /// Those of [`Blocks::advance`]. The blocks then keep their state.
     pub async fn exchange(&mut self, loads: &[FluidLoad], until: f64) -> Result<()> {
+        let start = self.exchange_time_spent.map(|_| Instant::now());
+        let moved = self.exchange_loads(loads, until).await;
+        if let (Some(spent), Some(start)) = (&mut self.exchange_time_spent, start) {
+            *spent += start.elapsed().as_secs_f64();
+        }
+        moved
+    }
+
+    async fn exchange_loads(&mut self, loads: &[FluidLoad], until: f64) -> Result<()> {
         self.exchanges += 1;
         for (old, new) in self.cell_load.iter_mut().zip(loads) {
             *old = *new;
@@ -300,6 +312,13 @@ impl Rock {
     /// Times the phases of the steps of the blocks from now on.
     pub fn time_phases(&mut self) {
         self.blocks.time_phases();
+        self.exchange_time_spent.get_or_insert(0.0);
+    }
+
+    /// Time that the exchanges timed since [`Rock::time_phases`] took on the host, s, the steps of the blocks in them
+    /// included; zero without a fluid.
+    pub fn exchange_time_spent(&self) -> f64 {
+        self.exchange_time_spent.unwrap_or_default()
     }
 
     /// The blocks in their present state.

@@ -286,6 +286,11 @@ impl Simulation {
                 phase("contact", times.contact),
                 phase("integrate", times.integrate),
             ]);
+            let steps = times.broadphase + times.contact + times.integrate;
+            let spent = self.rock.as_ref().map_or(0.0, Rock::exchange_time_spent);
+            if spent > 0.0 {
+                phases.push(phase("loads on blocks", (spent - steps).max(0.0)));
+            }
         }
         phases
     }

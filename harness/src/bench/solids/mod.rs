@@ -165,6 +165,17 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     table.add("a contact, all sub-steps of a step", &of, each, "ns");
     drop(worlds);
 
+    let (n, count) = if bench.quick { (64, 125) } else { (128, 1000) };
+    let share = f64::from(count) * std::f64::consts::PI / 6.0 * (6.0 / f64::from(n)).powi(3);
+    let free = world::crowd(n, 6.0, share);
+    let mut world = World::free_spheres(n, 6.0, &free)?;
+    let [host, device] = turns.host_and_device(&mut world, 50)?;
+    let of = format!("{n}³, {} free spheres, D 6", free.len());
+    table.add("a step of many blocks, on the host", &of, 1e3 * host, "ms");
+    table.add("the same on the device", &of, 1e3 * device, "ms");
+    let host_share = (device > 0.0).then(|| 100.0 * host / device);
+    drop(world);
+
     let n = plan.large;
     let one = [0.5 * f64::from(n) + 0.3; 3];
     let mut worlds = [World::empty(n)?, World::spheres(n, ACROSS, &[one], true)?];
@@ -192,6 +203,11 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let aims = [
         Target::at_most("moving solids of 10 % ≤ 15 %", Some(overhead), 15.0),
         Target::at_most("one block ≤ 2 %", Some(single), 2.0),
+        Target::at_most(
+            "host of many free blocks ≤ 10 % of the device",
+            host_share,
+            10.0,
+        ),
         Target::at_most("solid fractions linear, p ≤ 1.1", Some(last), 1.1),
     ];
     Ok((table.rows, show("solids", aims)))

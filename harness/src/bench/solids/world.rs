@@ -58,6 +58,18 @@ impl World {
         Self::of(n, "rock = { gravity = [0, 0, 0] }", blocks)
     }
 
+    /// The same with spheres that the fluid moves.
+    ///
+    /// # Errors
+    /// If the scene is none.
+    pub fn free_spheres(n: u32, across: f64, places: &[[f64; 3]]) -> riprap::Result<Self> {
+        let mut world = Self::spheres(n, across, places, true)?;
+        for block in &mut world.scene.blocks {
+            block.motion = Motion::Free;
+        }
+        Ok(world)
+    }
+
     /// A fixed sphere at `place`, of which somebody wants to know the loads of its faces.
     ///
     /// # Errors
@@ -267,6 +279,34 @@ impl Turns {
             }
         }
         Ok(Times(times))
+    }
+
+    /// Seconds of a step on the host, without the wait for the device, and on the device; zero on one without timestamps.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn host_and_device(&self, world: &mut World, steps: u64) -> anyhow::Result<[f64; 2]> {
+        let (device, queue) = (&self.clock.device, &self.clock.queue);
+        let made = Simulation::new(device, queue, &world.scene);
+        let made = gpu::drive(device, PATIENCE, "the kernels", made)??;
+        world.simulation = Some(made);
+        self.steps(world, 4)?;
+        if let Some(simulation) = &mut world.simulation {
+            simulation.time_phases();
+        }
+        self.steps(world, steps)?;
+        let phases = world.simulation.as_ref().map(Simulation::phases);
+        let mut found = [0.0; 2];
+        for phase in phases.unwrap_or_default() {
+            match phase.name.as_str() {
+                "readback wait" => {}
+                "place blocks" | "broadphase" | "contact" | "integrate" | "loads on blocks" => {
+                    found[0] += phase.seconds / steps as f64;
+                }
+                _ => found[1] += phase.seconds / steps as f64,
+            }
+        }
+        Ok(found)
     }
 
     fn steps(&self, world: &mut World, steps: u64) -> anyhow::Result<()> {

@@ -21,9 +21,17 @@ fn scan_spread(
     }
     let end = min((run + 1u) * RUN, length);
     var sum = run_starts[run];
-    for (var n = run * RUN; n < end; n++) {
-        let value = scanned[n];
-        scanned[n] = sum;
-        sum = saturating_add(sum, value);
+    for (var n = run * RUN; n < end; n += 8u) {
+        // Eight loads that do not wait for each other.
+        var next: array<u32, 8>;
+        for (var k = 0u; k < 8u; k++) { // unroll
+            next[k] = scanned[min(n + k, end - 1u)];
+        }
+        for (var k = 0u; k < 8u; k++) { // unroll
+            if (n + k < end) {
+                scanned[n + k] = sum;
+            }
+            sum = saturating_add(sum, next[k]);
+        }
     }
 }

@@ -20,8 +20,15 @@ fn scan_sum(
     }
     let end = min((run + 1u) * RUN, arrayLength(&values));
     var sum = 0u;
-    for (var n = run * RUN; n < end; n++) {
-        sum = saturating_add(sum, values[n]);
+    for (var n = run * RUN; n < end; n += 8u) {
+        // Eight loads that do not wait for each other.
+        var next: array<u32, 8>;
+        for (var k = 0u; k < 8u; k++) { // unroll
+            next[k] = select(0u, values[n + k], n + k < end);
+        }
+        for (var k = 0u; k < 8u; k++) { // unroll
+            sum = saturating_add(sum, next[k]);
+        }
     }
     run_sums[run] = sum;
 }

@@ -33,7 +33,7 @@ var<private> nearest: f32;
 var<private> excess_push: vec3<f32>;
 var<private> excess_power: f32;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
     let r = separation(here.at, other.at);
     let square = dot(r, r);
@@ -42,28 +42,30 @@ fn visit_fluid(j: u32) {
     let push = (pressure + pressure_of(other.excess)) / (density * other_density);
     let mu = SMOOTHING * dot(here.velocity - other.velocity, r) / (square + 0.01 * SMOOTHING * SMOOTHING);
     let viscous = -2.0 * ARTIFICIAL_VISCOSITY * min(mu, 0.0) / (density + other_density);
-    if (square < SUPPORT_SQUARED) {
-        shear = max(shear, abs(mu));
-        let steep = slope(sqrt(square));
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        shear = max(shear, select(0.0, abs(mu), inside));
+        let steep = select(0.0, slope(sqrt(square)), inside);
         rate += (push + viscous) * steep * r;
         viscous_fluid(steep / (density * other_density), other.velocity);
     }
 }
 
-fn visit_boundary(j: u32) {
+fn visit_boundary(j: u32, counts: bool) {
     let other = boundary[j];
     let r = separation(here.at, other.at);
     let square = dot(r, r);
     let densities = (1.0 + here.excess) * (1.0 + excess_of(other.excess));
     let push = (pressure + other.excess) / densities;
-    if (square < SUPPORT_SQUARED) {
-        let steep = slope(sqrt(square));
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        let steep = select(0.0, slope(sqrt(square)), inside);
         rate += push * steep * r;
         // The kinetic energy by this push, less the compression energy by the density change in drift.wgsl.
         let beyond = (push - pressure / (1.0 + here.excess)) * steep * r;
         excess_push += beyond;
         excess_power += dot(beyond, other.velocity);
-        nearest = min(nearest, square);
+        nearest = min(nearest, select(NO_LIMIT, square, inside));
         viscous_boundary(j, steep / densities);
     }
 }

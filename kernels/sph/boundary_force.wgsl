@@ -14,14 +14,15 @@ var<private> index: u32;
 var<private> density: f32;
 var<private> force: vec3<f32>;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
     let r = separation(here.at, other.at);
     let square = dot(r, r);
     let densities = density * (1.0 + other.excess);
     let push = (pressure_of(other.excess) + here.excess) / densities;
-    if (square < SUPPORT_SQUARED) {
-        let steep = slope(sqrt(square));
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        let steep = select(0.0, slope(sqrt(square)), inside);
         force += push * steep * r;
         drag(index, steep / densities, other.velocity);
     }

@@ -17,7 +17,7 @@ var<private> velocity: vec3<f32>;
 var<private> flux: f32;
 var<private> diffusion: f32;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
     let other_velocity = new_velocities[j].xyz;
     let r = separation(here.at, other.at);
@@ -25,18 +25,20 @@ fn visit_fluid(j: u32) {
     let weight = slope(sqrt(square)) / (1.0 + other.excess);
     // Less the hydrostatic difference of density.
     let excess = other.excess - here.excess + dot(vec3(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), r);
-    if (square < SUPPORT_SQUARED) {
-        flux += weight * dot(velocity - other_velocity, r);
-        diffusion += weight * excess;
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        flux += select(0.0, weight * dot(velocity - other_velocity, r), inside);
+        diffusion += select(0.0, weight * excess, inside);
     }
 }
 
-fn visit_boundary(j: u32) {
+fn visit_boundary(j: u32, counts: bool) {
     let other = boundary[j];
     let r = separation(here.at, other.at);
     let square = dot(r, r);
-    if (square < SUPPORT_SQUARED) {
-        flux += slope(sqrt(square)) * dot(velocity - other.velocity, r);
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        flux += select(0.0, slope(sqrt(square)) * dot(velocity - other.velocity, r), inside);
     }
 }
 

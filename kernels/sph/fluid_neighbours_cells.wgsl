@@ -1,5 +1,6 @@
-// Visits the fluid particles in the cells around a point; visit_fluid is called for particles beyond the support too.
-// needs cell_grid, $cell_ranges
+// Visits the fluid particles in the cells around a point: visit_fluid(j, counts), also for particles beyond the support, and
+// with `counts` false for some that have been visited.
+// needs cell_grid, $cell_ranges, at_once
 
 // Index of the first particle of each cell.
 @group(0) @binding(10) var<storage, read> starts: array<u32>;
@@ -13,8 +14,13 @@ fn visit_fluid_neighbours(n: u32, at: vec3<i32>) {
     let home = cell_of(at);
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
-        for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
-            visit_fluid(j);
+        let end = starts[cells.y];
+        for (var j = starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    visit_fluid(place_of(j, i, end), is_before(j, i, end));
+                }
+            }
         }
     }
 }

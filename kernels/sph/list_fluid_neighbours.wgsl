@@ -1,5 +1,5 @@
 // Verlet 1967, Phys. Rev. 159:98: writes the fluid particles within the list radius of a point into a list.
-// needs cell_grid, $cell_ranges, neighbour_list_layout
+// needs cell_grid, $cell_ranges, neighbour_list_layout, at_once
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
@@ -11,15 +11,32 @@ fn list_fluid_neighbours(at: vec3<i32>, first: u32) -> u32 {
     var count = 0u;
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
-        for (var j = starts[cells.x]; j < starts[cells.y]; j++) {
-            let r = separation(at, particles[j].at);
-            if (dot(r, r) < LIST_SQUARED) {
-                if (count < CAPACITY) {
-                    neighbour_list_out[first + 64u * count] = j;
+        let end = starts[cells.y];
+        for (var j = starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+            var others: array<vec3<i32>, 4>;
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    others[i] = particles[place_of(j, i, end)].at;
                 }
-                count++;
+            }
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    count = listed(at, others[i], is_before(j, i, end), j + i, first, count);
+                }
             }
         }
+    }
+    return count;
+}
+
+// Writes particle j, which is at `other`, if it counts and is near, and returns how many the list has then.
+fn listed(at: vec3<i32>, other: vec3<i32>, counts: bool, j: u32, first: u32, count: u32) -> u32 {
+    let r = separation(at, other);
+    if (counts & (dot(r, r) < LIST_SQUARED)) {
+        if (count < CAPACITY) {
+            neighbour_list_out[first + 64u * count] = j;
+        }
+        return count + 1u;
     }
     return count;
 }

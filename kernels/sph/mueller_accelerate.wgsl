@@ -20,7 +20,7 @@ const NO_LIMIT = 1e30;
 var<private> here: Particle;
 var<private> rate: vec3<f32>;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
     let r = separation(here.at, other.at);
     let square = dot(r, r);
@@ -28,13 +28,14 @@ fn visit_fluid(j: u32) {
     let other_density = 1.0 + other.excess;
     let push = 0.5 * (here.excess + other.excess) / other_density * spiky_slope(distance);
     let drag = VISCOSITY / other_density * laplacian(distance);
-    if (square < SUPPORT_SQUARED && square > 0.0) {
-        rate += push / distance * r + drag * (other.velocity - here.velocity);
+    let inside = counts & (square < SUPPORT_SQUARED) & (square > 0.0);
+    if (is_added(inside)) {
+        rate += select(vec3(0.0), push / distance * r + drag * (other.velocity - here.velocity), inside);
     }
 }
 
 // This scheme has no boundary particles.
-fn visit_boundary(j: u32) {}
+fn visit_boundary(j: u32, counts: bool) {}
 
 @compute @workgroup_size(64)
 fn mueller_accelerate(

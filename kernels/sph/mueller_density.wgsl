@@ -7,16 +7,17 @@
 var<private> at: vec3<i32>;
 var<private> density: f32;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let r = separation(at, particles[j].at);
     let square = dot(r, r);
-    if (square < SUPPORT_SQUARED) {
-        density += poly6(square);
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        density += select(0.0, poly6(square), inside);
     }
 }
 
 // This scheme has no boundary particles.
-fn visit_boundary(j: u32) {}
+fn visit_boundary(j: u32, counts: bool) {}
 
 @compute @workgroup_size(64)
 fn mueller_density(

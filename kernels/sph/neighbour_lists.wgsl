@@ -28,13 +28,18 @@ fn neighbour_lists(
     let water = count;
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
-        for (var j = boundary_starts[cells.x]; j < boundary_starts[cells.y]; j++) {
-            let r = separation(at, boundary[j].at);
-            if (dot(r, r) < LIST_SQUARED) {
-                if (count < CAPACITY) {
-                    neighbour_list_out[first + 64u * count] = j;
+        let end = boundary_starts[cells.y];
+        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+            var others: array<vec3<i32>, 4>;
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    others[i] = boundary[place_of(j, i, end)].at;
                 }
-                count++;
+            }
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    count = listed(at, others[i], is_before(j, i, end), j + i, first, count);
+                }
             }
         }
     }

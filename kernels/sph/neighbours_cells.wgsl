@@ -8,8 +8,13 @@ fn visit_neighbours(n: u32, at: vec3<i32>) {
     let home = cell_of(at);
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
-        for (var j = boundary_starts[cells.x]; j < boundary_starts[cells.y]; j++) {
-            visit_boundary(j);
+        let end = boundary_starts[cells.y];
+        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+            for (var i = 0u; i < 4u; i++) { // unroll
+                if (i < NEIGHBOURS_AT_ONCE) {
+                    visit_boundary(place_of(j, i, end), is_before(j, i, end));
+                }
+            }
         }
     }
 }

@@ -13,12 +13,13 @@
 // The probe.
 var<private> here: vec3<i32>;
 
-fn visit_fluid(j: u32) {
+fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
     let r = separation(here, other.at);
     let square = dot(r, r);
-    if (square < SUPPORT_SQUARED) {
-        let w = weight(sqrt(square));
+    let inside = counts & (square < SUPPORT_SQUARED);
+    if (is_added(inside)) {
+        let w = select(0.0, weight(sqrt(square)), inside);
         add_pressure(w, r, other.excess);
     }
 }

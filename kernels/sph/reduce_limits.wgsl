@@ -20,9 +20,15 @@ fn reduce_limits(
     }
     let end = min((n + 1u) * GROUP_SIZE, arrayLength(&limits));
     var combined = limits[n * GROUP_SIZE];
-    for (var k = n * GROUP_SIZE + 1u; k < end; k++) {
-        let here = limits[k];
-        combined = vec4(max(combined.x, here.x), combined.yz + here.yz, min(combined.w, here.w));
+    for (var k = n * GROUP_SIZE + 1u; k < end; k += 8u) {
+        // Eight loads that do not wait for each other.
+        var next: array<vec4<f32>, 8>;
+        for (var i = 0u; i < 8u; i++) { // unroll
+            next[i] = select(vec4(0.0, 0.0, 0.0, combined.w), limits[k + i], k + i < end);
+        }
+        for (var i = 0u; i < 8u; i++) { // unroll
+            combined = vec4(max(combined.x, next[i].x), combined.yz + next[i].yz, min(combined.w, next[i].w));
+        }
     }
     group_limits[n] = combined;
 }

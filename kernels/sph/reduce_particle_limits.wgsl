@@ -24,11 +24,20 @@ fn reduce_particle_limits(
     var limit = new_velocities[n * GROUP_SIZE].w;
     var square = 0.0;
     var works = vec2(0.0);
-    for (var k = n * GROUP_SIZE; k < end; k++) {
-        let here = new_velocities[k];
-        limit = min(limit, here.w);
-        square = max(square, dot(here.xyz, here.xyz));
-        works += vec2(wall_work[k].boundary_work, wall_work[k].penalty_work);
+    for (var k = n * GROUP_SIZE; k < end; k += 8u) {
+        // Loads that do not wait for each other.
+        var next: array<vec4<f32>, 8>;
+        var next_works: array<vec2<f32>, 8>;
+        for (var i = 0u; i < 8u; i++) { // unroll
+            let at = min(k + i, end - 1u);
+            next[i] = new_velocities[at];
+            next_works[i] = select(vec2(0.0), vec2(wall_work[at].boundary_work, wall_work[at].penalty_work), k + i < end);
+        }
+        for (var i = 0u; i < 8u; i++) { // unroll
+            limit = min(limit, next[i].w);
+            square = max(square, dot(next[i].xyz, next[i].xyz));
+            works += next_works[i];
+        }
     }
     group_limits[n] = vec4(sqrt(square), works, limit);
 }

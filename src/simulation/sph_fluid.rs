@@ -104,8 +104,9 @@ impl SphFluid {
     ) -> Result<(Self, Rock, f64)> {
         let setup = block_setup(scene)?;
         let (mut water, start) = particle_setup(scene, &setup)?;
-        if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
-            water.neighbours = NeighbourSearch::Lists;
+        match device.adapter_info().device_type {
+            wgpu::DeviceType::Cpu => water.neighbours = NeighbourSearch::Lists,
+            _ => water.batched_neighbours = true,
         }
         let time_step = scene_step(scene, water.acoustic_step());
         let params = CouplingParams {

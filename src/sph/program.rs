@@ -143,6 +143,10 @@ pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
         ("PERIOD_Z", grid.period[2].into()),
         ("QUANTUM", 1.0 / grid.quanta),
         ("SUPPORT_SQUARED", support * support),
+        (
+            "NEIGHBOURS_AT_ONCE",
+            if setup.batched_neighbours { 4.0 } else { 1.0 },
+        ),
         ("LIST_SQUARED", (support + grid.skin).powi(2)),
         // Without a skin each step sorts.
         ("SKIN", if grid.skin > 0.0 { grid.skin } else { -1.0 }),

@@ -104,6 +104,9 @@ pub struct Setup {
     pub scheme: Scheme,
     /// Neighbour search.
     pub neighbours: NeighbourSearch,
+    /// Whether an invocation loads four neighbours before it adds the first one, and adds without branches: for GPUs,
+    /// which otherwise wait for each of them. CPU adapters are faster with one after the other. The sums are the same.
+    pub batched_neighbours: bool,
     /// Walls and blocks.
     pub bodies: Vec<Body>,
 }
@@ -129,6 +132,7 @@ impl Setup {
             plane: false,
             scheme: Scheme::Delta,
             neighbours: NeighbourSearch::Cells,
+            batched_neighbours: false,
             bodies: Vec::new(),
         }
     }

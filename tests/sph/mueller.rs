@@ -116,6 +116,7 @@ fn check(plane: bool) {
         setup.plane = plane;
         setup.smoothing = 1.3;
         setup.neighbours = neighbours;
+        setup.batched_neighbours = neighbours == NeighbourSearch::Cells;
         setup.scheme = Scheme::Mueller {
             viscosity: VISCOSITY,
         };

@@ -41,9 +41,11 @@ fn base(plane: bool, periodic: bool) -> Setup {
 /// One step of disturbed water with walls and a rotated body of boundary particles.
 fn check(setup: Setup) {
     for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
-        let mut setup = setup.clone();
-        setup.neighbours = neighbours;
-        check_with(setup);
+        for batched in [false, true] {
+            let mut setup = setup.clone();
+            (setup.neighbours, setup.batched_neighbours) = (neighbours, batched);
+            check_with(setup);
+        }
     }
 }
 

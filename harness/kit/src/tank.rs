@@ -1,5 +1,6 @@
 //! A cube of water in a tank that it fills, to be timed.
 
+use crate::gpu::is_software;
 use glam::{DMat3, DVec3};
 use riprap::{
     Result,
@@ -59,10 +60,11 @@ impl Tank {
 
     fn begin(
         (device, queue): (&wgpu::Device, &wgpu::Queue),
-        setup: Setup,
+        mut setup: Setup,
         positions: &[DVec3],
         pairs: [f64; 2],
     ) -> Result<Self> {
+        setup.batched_neighbours = !is_software(&device.adapter_info());
         let still = vec![DVec3::ZERO; positions.len()];
         let pressure = |x: &DVec3| setup.density * 9.81 * (setup.size.z - x.z);
         let pressures: Vec<f64> = positions.iter().map(pressure).collect();

@@ -76,6 +76,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         plane: particles.plane,
         scheme,
         neighbours: NeighbourSearch::Cells,
+        batched_neighbours: false,
         bodies,
     };
     let speeds = SpeedEstimate::new(&start.positions, particles.spacing, gravity);

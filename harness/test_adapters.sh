@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the tests of kernels, limits and faults on the other software adapters: OpenGL (llvmpipe over EGL) and
-# SwiftShader, which has 10 storage buffers and 256 invocations a workgroup. A line for each adapter says how many
-# tests ran there.
+# SwiftShader, which has 10 storage buffers and 256 invocations a workgroup; and those of coupled scenes with the kernels
+# that a GPU gets, on the first adapter. A line for each says how many tests ran there.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -37,21 +37,28 @@ run_tests() {
     fi
 }
 
-# on ADAPTER DRIVER: the tests on the adapter of that name, with that Vulkan driver alone.
-on() {
-    local filter ran total=0 start=$SECONDS
-    for filter in "${filters[@]}"; do
+# run_filters WHERE FILTER...: the tests of the filters in the present environment.
+run_filters() {
+    local where=$1 filter ran total=0 start=$SECONDS
+    shift
+    for filter in "$@"; do
         # shellcheck disable=SC2086 # a filter is several words
-        RIPRAP_ADAPTER=$1 VK_DRIVER_FILES=$2 run_tests $filter >"$log" 2>&1 || { cat "$log" >&2; return 1; }
+        run_tests $filter >"$log" 2>&1 || { cat "$log" >&2; return 1; }
         ran=$(sed -nE 's/^ +Summary .* ([0-9]+) tests? run:.*/\1/p; s/^test result: ok\. ([0-9]+) passed.*/\1/p' "$log")
         if [ "${ran:-0}" -eq 0 ]; then
-            echo "no test on $1 is called: $filter" >&2
+            echo "no test on $where is called: $filter" >&2
             return 1
         fi
         total=$((total + ran))
     done
-    echo "$1: $total tests of kernels, limits and faults passed in $((SECONDS - start)) s"
+    echo "$where: $total tests of kernels, limits and faults passed in $((SECONDS - start)) s"
 }
 
+# on ADAPTER DRIVER: the tests on the adapter of that name, with that Vulkan driver alone.
+on() {
+    RIPRAP_ADAPTER=$1 VK_DRIVER_FILES=$2 run_filters "$1" "${filters[@]}"
+}
+
+RIPRAP_KERNELS=gpu run_filters "kernels of GPUs" "coupling" "simulation" "run coupled:: deformable:: lattice:: sph::"
 on "(gl," /dev/null
 on swiftshader "$(realpath "$target")/swiftshader/vk_swiftshader_icd.json"

@@ -3,6 +3,7 @@
 use crate::gpu;
 use riprap::{
     Error, Result,
+    gpu::Processor,
     rock::broadphase::AutoBroadphase,
     scene::{
         Scene, Search,
@@ -26,11 +27,20 @@ pub fn adapter(
     let parts: usize = blocks.map(|block| block.shape.parts().len()).sum();
     match scene.rock.broadphase {
         Search::Device => gpu::pick(name).map(Some),
-        Search::Auto if parts >= AutoBroadphase::GPU_CROSSOVER => {
+        Search::Host => Ok(None),
+        Search::Auto => {
+            // No adapter is looked for where none would be used.
+            let from = |processor| {
+                let given = scene.rock.broadphase_crossover;
+                parts >= given.unwrap_or(AutoBroadphase::crossover_on(processor))
+            };
+            if !from(Processor::Gpu) {
+                return Ok(None);
+            }
+            let processor = |found: &wgpu::Adapter| scene.run.kernels.processor(&found.get_info());
             let found = gpu::pick(name).ok();
-            Ok(found.filter(|found| !gpu::is_software(&found.get_info())))
+            Ok(found.filter(|found| from(processor(found))))
         }
-        Search::Auto | Search::Host => Ok(None),
     }
 }
 

@@ -93,7 +93,7 @@ impl Rock {
             // Without free blocks no contact limits the step.
             setup.setup.time_step = Some(params.time_step);
         }
-        let mut broadphase = broadphase(device, scene.rock.broadphase)?;
+        let mut broadphase = broadphase(device, scene)?;
         let blocks = begin(scene, &setup, &mut broadphase).await?;
         let inside = params.and_then(|params| params.inside);
         let coupled = if params.is_some() { blocks.len() } else { 0 };
@@ -400,11 +400,17 @@ const SWEEPS: usize = 1000;
 /// [`Error::Scene`] if the scene wants a device and there is none.
 pub(super) fn broadphase(
     device: Option<(&wgpu::Device, &wgpu::Queue)>,
-    search: Search,
+    scene: &Scene,
 ) -> Result<AutoBroadphase> {
-    let mut broadphase = match (device, search) {
+    let search = scene.rock.broadphase;
+    let broadphase = match (device, search) {
         (Some((device, queue)), Search::Auto | Search::Device) => {
-            AutoBroadphase::new(device, queue)
+            let processor = scene.run.kernels.processor(&device.adapter_info());
+            let auto = scene.rock.broadphase_crossover;
+            let auto = auto.unwrap_or(AutoBroadphase::crossover_on(processor));
+            let mut broadphase = AutoBroadphase::new(device, queue);
+            broadphase.crossover = if search == Search::Device { 0 } else { auto };
+            broadphase
         }
         (None, Search::Device) => {
             let message = "pairs are to be searched on a device, and none was given; give one, or use broadphase = \"host\"";
@@ -412,9 +418,6 @@ pub(super) fn broadphase(
         }
         (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),
     };
-    if search == Search::Device {
-        broadphase.crossover = 0;
-    }
     Ok(broadphase)
 }
 

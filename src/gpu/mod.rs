@@ -46,5 +46,8 @@ pub mod layout;
 pub mod link;
 #[cfg(feature = "checkpoint")]
 pub(crate) mod plain_bytes;
+mod processor;
 pub mod readback;
 pub mod timer;
+
+pub use processor::Processor;

@@ -1,5 +1,7 @@
 //! What a lattice fluid is, in lattice units (Δx = Δt = 1, ρ₀ = 1).
 
+use crate::gpu::Processor;
+
 /// Collision operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collision {
@@ -176,6 +178,8 @@ pub struct Setup {
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
     pub wide: bool,
+    /// What the kernels of blocks in the fluid are made for; `None`: what the device is.
+    pub processor: Option<Processor>,
 }
 
 impl Setup {
@@ -204,6 +208,7 @@ impl Setup {
             brick: [16, 2, 2],
             bindings: None,
             wide: false,
+            processor: None,
         }
     }
 
@@ -222,6 +227,7 @@ impl Setup {
         };
         self.brick = [long, (32 / long).max(1), 1];
         self.wide = features.contains(wgpu::Features::SHADER_INT64);
+        self.processor = Some(Processor::Cpu);
     }
 
     /// Whether the kernels have words of 64 bits.

@@ -4,6 +4,7 @@ use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
     Error, Result,
     gpu::{
+        Processor,
         kernel::{Kernel, MAX_GROUPS, fold, largest_binding},
         link::Program,
     },
@@ -118,9 +119,10 @@ impl Kernels {
     pub fn new(device: &wgpu::Device, lattice: &Lattice, forms: Forms, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
         // Barriers are slow where a CPU walks through the invocations of a workgroup.
-        let walk = match device.adapter_info().device_type {
-            wgpu::DeviceType::Cpu => Walk::Serial,
-            _ => Walk::Parallel,
+        let processor = lattice.setup().processor;
+        let walk = match processor.unwrap_or_else(|| Processor::of(&device.adapter_info())) {
+            Processor::Cpu => Walk::Serial,
+            Processor::Gpu => Walk::Parallel,
         };
         let programs = [
             program::voxelise(grid, walk, forms),

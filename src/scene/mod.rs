@@ -84,7 +84,7 @@ pub use probes::{Probe, ProbePlace};
 pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};
 pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
-pub use run::Run;
+pub use run::{Kernels, Run};
 pub use sample::{BodyForce, InitialFields, StartPressure};
 pub use solids::{Shape, Solid};
 pub use views::{View, ViewSlice};

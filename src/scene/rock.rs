@@ -38,6 +38,9 @@ pub struct Rock {
     pub relax: bool,
     /// Where pairs that may touch are searched. Default `auto`.
     pub broadphase: Search,
+    /// Convex parts from which on `auto` searches on the device, as `riprap bench --device` measures it. Default 1000 on
+    /// a GPU, never on a CPU.
+    pub broadphase_crossover: Option<usize>,
 }
 
 impl Default for Rock {
@@ -52,6 +55,7 @@ impl Default for Rock {
             corner_area: 0.0,
             relax: false,
             broadphase: Search::default(),
+            broadphase_crossover: None,
         }
     }
 }
@@ -70,7 +74,7 @@ pub struct Sleep {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Search {
-    /// On the host for fewer than 1000 parts, else on a GPU if there is one.
+    /// On the host for fewer parts than `broadphase_crossover`, else on the device if there is one.
     #[default]
     Auto,
     /// On the host; needs no GPU.
@@ -94,6 +98,12 @@ impl Scene {
         }
         if let Some(skin) = rock.skin {
             positive("rock.skin", skin, "m")?;
+        }
+        if rock.broadphase_crossover.is_some() && rock.broadphase != Search::Auto {
+            return refuse(
+                "rock.broadphase_crossover",
+                "belongs to broadphase = \"auto\"; leave one of them out",
+            );
         }
         if let Some(sleep) = &rock.sleep {
             positive("rock.sleep.speed", sleep.speed, "m/s")?;

@@ -6,11 +6,12 @@ use serde::Deserialize;
 use super::Scene;
 use super::rules::{interval, positive, refuse};
 use crate::error::Result;
+use crate::gpu::Processor;
 use crate::units::Units;
 
 /// Length of the run. Exactly one of `duration` and `steps` is given.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct Run {
     /// Simulated time, s.
     pub duration: Option<f64>,
@@ -19,6 +20,32 @@ pub struct Run {
     /// Time between checkpoints, s; each takes the place of the one before. Default a tenth of the run, in the
     /// first tenth a hundredth, so that a run that diverges leaves a good state; more for states larger than 0.4 GB.
     pub checkpoint_every: Option<f64>,
+    /// What the kernels are made for. Default `auto`.
+    pub kernels: Kernels,
+}
+
+/// What the kernels are made for; results agree within the rounding of sums in another order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kernels {
+    /// What the adapter computes on.
+    #[default]
+    Auto,
+    /// CPUs, as software adapters use them: several cells an invocation, rows as bricks, lists of neighbours.
+    Cpu,
+    /// GPUs: one cell an invocation, or two in 16 bits, and sums by workgroups.
+    Gpu,
+}
+
+impl Kernels {
+    /// What that is on an adapter.
+    pub fn processor(self, adapter: &wgpu::AdapterInfo) -> Processor {
+        match self {
+            Self::Auto => Processor::of(adapter),
+            Self::Cpu => Processor::Cpu,
+            Self::Gpu => Processor::Gpu,
+        }
+    }
 }
 
 impl Run {

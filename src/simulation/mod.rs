@@ -60,7 +60,7 @@ use crate::{
     Error, Result,
     coupling::{self, Coupled, ExchangeInterval, FluidLoad, Rock, rock_step},
     geometry::Pose,
-    gpu::timer::Phases,
+    gpu::{Processor, timer::Phases},
     lattice::{Lattice, Setup},
     scene::{
         Advice, Scene,
@@ -128,8 +128,9 @@ impl Simulation {
             Kind::Particles => Self::of_water(device, queue, scene).await,
             Kind::Lattice => {
                 let units = Units::of(scene)?;
-                let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-                let setup = lattice_setup(scene, &units, software.then(|| device.features()))?;
+                let processor = scene.run.kernels.processor(&device.adapter_info());
+                let cpu = (processor == Processor::Cpu).then(|| device.features());
+                let setup = lattice_setup(scene, &units, cpu)?;
                 Self::of_lattice(device, queue, scene, setup).await
             }
         }

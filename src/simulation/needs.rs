@@ -2,6 +2,7 @@
 
 use crate::{
     Result,
+    gpu::Processor,
     lattice::{self, Grid, Memory, memory},
     psm, rock,
     scene::{Scene, build::lattice_setup},
@@ -80,8 +81,9 @@ impl Needs {
 impl LatticeNeeds {
     fn of(scene: &Scene, adapter: &wgpu::Adapter) -> Result<Self> {
         let units = Units::of(scene)?;
-        let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let setup = lattice_setup(scene, &units, software.then(|| adapter.features()))?;
+        let processor = scene.run.kernels.processor(&adapter.get_info());
+        let cpu = (processor == Processor::Cpu).then(|| adapter.features());
+        let setup = lattice_setup(scene, &units, cpu)?;
         let memory = memory(&setup, &Grid::new(&setup)?, &adapter.limits())?;
         Ok(Self { memory, setup })
     }

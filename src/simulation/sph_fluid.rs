@@ -13,6 +13,7 @@ use crate::{
     },
     error::{error_chain, refused},
     geometry::{Load, Pose},
+    gpu::Processor,
     rock::Motion,
     scene::{
         Advice, Scene,
@@ -104,9 +105,9 @@ impl SphFluid {
     ) -> Result<(Self, Rock, f64)> {
         let setup = block_setup(scene)?;
         let (mut water, start) = particle_setup(scene, &setup)?;
-        match device.adapter_info().device_type {
-            wgpu::DeviceType::Cpu => water.neighbours = NeighbourSearch::Lists,
-            _ => water.batched_neighbours = true,
+        match scene.run.kernels.processor(&device.adapter_info()) {
+            Processor::Cpu => water.neighbours = NeighbourSearch::Lists,
+            Processor::Gpu => water.batched_neighbours = true,
         }
         let time_step = scene_step(scene, water.acoustic_step());
         let params = CouplingParams {

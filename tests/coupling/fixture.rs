@@ -1,8 +1,14 @@
 //! A scene that runs, and what is measured of it.
 
 use glam::DVec3;
-use kit::Rig;
-use riprap::{Result, coupling::FluidLoad, simulation::Simulation};
+use kit::{Rig, scene::for_kernels};
+use riprap::{
+    Result,
+    coupling::FluidLoad,
+    geometry::Pose,
+    scene::{Kernels, Scene},
+    simulation::Simulation,
+};
 
 /// Length of a step, s.
 pub const STEP: f64 = 0.25;
@@ -78,10 +84,19 @@ impl World {
         }
     }
 
+    /// The same scene for these kernels.
+    pub fn with(text: &str, kernels: Kernels) -> Self {
+        let scene = kit::scene::read(text).unwrap();
+        Self::of(&for_kernels(&scene, kernels)).unwrap()
+    }
+
     pub fn try_new(text: &str) -> Result<Self> {
-        let scene = kit::scene::read(text)?;
+        Self::of(&kit::scene::read(text)?)
+    }
+
+    fn of(scene: &Scene) -> Result<Self> {
         let rig = Rig::new();
-        let sim = rig.simulation(&scene)?;
+        let sim = rig.simulation(scene)?;
         Ok(Self { rig, sim })
     }
 
@@ -97,6 +112,11 @@ impl World {
     pub fn fluid(&mut self) -> (DVec3, f64) {
         let totals = self.rig.wait(self.sim.totals()).unwrap();
         (DVec3::from(totals.momentum), totals.mass)
+    }
+
+    /// Poses of the blocks.
+    pub fn poses(&self) -> Vec<Pose> {
+        self.sim.coupled().unwrap().blocks().poses()
     }
 
     /// Momentum of the block `block`, kg m/s.

@@ -6,7 +6,12 @@ use riprap::{Error, scene::Warning};
 
 /// A duct with a box of 2 m at `x`, and this velocity at its inlet.
 fn duct(velocity: &str, x: f64, motion: &str) -> World {
-    World::new(&format!(
+    World::new(&duct_scene(velocity, x, motion))
+}
+
+/// Its scene.
+pub fn duct_scene(velocity: &str, x: f64, motion: &str) -> String {
+    format!(
         r#"{}{}
         [boundaries]
         x_min = {{ kind = "velocity", velocity = [{velocity}, 0, 0] }}
@@ -24,7 +29,7 @@ fn duct(velocity: &str, x: f64, motion: &str) -> World {
         {motion}"#,
         fluid([16, 8, 8], 0.02),
         material("rock", 2650.0)
-    ))
+    )
 }
 
 fn warnings(world: &World) -> Vec<&Warning> {

@@ -178,12 +178,9 @@ fn a_block_that_lands_has_the_push_of_archimedes() {
     }
 }
 
-/// A dam between two levels with a gate on the downstream half of its crest: each joint has the line between its own
-/// ends, whatever is wet elsewhere.
-#[test]
-fn each_joint_has_the_pressure_of_its_own_rim() {
-    let high = 100.0;
-    let mut world = World::new(&format!(
+/// A dam with a gate on the downstream half of its crest, between two levels whose pressures differ by `high` (Pa).
+pub fn dam(high: f64) -> String {
+    format!(
         r#"{}{}
         [boundaries]
         x_min = {{ kind = "wall" }}
@@ -211,7 +208,14 @@ fn each_joint_has_the_pressure_of_its_own_rim() {
         motion = "fixed""#,
         fluid([24, 4, 12], 0.1),
         material("rock", 2650.0),
-    ));
+    )
+}
+
+/// Each joint has the line between its own ends, whatever is wet elsewhere.
+#[test]
+fn each_joint_has_the_pressure_of_its_own_rim() {
+    let high = 100.0;
+    let mut world = World::new(&dam(high));
     // Later on water has seeped from one side to the other.
     world.advance(200);
     let coupled = world.sim.coupled().unwrap();

@@ -10,6 +10,7 @@ mod inlets;
 mod joint_seal;
 mod periodic_images;
 mod places;
+mod processors;
 mod reproducibility;
 mod rocking;
 mod skipped_work;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use kit::assert_contains;
 
 /// Two boxes that go towards each other along x, 16 cells and 8 m long, the middle of the gap at `x` (m).
-fn pair(x: f64, lubrication: bool) -> String {
+pub fn pair(x: f64, lubrication: bool) -> String {
     let at = |offset: f64| (x + offset).rem_euclid(8.0);
     format!(
         r#"{}{}[rock]

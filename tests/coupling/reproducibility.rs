@@ -7,7 +7,7 @@ use riprap::{
 };
 
 /// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.
-fn scene(interval: u32, average: bool) -> String {
+pub fn scene(interval: u32, average: bool) -> String {
     format!(
         r#"{}{}{}damping = 0.7
         [boundaries]

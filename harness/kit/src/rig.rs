@@ -1,11 +1,14 @@
 //! A device for tests: running a lattice on it, or a kernel by itself on buffers that are full of rubbish.
 
-use crate::gpu;
+use crate::{
+    gpu,
+    scene::{for_kernels, kernels},
+};
 use riprap::{
     Result,
     gpu::{kernel::Kernel, link::Program, readback::Readback},
     lattice::{Lattice, Observer, Populations, Setup, State},
-    scene::Scene,
+    scene::{Kernels, Scene},
     simulation::Simulation,
     wgpu::{self, util::DeviceExt},
 };
@@ -49,12 +52,16 @@ impl Rig {
         gpu::drive(&self.device, Duration::from_secs(300), "a test", future).unwrap()
     }
 
-    /// A simulation of a scene.
+    /// A simulation of a scene, with [these kernels](kernels) unless the scene names others.
     ///
     /// # Errors
     /// What the scene or the device lack.
     pub fn simulation(&self, scene: &Scene) -> Result<Simulation> {
-        self.wait(Simulation::new(&self.device, &self.queue, scene))
+        let scene = match scene.run.kernels {
+            Kernels::Auto => for_kernels(scene, kernels()),
+            _ => scene.clone(),
+        };
+        self.wait(Simulation::new(&self.device, &self.queue, &scene))
     }
 
     /// A lattice started from a state.

@@ -1,6 +1,9 @@
 //! Scenes that several test programs read.
 
-use riprap::{Result, scene::Scene};
+use riprap::{
+    Result,
+    scene::{Kernels, Scene, Search},
+};
 use std::path::Path;
 
 /// Still water, 0.8 m deep, in a tank of 12 × 8 particles in which nothing varies along y.
@@ -25,6 +28,27 @@ pub const STILL_WATER: &str = r#"
     [run]
     steps = 12
 "#;
+
+/// What tests have the kernels of coupled scenes made for: what the environment variable `RIPRAP_KERNELS` says, `cpu` or
+/// `gpu`, or what the adapter is.
+pub fn kernels() -> Kernels {
+    match std::env::var("RIPRAP_KERNELS").as_deref() {
+        Ok("cpu") => Kernels::Cpu,
+        Ok("gpu") => Kernels::Gpu,
+        Ok(other) => panic!("RIPRAP_KERNELS is {other}; possible are cpu and gpu"),
+        Err(_) => Kernels::Auto,
+    }
+}
+
+/// The scene as a processor takes it; where that is a GPU pairs are searched there too, however few blocks there are.
+pub fn for_kernels(scene: &Scene, kernels: Kernels) -> Scene {
+    let mut scene = scene.clone();
+    scene.run.kernels = kernels;
+    if kernels == Kernels::Gpu && scene.rock.broadphase == Search::Auto {
+        scene.rock.broadphase = Search::Device;
+    }
+    scene
+}
 
 /// The scene of a text, as if from `scene.toml` in the working folder.
 ///

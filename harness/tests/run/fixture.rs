@@ -1,7 +1,7 @@
 //! What tests of `riprap run` share: a folder of their own, a scene in it, and reading what was written.
 
 use kit::assert_contains;
-use riprap::output::Table;
+use riprap::{output::Table, scene::Kernels};
 use riprap_harness::run::{Args, Summary, run};
 use serde_json::Value;
 use std::{
@@ -22,12 +22,25 @@ pub fn folder(name: &str) -> PathBuf {
 /// Arguments for the scene `text` in `folder`, writing to `folder/NAME`.
 pub fn args(folder: &Path, text: &str, out: &str) -> Args {
     let scene = folder.join("scene.toml");
-    fs::write(&scene, text).unwrap();
+    fs::write(&scene, for_kernels(text)).unwrap();
     Args {
         scene,
         out: Some(folder.join(out)),
         ..Args::default()
     }
+}
+
+/// The scene with the kernels that `RIPRAP_KERNELS` names.
+fn for_kernels(text: &str) -> String {
+    let key = match kit::scene::kernels() {
+        Kernels::Auto => return text.into(),
+        Kernels::Cpu => "kernels = \"cpu\"",
+        Kernels::Gpu => "kernels = \"gpu\"",
+    };
+    let table = text.replace("[run]\n", &format!("[run]\n{key}\n"));
+    let text = table.replace("run = {", &format!("run = {{ {key},"));
+    assert!(text.contains(key), "no table `run` in {text}");
+    text
 }
 
 /// The whole run.

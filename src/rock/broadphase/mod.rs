@@ -11,7 +11,7 @@ pub use boxes::{Boxes, FARTHEST};
 pub use device::{DeviceBroadphase, Header, Search};
 pub use host::HostBroadphase;
 
-use crate::Result;
+use crate::{Result, gpu::Processor};
 
 /// A box along the axes around something that may touch others, already grown by the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,21 +62,20 @@ pub struct AutoBroadphase {
 }
 
 impl AutoBroadphase {
-    /// Items from which on a GPU is used. An estimate: the host takes 0.5 to 1 µs of CPU time an
-    /// box, and two submissions that are waited for take some hundred microseconds with a usual driver.
-    /// `cargo bench --bench broadphase` measures it for a device.
-    pub const GPU_CROSSOVER: usize = 1000;
+    /// Items from which on a device that computes so is used, as `riprap bench --device` records it: never on a CPU
+    /// (lavapipe, 10² to 10⁵ boxes of one size and of sizes 1:100). There is no record of a GPU yet; its number is an
+    /// estimate: the host takes 0.5 to 1 µs a box, and two submissions that are waited for some hundred microseconds.
+    pub const fn crossover_on(processor: Processor) -> usize {
+        match processor {
+            Processor::Cpu => usize::MAX,
+            Processor::Gpu => 1000,
+        }
+    }
 
-    /// Uses `device` from [`Self::GPU_CROSSOVER`] boxes on, and not at all if it computes on the
-    /// CPU: on lavapipe a search takes 5 to 8 times the CPU time of the host's for 10³ to 10⁵ boxes
-    /// of one size or of sizes 1:100, and more for fewer.
+    /// Uses `device` from [`Self::crossover_on`] what it is on.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let crossover = match device.adapter_info().device_type {
-            wgpu::DeviceType::Cpu => usize::MAX,
-            _ => Self::GPU_CROSSOVER,
-        };
         Self {
-            crossover,
+            crossover: Self::crossover_on(Processor::of(&device.adapter_info())),
             device: Some((device.clone(), queue.clone())),
             device_broadphase: None,
         }

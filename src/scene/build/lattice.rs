@@ -2,6 +2,7 @@
 
 use crate::{
     Error, Result,
+    gpu::Processor,
     lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, Storage},
     scene::{self, BodyForce, Boundary, Numerics, Scene},
     units::{SOUND_SPEED_SQUARED, Units},
@@ -36,8 +37,8 @@ impl Units {
     }
 }
 
-/// The lattice fluid of a scene; `cpu` has the features of an adapter that computes on the CPU, where
-/// several cells an invocation and wide words pay.
+/// The lattice fluid of a scene; `cpu` has the features of an adapter for whose CPU the kernels are to be made, where
+/// several cells an invocation and wide words pay. Without it they are made for GPUs.
 ///
 /// # Errors
 /// If a formula is not finite somewhere, or a mesh cannot be read.
@@ -124,8 +125,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             }
         };
     }
-    if let Some(features) = cpu {
-        setup.suit_cpu(features);
+    match cpu {
+        Some(features) => setup.suit_cpu(features),
+        None => setup.processor = Some(Processor::Gpu),
     }
     if !scene.solids.is_empty() {
         let mask = scene.solid_mask()?;

@@ -87,6 +87,7 @@ fn lasting(scene: &Scene, args: &Args, time_step: f64) -> Run {
         duration: Some(length),
         steps: None,
         checkpoint_every: None,
+        kernels: scene.run.kernels,
     }
 }
 

@@ -25,7 +25,16 @@ pub enum Subject<'a> {
     Copying(&'a Copy, Method),
     /// Arithmetic and nothing else.
     Computing(&'a Arithmetic),
+    /// What the caller records.
+    Recording(Recording<'a>),
+    /// What the caller records outside of passes.
+    Encoding(Encoding<'a>),
 }
+
+/// Records a turn.
+pub type Recording<'a> = Box<dyn FnMut(&mut wgpu::ComputePass<'_>) + 'a>;
+/// Records a turn.
+pub type Encoding<'a> = Box<dyn FnMut(&mut wgpu::CommandEncoder) + 'a>;
 
 impl Subject<'_> {
     /// Records `turns`; says whether they are between timestamps.
@@ -39,6 +48,10 @@ impl Subject<'_> {
             (0..turns).for_each(|_| copy.record_buffers(encoder));
             return false;
         }
+        if let Self::Encoding(encode) = self {
+            (0..turns).for_each(|_| encode(encoder));
+            return false;
+        }
         let timed = timer.is_some();
         let mut pass = encoder.begin_compute_pass(&timer::pass(timer, "turns"));
         for _ in 0..turns {
@@ -47,6 +60,9 @@ impl Subject<'_> {
                 Self::Streaming(lattice) => lattice.record(&mut pass),
                 Self::Copying(copy, method) => copy.record(*method, &mut pass),
                 Self::Computing(arithmetic) => arithmetic.record(&mut pass),
+                Self::Recording(record) => record(&mut pass),
+                // Has no pass.
+                Self::Encoding(_) => {}
             }
         }
         timed

@@ -64,6 +64,7 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
     // Seconds of a submission, and how often each variant has its turn.
     let (long, rounds) = if quick { (0.1, 3) } else { (0.25, 5) };
     let copy = Copy::new(&clock.device, group.variants[0].memory.populations)?;
+    let arithmetic = Arithmetic::new(&clock.device)?;
     let (mut subjects, mut work) = (Vec::new(), Vec::new());
     for variant in &group.variants {
         let (subject, of_step) = subject(clock, variant)?;
@@ -71,7 +72,6 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
         work.push(of_step);
     }
     subjects.extend(METHODS.map(|method| Subject::Copying(&copy, method)));
-    let arithmetic = Arithmetic::new(&clock.device)?;
     subjects.push(Subject::Computing(&arithmetic));
     // The first turns compile and clear memory; the next ones tell how many fill the time. An even
     // number, because a lattice steps in pairs.

@@ -1,6 +1,8 @@
 //! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
-//! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing.
+//! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing;
+//! or one record of a GPU.
 
+mod device;
 mod fluid;
 mod machine;
 pub mod rock;
@@ -47,6 +49,10 @@ pub struct Args {
     /// far as memory and fifteen seconds a row let it
     #[arg(long, conflicts_with_all = ["only", "quick", "full", "grid"])]
     pub all: bool,
+    /// One record of a GPU, in less than four minutes: the table on 128³ and 256³ cells, from how many blocks on the
+    /// device finds pairs faster than the host, and the short cases of `validate` that use the device
+    #[arg(long, conflicts_with_all = ["only", "quick", "full", "grid", "all"])]
+    pub device: bool,
     /// GiB that the fluids measured side by side may take together [default: 6, or half of what
     /// is free on a software adapter]
     #[arg(long, value_name = "GIB")]
@@ -99,6 +105,9 @@ enum Measured {
     Water(water::Row),
     Solids(solids::Row),
     Table(table::Row),
+    Crossover(rock::Crossover),
+    Validation(crate::validate::Record),
+    LeftOut(device::LeftOut),
     Target(Target),
 }
 
@@ -126,7 +135,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
         None => Machine::host(),
     };
     println!("{machine}");
-    let selected = |part| !args.all && args.only.is_none_or(|only| only == part);
+    let selected = |part| !args.all && !args.device && args.only.is_none_or(|only| only == part);
     let bench = device.as_ref().map(|(_, device, queue)| Bench {
         device,
         queue,
@@ -163,12 +172,17 @@ pub fn run(args: Args) -> anyhow::Result<()> {
             targets.extend(judged);
             measured.extend(rows.into_iter().map(Measured::Solids));
         }
-        if args.all {
+        if args.all || args.device {
             // A GPU says itself when its memory ends.
             let limited = machine.software || args.memory.is_some();
             let most = limited.then(|| budget(args.memory, machine.software));
-            let rows = table::measure(bench, most)?;
-            measured.extend(rows.into_iter().map(Measured::Table));
+            measured.extend(match args.device {
+                true => device::measure(bench, most)?,
+                false => {
+                    let rows = table::measure(bench, most, table::Extent::ALL)?;
+                    rows.into_iter().map(Measured::Table).collect()
+                }
+            });
         }
     }
     measured.extend(targets.into_iter().map(Measured::Target));

@@ -1,7 +1,7 @@
 //! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
 
 use super::{
-    Bench,
+    Bench, copy_bandwidth,
     fluid::{plain, storage as name_of},
     solids::{crowd, unit_frame},
 };
@@ -18,12 +18,28 @@ use riprap::{
 use serde::Serialize;
 use std::{fmt, sync::Arc, time::Duration, time::Instant};
 
-/// Cells an axis.
-const GRIDS: [u32; 5] = [128, 192, 256, 384, 512];
-/// Seconds that a row may take, making the lattice included.
-const BUDGET: f64 = 15.0;
-/// Seconds that the whole table may take.
-const WHOLE: f64 = 480.0;
+/// How much of the table is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Cells an axis.
+    pub grids: &'static [u32],
+    /// Seconds that a row may take, making the lattice included.
+    pub row: f64,
+    /// Seconds that the whole table may take.
+    pub whole: f64,
+}
+
+impl Extent {
+    /// All of it.
+    pub const ALL: Self = Self {
+        grids: &[128, 192, 256, 384, 512],
+        row: 15.0,
+        whole: 480.0,
+    };
+}
+
+/// Bytes that are copied at most to see how many the device copies a second.
+const COPIED: u64 = 256 << 20;
 /// Seconds of steps that are timed.
 const LONG: f64 = 1.5;
 /// Most steps of a row.
@@ -61,6 +77,8 @@ pub struct Row {
     pub mlups: Option<f64>,
     /// Bytes of populations a second, at that speed.
     pub bandwidth: Option<f64>,
+    /// Part of what the device copies a second, read and written.
+    pub share_of_copy: Option<f64>,
     /// Steps that were timed.
     pub steps: u32,
     /// Seconds that the row took.
@@ -81,8 +99,9 @@ impl fmt::Display for Row {
             (Some(why), ..) => write!(f, "{head} | left out: {why}"),
             (None, Some(mlups), Some(bandwidth)) => write!(
                 f,
-                "{head} | {mlups:>9.1} {:>9.1} {:>6} {:>7.1}",
+                "{head} | {mlups:>9.1} {:>9.1} {:>7.1}% {:>6} {:>7.1}",
                 bandwidth / 1e9,
+                100.0 * self.share_of_copy.unwrap_or_default(),
                 self.steps,
                 self.seconds
             ),
@@ -95,14 +114,18 @@ impl fmt::Display for Row {
 ///
 /// # Errors
 /// If the device is lost or silent.
-pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
-    println!("\nkind     store   grid |     MLUPS      GB/s  steps       s");
+pub fn measure(bench: &Bench<'_>, budget: Option<u64>, extent: Extent) -> Result<Vec<Row>> {
+    let copied = copy_bandwidth(bench.device, bench.queue, COPIED)?;
+    println!(
+        "\nthe device copies {:.1} GB/s\nkind     store   grid |     MLUPS      GB/s of copies  steps       s",
+        copied / 1e9
+    );
     let mut clock = bench.clock();
     let mut rows: Vec<Row> = Vec::new();
     let whole = Instant::now();
     for storage in [Storage::F32, Storage::F16] {
         for kind in [Kind::Plain, Kind::Wale, Kind::Coupled] {
-            for grid in GRIDS {
+            for &grid in extent.grids {
                 let mut row = Row {
                     part: "table",
                     kind,
@@ -110,6 +133,7 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
                     storage: name_of(storage),
                     mlups: None,
                     bandwidth: None,
+                    share_of_copy: None,
                     steps: 0,
                     seconds: 0.0,
                     left_out: None,
@@ -117,17 +141,21 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> Result<Vec<Row>> {
                 let begin = Instant::now();
                 let setup = setup(grid, storage, kind, bench);
                 let held = holds(&setup, bench.device, budget);
-                let over = whole.elapsed().as_secs_f64() > WHOLE - BUDGET;
+                let over = whole.elapsed().as_secs_f64() > extent.whole - extent.row;
                 row.left_out = held
                     .err()
-                    .or_else(|| too_long(&rows, &row))
-                    .or_else(|| over.then(|| format!("the {WHOLE:.0} s of the table are over")));
+                    .or_else(|| too_long(&rows, &row, extent.row))
+                    .or_else(|| {
+                        over.then(|| format!("the {:.0} s of the table are over", extent.whole))
+                    });
                 if row.left_out.is_none() {
                     match run(&mut clock, setup.clone(), kind) {
                         Ok((spent, steps)) => {
                             let speed = f64::from(grid).powi(3) / spent;
                             row.mlups = Some(speed / 1e6);
-                            row.bandwidth = Some(speed * bytes_a_cell(&setup) as f64);
+                            let bandwidth = speed * bytes_a_cell(&setup) as f64;
+                            row.bandwidth = Some(bandwidth);
+                            row.share_of_copy = Some(bandwidth / copied);
                             row.steps = steps;
                         }
                         Err(error @ (Error::Device(_) | Error::Limit { .. })) => {
@@ -182,7 +210,7 @@ fn holds(setup: &Setup, device: &wgpu::Device, budget: Option<u64>) -> Result<()
 }
 
 /// Whether the row before, with as many more cells, would have been too long.
-fn too_long(rows: &[Row], row: &Row) -> Option<String> {
+fn too_long(rows: &[Row], row: &Row, budget: f64) -> Option<String> {
     let alike = |other: &&Row| other.kind == row.kind && other.storage == row.storage;
     let last = rows.iter().rev().find(alike)?;
     if last.left_out.is_some() {
@@ -191,7 +219,7 @@ fn too_long(rows: &[Row], row: &Row) -> Option<String> {
     let cells = |grid: u32| f64::from(grid).powi(3);
     // What does not grow with the cells is counted, too: a bound.
     let seconds = (last.seconds - LONG).max(0.0) * cells(row.grid) / cells(last.grid) + LONG;
-    (seconds > BUDGET).then(|| format!("would take {seconds:.0} s of the {BUDGET:.0} of a row"))
+    (seconds > budget).then(|| format!("would take {seconds:.0} s of the {budget:.0} of a row"))
 }
 
 /// Seconds of a step, and how many were timed.

@@ -102,6 +102,7 @@ fn jobs() -> Vec<Job> {
         ),
         ("unused", &["--only", "unused"], &["--only", "unused"]),
         ("all", &[], &["--all"]),
+        ("device", &["--device"], &["--device"]),
     ];
     let benches = benches.map(|(name, short, full): (&str, &[_], &[_])| Job {
         name: format!("bench/{name}"),

@@ -247,17 +247,11 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
     let mut records = Vec::new();
     println!("{}", record::header());
     for case in cases {
-        println!("{}", case.name);
         if case.only_full && !args.full {
-            println!("     left out, it runs with --full");
+            println!("{}\n     left out, it runs with --full", case.name);
             continue;
         }
-        let mut found = (case.run)(&stand).unwrap_or_else(|error| vec![broken_off(&error)]);
-        for record in &mut found {
-            record.case = case.name.into();
-            println!("{}", record::row(record));
-        }
-        records.append(&mut found);
+        records.append(&mut found(&stand, &case));
     }
     if let Some(path) = &args.json {
         let machine = Machine::of(&stand.device.adapter_info());
@@ -268,6 +262,17 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
     let judged = records.iter().filter(|r| r.limit.is_some()).count();
     println!("{} of {judged} checks passed", judged - failed);
     Ok(failed == 0)
+}
+
+/// What a case finds, printed; what went wrong if it breaks off.
+pub(crate) fn found(stand: &Stand, case: &Case) -> Vec<Record> {
+    println!("{}", case.name);
+    let mut found = (case.run)(stand).unwrap_or_else(|error| vec![broken_off(&error)]);
+    for record in &mut found {
+        record.case = case.name.into();
+        println!("{}", record::row(record));
+    }
+    found
 }
 
 /// The record of a case that could not finish.

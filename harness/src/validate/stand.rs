@@ -43,12 +43,20 @@ impl Stand {
         println!("on {}", gpu::describe(&info));
         let (device, queue) = gpu::open(&adapter, wide, adapter.limits())?;
         Ok(Self {
-            device,
-            queue,
-            software: gpu::is_software(&info),
             full,
-            pictures: None,
+            ..Self::on(&device, &queue)
         })
+    }
+
+    /// The short form on a device that is open.
+    pub fn on(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            software: gpu::is_software(&device.adapter_info()),
+            full: false,
+            pictures: None,
+        }
     }
 
     /// Draws a chart into NAME.png, where pictures are wanted.

@@ -1,8 +1,10 @@
 //! The rock part: cutting, contacts, the search for pairs, the step of all blocks.
 
+mod crossover;
 mod kernels;
 mod pile;
 
+pub use crossover::{Crossover, crossover};
 pub use kit::clock::exponent;
 
 use super::{

@@ -29,13 +29,21 @@ fn wall_at(p: Place, cell: u32, face: u32) -> Mask {
     switch face {
         case 0u: { end = Mask(at.x == 0u); }
         case 1u: { end = Mask(at.x + 1u == CELLS_X); }
-        case 2u: { end = Mask(at.y == 0u); }
-        case 3u: { end = Mask(at.y + 1u == CELLS_Y); }
-        case 4u: { end = in_slice(at.z, SLICES, 0u); }
-        default: { end = in_slice(at.z, SLICES, CELLS_Z - 1u); }
+        case 2u: { end = in_layer(at.y, NY, LANES_Y, 0u); }
+        case 3u: { end = in_layer(at.y, NY, LANES_Y, CELLS_Y - 1u); }
+        case 4u: { end = in_layer(at.z, NZ, LANES_Z, 0u); }
+        default: { end = in_layer(at.z, NZ, LANES_Z, CELLS_Z - 1u); }
     }
     let open = Mask((NO_WALLS & (1u << face)) != 0u);
     return flag(cell, face) & !(open & end);
+}
+
+// Whether the cells of an element at i, of n along an axis with `lanes` of them, are in the layer `layer`.
+fn in_layer(i: u32, n: u32, lanes: u32, layer: u32) -> Mask {
+    if (lanes > 1u) {
+        return in_slice(i, n, layer);
+    }
+    return Mask(i == layer);
 }
 
 // Cells that are not fluid hold the state of rest.

@@ -1,10 +1,13 @@
-// The grid of elements: an element holds LANES cells, SLICES apart in z; the grid is a torus.
+// The grid of elements: an element holds LANES_Y cells, NY apart in y, or LANES_Z, NZ apart in z; the grid is a torus.
 // Non-periodic axes carry at least one layer of cells that are not fluid behind the last one.
 // needs $lanes
 
 override NX: u32;
 override NY: u32;
-override SLICES: u32;
+override NZ: u32;
+// Cells of an element along y and z: one of the two is LANES, the other 1.
+override LANES_Y: u32;
+override LANES_Z: u32;
 override BRICK_X: u32;
 override BRICK_Y: u32;
 override BRICK_Z: u32;
@@ -16,7 +19,7 @@ struct Place {
     y: vec3<u32>,
     z: vec3<u32>,
     coordinates: vec3<u32>,
-    // In the lowest slice, in the highest slice: the neighbour is in another lane.
+    // The first, the last along the axis of the lanes: the neighbour is in another lane.
     lowest: bool,
     highest: bool,
     outside: bool,
@@ -39,12 +42,12 @@ fn place_at(at: vec3<u32>) -> Place {
     var p: Place;
     p.x = axis_neighbours(at.x, NX, 1u);
     p.y = axis_neighbours(at.y, NY, NX);
-    p.z = axis_neighbours(at.z, SLICES, NX * NY);
+    p.z = axis_neighbours(at.z, NZ, NX * NY);
     p.element = p.x.y + p.y.y + p.z.y;
     p.coordinates = at;
-    p.lowest = at.z == 0u;
-    p.highest = at.z + 1u == SLICES;
-    p.outside = at.x >= NX || at.y >= NY || at.z >= SLICES;
+    p.lowest = select(at.z, at.y, LANES_Y > 1u) == 0u;
+    p.highest = select(at.z + 1u == NZ, at.y + 1u == NY, LANES_Y > 1u);
+    p.outside = at.x >= NX || at.y >= NY || at.z >= NZ;
     return p;
 }
 
@@ -53,12 +56,18 @@ fn neighbour(p: Place, c: vec3<i32>) -> u32 {
     return p.x[1 + c.x] + p.y[1 + c.y] + p.z[1 + c.z];
 }
 
+// The component of a direction along the axis of the lanes.
+fn along_lanes(c: vec3<i32>) -> i32 {
+    return select(c.z, c.y, LANES_Y > 1u);
+}
+
 // What was read at the neighbour in direction c, in the lanes of this element.
 fn from_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
-    if (c.z == 1) {
+    let step = along_lanes(c);
+    if (step == 1) {
         return select(v, rotate_up(v), p.highest);
     }
-    if (c.z == -1) {
+    if (step == -1) {
         return select(v, rotate_down(v), p.lowest);
     }
     return v;
@@ -66,11 +75,19 @@ fn from_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
 
 // What is to be written at the neighbour in direction c, in the lanes of that one.
 fn to_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
-    if (c.z == 1) {
+    let step = along_lanes(c);
+    if (step == 1) {
         return select(v, rotate_down(v), p.highest);
     }
-    if (c.z == -1) {
+    if (step == -1) {
         return select(v, rotate_up(v), p.lowest);
     }
     return v;
+}
+
+// Index of the cell of a lane in the padded grid, x fastest.
+fn padded_index(p: Place, lane: u32) -> u32 {
+    let y = p.coordinates.y + NY * (lane % LANES_Y);
+    let z = p.coordinates.z + NZ * (lane / LANES_Y);
+    return p.coordinates.x + NX * (y + NY * LANES_Y * z);
 }

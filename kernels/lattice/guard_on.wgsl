@@ -33,8 +33,7 @@ fn out_of_range(cell: u32, rho: Real, u: Vector) -> Mask {
 fn guard(p: Place, bad: Mask, first: bool) {
     let done = select(guard_state.odd, guard_state.even, GUARD_ODD);
     if (mask_any(bad) && done < STOPPED) {
-        let z = p.coordinates.z + SLICES * lowest_lane(bad);
-        let cell = p.coordinates.x + NX * (p.coordinates.y + NY * z);
+        let cell = padded_index(p, lowest_lane(bad));
         if (GUARD_ODD) {
             atomicMin(&guard_state.odd_cell, cell);
         } else {

@@ -15,11 +15,12 @@ struct Neighbourhood {
 }
 
 fn neighbourhood(cell: vec3<u32>) -> Neighbourhood {
-    let z = on_torus(cell.z, SLICES * LANES_OF_ELEMENT);
+    let y = on_torus(cell.y, NY * LANES_Y);
+    let z = on_torus(cell.z, NZ * LANES_Z);
     return Neighbourhood(
         LANES_OF_ELEMENT * on_torus(cell.x, NX),
-        LANES_OF_ELEMENT * NX * on_torus(cell.y, NY),
-        LANES_OF_ELEMENT * NX * NY * (z % vec3(SLICES)) + z / vec3(SLICES),
+        LANES_OF_ELEMENT * NX * (y % vec3(NY)) + y / vec3(NY),
+        LANES_OF_ELEMENT * NX * NY * (z % vec3(NZ)) + z / vec3(NZ),
     );
 }
 

@@ -1,4 +1,4 @@
-// Henretty et al. 2011, dimension lifting: two cells an invocation, z and z + SLICES.
+// Henretty et al. 2011, dimension lifting: two cells an invocation, those of an element in grid.wgsl.
 
 alias Real = vec2<f32>;
 alias Mask = vec2<bool>;

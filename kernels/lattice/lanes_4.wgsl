@@ -1,4 +1,4 @@
-// Henretty et al. 2011, dimension lifting: four cells an invocation, z + l SLICES in lane l.
+// Henretty et al. 2011, dimension lifting: four cells an invocation, those of an element in grid.wgsl.
 
 alias Real = vec4<f32>;
 alias Mask = vec4<bool>;

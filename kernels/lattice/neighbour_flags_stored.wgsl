@@ -4,6 +4,6 @@
 @group(0) @binding(32) var<storage, read> flags: array<u32>;
 
 fn flags_of(cell: vec3<u32>) -> u32 {
-    let element = cell.x + NX * (cell.y + NY * (cell.z % SLICES));
-    return (flags[element] >> (8u * (cell.z / SLICES))) & 255u;
+    let at = element_and_lane(cell);
+    return (flags[at.x] >> (8u * at.y)) & 255u;
 }

@@ -86,13 +86,14 @@ fn apply_solid(
     let fluid = (psm.fraction > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
-    let a = factor * rho;
+    // What lies beyond the domain may be no number, and nothing of it counts.
+    let a = select(Real(0.0), factor * rho, fluid);
     let each = 2.0 * closure / max(psm.fraction, Real(1.0));
     write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
     write_psm(PLANE_A, slot, local, put_reals(select(beta * a, (*h)[0u], adjacent)));
-    write_psm(PLANE_G, slot, local, put_reals(select(beta * (s[1u] - a * v.x) + each * lost.x, u.x, adjacent)));
-    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * (s[3u] - a * v.y) + each * lost.y, u.y, adjacent)));
-    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * (s[9u] - a * v.z) + each * lost.z, u.z, adjacent)));
+    write_psm(PLANE_G, slot, local, put_reals(select(beta * select(Real(0.0), s[1u] - a * v.x, fluid) + each * lost.x, u.x, adjacent)));
+    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * select(Real(0.0), s[3u] - a * v.y, fluid) + each * lost.y, u.y, adjacent)));
+    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * select(Real(0.0), s[9u] - a * v.z, fluid) + each * lost.z, u.z, adjacent)));
 }
 
 // Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where

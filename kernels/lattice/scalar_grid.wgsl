@@ -3,7 +3,10 @@
 
 override NX: u32;
 override NY: u32;
-override SLICES: u32;
+override NZ: u32;
+// Cells of an element: see grid.wgsl.
+override LANES_Y: u32;
+override LANES_Z: u32;
 override LANES_OF_ELEMENT: u32;
 override CELLS_X: u32;
 override CELLS_Y: u32;
@@ -34,13 +37,20 @@ fn domain_cell(n: u32) -> vec3<u32> {
 
 // Cell n of the padded grid, x fastest.
 fn padded_cell(n: u32) -> vec3<u32> {
-    return vec3(n % NX, (n / NX) % NY, n / (NX * NY));
+    let y = NY * LANES_Y;
+    return vec3(n % NX, (n / NX) % y, n / (NX * y));
+}
+
+// The element of a padded cell, and its lane there.
+fn element_and_lane(cell: vec3<u32>) -> vec2<u32> {
+    let element = cell.x + NX * (cell.y % NY + NY * (cell.z % NZ));
+    return vec2(element, cell.y / NY + cell.z / NZ);
 }
 
 // Index of a padded cell among the scalars of a direction.
 fn scalar_of(cell: vec3<u32>) -> u32 {
-    let element = cell.x + NX * (cell.y + NY * (cell.z % SLICES));
-    return element * LANES_OF_ELEMENT + cell.z / SLICES;
+    let at = element_and_lane(cell);
+    return at.x * LANES_OF_ELEMENT + at.y;
 }
 
 fn opposite(q: u32) -> u32 {

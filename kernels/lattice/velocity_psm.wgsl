@@ -55,12 +55,13 @@ fn velocity_psm(
     velocity_z_out[n] = u.z;
 }
 
-// An element of a brick in one of its lanes; beyond the domain where z is in the next lane.
+// An element of a brick in one of its lanes; beyond the domain where it would be in the next lane.
 fn cell_in(brick: u32, element: u32, lane: u32) -> vec3<u32> {
     let bricks_x = (NX + BRICK_X - 1u) / BRICK_X;
     let bricks_y = (NY + BRICK_Y - 1u) / BRICK_Y;
     let x = BRICK_X * (brick % bricks_x) + element % BRICK_X;
     let y = BRICK_Y * ((brick / bricks_x) % bricks_y) + (element / BRICK_X) % BRICK_Y;
     let z = BRICK_Z * (brick / (bricks_x * bricks_y)) + element / (BRICK_X * BRICK_Y);
-    return vec3(x, y, select(CELLS_Z, z + lane * SLICES, z < SLICES));
+    let cell = vec3(x, y + NY * (lane % LANES_Y), z + NZ * (lane / LANES_Y));
+    return select(vec3(CELLS_X, CELLS_Y, CELLS_Z), cell, y < NY && z < NZ);
 }

@@ -32,6 +32,13 @@ impl Setup {
                 self.check_face(face, axis, &face_name(axis, side))?;
             }
         }
+        if ![1, 2].contains(&self.lane_axis) {
+            let message = format!(
+                "the lanes of an element lie along axis 1 or 2, not {}",
+                self.lane_axis
+            );
+            return Err(Error::argument("lane_axis", message));
+        }
         let brick = self.brick.iter().map(|&n| u128::from(n)).product::<u128>();
         if ![32, 64, 128, 256].contains(&brick) {
             let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");

@@ -65,9 +65,12 @@ impl Lattice {
             }
         }
         let mut carried = Vec::new();
-        for (_, buffer) in &self.buffers.open_faces {
+        for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
             let count = (buffer.size() / 4) as usize;
-            carried.extend(readback.read::<f32>(device, queue, buffer, count).await?);
+            let own: Vec<f32> = readback.read(device, queue, buffer, count).await?;
+            for place in self.places(face) {
+                carried.extend_from_slice(&own[27 * place..27 * (place + 1)]);
+            }
         }
         Ok(Populations {
             carried,
@@ -145,12 +148,25 @@ impl Lattice {
             queue.submit([encoder.finish()]);
         }
         let mut carried = state.carried.as_slice();
-        for (_, buffer) in &self.buffers.open_faces {
+        for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
             let (own, rest) = carried.split_at((buffer.size() / 4) as usize);
-            queue.write_buffer(buffer, 0, bytemuck::cast_slice(own));
+            let mut values = own.to_vec();
+            for (place, of_cell) in self.places(face).into_iter().zip(own.chunks(27)) {
+                values[27 * place..27 * (place + 1)].copy_from_slice(of_cell);
+            }
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
             carried = rest;
         }
         Ok(())
+    }
+
+    /// Where the cells of an open face lie in its buffer, in the order of a state; the buffer of a closed one has one cell.
+    fn places(&self, face: usize) -> Vec<usize> {
+        let (_, _, cells) = &self.geometry.open[face];
+        match cells.is_empty() {
+            true => vec![0],
+            false => self.geometry.stages.canonical(cells),
+        }
     }
 
     fn exchange(&self, device: &wgpu::Device, entry: &'static str, half: u32) -> Result<Exchange> {

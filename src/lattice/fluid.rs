@@ -421,9 +421,8 @@ pub(super) fn vectors(
 
 /// Velocities of the moving faces of each cell: normal to x, y, z, three components each.
 fn wall_velocities(setup: &Setup, grid: &Grid, moving: &[MovingCell]) -> Vec<[[f32; 3]; 3]> {
-    let [nx, ny, _] = grid.padded();
     let of = |cell: &MovingCell, axis: usize| {
-        let at = [cell.cell % nx, (cell.cell / nx) % ny, cell.cell / (nx * ny)];
+        let at = grid.padded_cell(cell.cell);
         // Both sides of a domain one cell thick are its own faces; the lower one decides.
         let through = cell.through[axis];
         let low = (1..27).any(|q| through & (1 << q) != 0 && super::geometry::C[q][axis] < 0);

@@ -104,9 +104,10 @@ pub struct Geometry {
     pub open: Vec<(usize, usize, Vec<FaceCell>)>,
     /// The order in which the cells of both are completed.
     pub stages: Stages,
-    /// Bricks of plain fluid.
+    /// Bricks of plain fluid; none where they are fewer than those with flagged cells.
     pub plain: Vec<u32>,
-    /// Bricks with flagged cells.
+    /// Bricks with flagged cells, and all where those of plain fluid are fewer: neighbours then run one after the other,
+    /// which saves more time than flags take.
     pub mixed: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -166,9 +167,9 @@ impl Geometry {
         let links = &mut geometry.links;
         links.sort_unstable_by_key(|link| (link.directions, link.to));
         geometry.stages = Stages::new(&geometry.open);
-        geometry.stages.sort(&mut geometry.moving);
+        geometry.stages.sort(&mut geometry.moving, grid);
         for (_, _, cells) in &mut geometry.open {
-            geometry.stages.sort(cells);
+            geometry.stages.sort(cells, grid);
         }
         geometry.sort_bricks(grid);
         geometry
@@ -268,6 +269,10 @@ impl Geometry {
                 (true, _) => self.mixed.push(brick),
                 (false, _) => self.plain.push(brick),
             }
+        }
+        if self.plain.len() < self.mixed.len() {
+            self.mixed.append(&mut self.plain);
+            self.mixed.sort_unstable();
         }
     }
 }

@@ -9,8 +9,8 @@ const MAX_CELLS: u32 = u32::MAX - 64 * MAX_GROUPS;
 /// The grid as it lies in memory.
 ///
 /// Axes that are not periodic carry a layer of cells that are not fluid behind the last one: it
-/// holds what fluid cells send into the walls on both sides. Along z, `lanes` slabs of `slices`
-/// cells lie side by side in each element.
+/// holds what fluid cells send into the walls on both sides. Along `lane_axis`, `lanes` slabs of as
+/// many cells as there are elements lie side by side in each element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
     /// Fluid cells an axis.
@@ -19,6 +19,8 @@ pub struct Grid {
     pub elements: [u32; 3],
     /// Cells an element.
     pub lanes: u32,
+    /// The axis along which they are spread, 1 or 2.
+    pub lane_axis: usize,
     /// Elements of a brick an axis.
     pub brick: [u32; 3],
 }
@@ -27,10 +29,9 @@ impl Grid {
     /// The grid of a setup.
     ///
     /// # Errors
-    /// If a periodic z axis does not divide into the lanes, or the grid has more cells than an
+    /// If a periodic axis of the lanes does not divide into them, or the grid has more cells than an
     /// index holds.
     pub fn new(setup: &Setup) -> Result<Self> {
-        let [x, y, z] = setup.cells;
         if setup.cells.contains(&0) {
             return Err(Error::argument(
                 "cells",
@@ -51,19 +52,22 @@ impl Grid {
         }
         let periodic = setup.periodic_axes();
         let pad = |n: u32, axis: usize| n.saturating_add(u32::from(!periodic[axis]));
-        let depth = pad(z, 2);
-        if periodic[2] && depth % lanes != 0 {
+        let axis = setup.lane_axis;
+        let depth = pad(setup.cells[axis], axis);
+        if periodic[axis] && depth % lanes != 0 {
+            let name = ["x", "y", "z"][axis];
             return Err(Error::argument(
                 "lanes",
                 format!(
-                    "{depth} cells along a periodic z do not divide into {lanes} lanes; use {} or {} \
+                    "{depth} cells along a periodic {name} do not divide into {lanes} lanes; use {} or {} \
                      cells, or walls, or another number of lanes",
                     depth - depth % lanes,
                     depth.saturating_add(lanes - depth % lanes)
                 ),
             ));
         }
-        let elements = [pad(x, 0), pad(y, 1), depth.div_ceil(lanes)];
+        let mut elements = [0, 1, 2].map(|axis| pad(setup.cells[axis], axis));
+        elements[axis] = depth.div_ceil(lanes);
         let elements_all = elements.iter().map(|&n| u128::from(n)).product::<u128>();
         let total = elements_all * u128::from(lanes);
         let most = u64::from(MAX_CELLS);
@@ -79,6 +83,7 @@ impl Grid {
             cells: setup.cells,
             elements,
             lanes,
+            lane_axis: axis,
             brick: setup.brick,
         })
     }
@@ -98,10 +103,18 @@ impl Grid {
         self.cells.iter().map(|&n| n as usize).product()
     }
 
+    /// Cells of an element along an axis.
+    pub fn lanes_along(&self, axis: usize) -> u32 {
+        if axis == self.lane_axis {
+            self.lanes
+        } else {
+            1
+        }
+    }
+
     /// Cells an axis, padding included.
     pub fn padded(&self) -> [u32; 3] {
-        let [x, y, s] = self.elements;
-        [x, y, s * self.lanes]
+        [0, 1, 2].map(|axis| self.elements[axis] * self.lanes_along(axis))
     }
 
     /// Bricks an axis.
@@ -111,14 +124,21 @@ impl Grid {
 
     /// Element and lane of a cell of the padded grid.
     pub fn element_of(&self, [x, y, z]: [u32; 3]) -> (u32, u32) {
-        let [nx, ny, slices] = self.elements;
-        (x + nx * (y + ny * (z % slices)), z / slices)
+        let [nx, ny, nz] = self.elements;
+        let element = x + nx * (y % ny + ny * (z % nz));
+        (element, y / ny + z / nz)
     }
 
     /// Index of a cell among the scalars of a direction: the lanes of an element are neighbours.
     pub fn scalar_of(&self, cell: [u32; 3]) -> u32 {
         let (element, lane) = self.element_of(cell);
         element * self.lanes + lane
+    }
+
+    /// Cell n of the padded grid, x fastest.
+    pub fn padded_cell(&self, n: u32) -> [u32; 3] {
+        let [nx, ny, _] = self.padded();
+        [n % nx, (n / nx) % ny, n / (nx * ny)]
     }
 
     /// Whether a cell of the padded grid is one of the domain.

@@ -454,10 +454,9 @@ impl Observer {
         if cell == u32::MAX {
             return Ok(None);
         }
-        let [nx, ny, _] = lattice.grid.elements;
         Ok(Some(Fault {
             step: step.into(),
-            cell: [cell % nx, (cell / nx) % ny, cell / (nx * ny)],
+            cell: lattice.grid.padded_cell(cell),
         }))
     }
 }

@@ -160,7 +160,9 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
     let mut all = vec![
         ("NX", grid.elements[0].into()),
         ("NY", grid.elements[1].into()),
-        ("SLICES", grid.elements[2].into()),
+        ("NZ", grid.elements[2].into()),
+        ("LANES_Y", grid.lanes_along(1).into()),
+        ("LANES_Z", grid.lanes_along(2).into()),
         ("LANES_OF_ELEMENT", grid.lanes.into()),
         ("CELLS_X", grid.cells[0].into()),
         ("CELLS_Y", grid.cells[1].into()),

@@ -168,6 +168,9 @@ pub struct Setup {
     pub storage: Storage,
     /// Cells an invocation: 1, 2 or 4.
     pub lanes: u32,
+    /// The axis along which they are spread: 1 or 2. Bricks whose cells are all solid are left out, so that the axis
+    /// along which a scene changes least is the fastest.
+    pub lane_axis: usize,
     /// Speed above which the guard stops the run; 0 leaves the guard out.
     pub max_speed: f64,
     /// Elements of a brick along x, y, z; their product is the workgroup: 32, 64, 128 or 256.
@@ -203,6 +206,7 @@ impl Setup {
             solid: Vec::new(),
             storage: Storage::F32,
             lanes: 1,
+            lane_axis: 2,
             // Three quarters of the speed of sound: outside of what the method resolves, before NaN.
             max_speed: 0.43,
             brick: [16, 2, 2],
@@ -228,6 +232,47 @@ impl Setup {
         self.brick = [long, (32 / long).max(1), 1];
         self.wide = features.contains(wgpu::Features::SHADER_INT64);
         self.processor = Some(Processor::Cpu);
+    }
+
+    /// Has an invocation treat `lanes` cells, along y or z: the axis along which fewer elements hold fluid, z where both do
+    /// alike. False, with nothing changed, where both are periodic and do not divide into the lanes.
+    pub fn spread_lanes(&mut self, lanes: u32) -> bool {
+        let elements = |axis| Some((self.fluid_elements(axis, lanes)?, axis));
+        let least = [2, 1]
+            .into_iter()
+            .filter_map(elements)
+            .min_by_key(|(elements, _)| *elements);
+        if let Some((_, axis)) = least {
+            (self.lanes, self.lane_axis) = (lanes, axis);
+        }
+        least.is_some()
+    }
+
+    /// Elements that hold fluid if they have `lanes` cells along an axis; none where that is impossible.
+    fn fluid_elements(&self, axis: usize, lanes: u32) -> Option<u64> {
+        let periodic = self.periodic_axes()[axis];
+        if periodic && !self.cells[axis].is_multiple_of(lanes) {
+            return None;
+        }
+        let padded = self.cells[axis].saturating_add(u32::from(!periodic));
+        let mut elements = self.cells;
+        elements[axis] = padded.div_ceil(lanes);
+        if self.solid.is_empty() {
+            return Some(elements.iter().map(|&n| u64::from(n)).product());
+        }
+        let [nx, ny, nz] = elements;
+        let slab = elements[axis];
+        let fluid = |at: [u32; 3]| {
+            (0..lanes).any(|lane| {
+                let mut cell = at;
+                cell[axis] += lane * slab;
+                let [x, y, z] = cell.map(|i| i as usize);
+                let [cx, cy, _] = self.cells.map(|n| n as usize);
+                cell[axis] < self.cells[axis] && !self.solid[x + cx * (y + cy * z)]
+            })
+        };
+        let all = (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
+        Some(all.filter(|at| fluid(*at)).count() as u64)
     }
 
     /// Whether the kernels have words of 64 bits.

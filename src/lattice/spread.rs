@@ -158,8 +158,8 @@ pub(super) fn forces(bindings: u32, scalars: bool) -> String {
 }
 
 /// Elements of the grid, and its scalars.
-pub(super) const ELEMENTS: &str = "NX * NY * SLICES";
-pub(super) const SCALARS: &str = "NX * NY * SLICES * LANES_OF_ELEMENT";
+pub(super) const ELEMENTS: &str = "NX * NY * NZ";
+pub(super) const SCALARS: &str = "NX * NY * NZ * LANES_OF_ELEMENT";
 
 /// The place of element e in plane s, where each has `count`.
 pub(super) fn vector(own: &std::ops::Range<u32>, count: &str) -> String {

@@ -1,6 +1,6 @@
 //! The order in which cells at moving and open faces are completed.
 
-use super::{FaceCell, MovingCell};
+use super::{FaceCell, Grid, MovingCell};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -48,9 +48,16 @@ impl Stages {
         faces.unwrap_or_default().min(LAST_STAGE)
     }
 
-    /// Puts the cells of earlier stages first.
-    pub fn sort(&self, cells: &mut [impl OfFace]) {
-        cells.sort_by_key(|cell| self.of(cell));
+    /// Puts the cells of earlier stages first, and those of a stage in the order of memory.
+    pub fn sort(&self, cells: &mut [impl OfFace], grid: &Grid) {
+        cells.sort_by_key(|cell| (self.of(cell), grid.scalar_of(grid.padded_cell(cell.cell()))));
+    }
+
+    /// The places of the cells of a sorted list in an order that does not depend on how a grid lies in memory.
+    pub fn canonical(&self, cells: &[impl OfFace]) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..cells.len()).collect();
+        places.sort_by_key(|&place| (self.of(&cells[place]), cells[place].cell()));
+        places
     }
 
     /// The cells of a stage in a sorted list.

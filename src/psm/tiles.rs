@@ -113,7 +113,7 @@ impl Tiling {
                     };
                     let tile = Tile {
                         cell,
-                        lane: z.lane,
+                        lane: y.lane + z.lane,
                         inside: Tile::pack(inside),
                         ..Tile::default()
                     };
@@ -182,7 +182,7 @@ impl Tiling {
             (0, 0)
         };
         let size = self.grid.brick[axis];
-        let lanes = if axis == 2 { self.grid.lanes } else { 1 };
+        let lanes = self.grid.lanes_along(axis);
         let slab = self.grid.elements[axis];
         let mut spans = Vec::new();
         for image in first..=last {

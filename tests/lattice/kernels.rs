@@ -47,6 +47,13 @@ fn box_of(nu: f64) -> Setup {
     Setup::periodic([5, 7, 4], nu)
 }
 
+/// The same box with another layout; the periodic axis of the lanes divides by them.
+fn laid_out(mut setup: Setup, storage: Storage, lanes: u32, axis: usize) -> Setup {
+    (setup.storage, setup.lanes, setup.lane_axis) = (storage, lanes, axis);
+    setup.cells.swap(2, axis);
+    setup
+}
+
 #[test]
 fn collisions_and_equilibria() {
     for collision in [Collision::Bgk, Collision::Hermite, Collision::Suga] {
@@ -64,32 +71,39 @@ fn collisions_and_equilibria() {
 
 #[test]
 fn layouts_with_everything_on() {
-    for (storage, lanes) in layouts() {
+    for (storage, lanes, axis) in layouts() {
         for bindings in [2, Rig::new().most_bindings()] {
-            let mut setup = box_of(0.01);
-            (setup.storage, setup.lanes, setup.bindings) = (storage, lanes, Some(bindings));
+            let mut setup = laid_out(box_of(0.01), storage, lanes, axis);
+            setup.bindings = Some(bindings);
             setup.wale = Some(0.5);
             setup.force = Force::Field(
                 (0..140)
                     .map(|n| [0, 1, 2].map(|a| 1e-3 * noise(3 * n + a) as f32))
                     .collect(),
             );
-            assert_equal_to_twin(&format!("{storage:?} {lanes} lanes {bindings}"), &setup);
+            assert_equal_to_twin(
+                &format!("{storage:?} {lanes} lanes along {axis}, {bindings}"),
+                &setup,
+            );
         }
     }
 }
 
 #[test]
 fn walls_of_every_kind() {
-    for (storage, lanes) in layouts() {
+    for (storage, lanes, axis) in layouts() {
         let mut setup = walled(lanes, storage);
-        assert_equal_to_twin(&format!("walls {storage:?} {lanes}"), &setup);
+        setup.lane_axis = axis;
+        assert_equal_to_twin(&format!("walls {storage:?} {lanes} along {axis}"), &setup);
         setup.wale = Some(0.5);
         setup.force = Force::Constant([0.0, -1e-3, 5e-4]);
-        assert_equal_to_twin(&format!("walls, WALE, force {storage:?} {lanes}"), &setup);
+        assert_equal_to_twin(
+            &format!("walls, WALE, force {storage:?} {lanes} along {axis}"),
+            &setup,
+        );
         setup.lambda = Some(3.0 / 16.0);
         assert_equal_to_twin(
-            &format!("walls, one magic rate {storage:?} {lanes}"),
+            &format!("walls, one magic rate {storage:?} {lanes} along {axis}"),
             &setup,
         );
     }
@@ -97,12 +111,12 @@ fn walls_of_every_kind() {
 
 #[test]
 fn channels_along_each_axis() {
-    for axis in 0..3 {
-        for (storage, lanes) in layouts() {
-            let mut setup = box_of(0.03);
-            (setup.storage, setup.lanes) = (storage, lanes);
-            setup.faces[axis] = [Face::FreeSlip, Face::Wall([0.0; 3])];
-            assert_equal_to_twin(&format!("axis {axis} {storage:?} {lanes}"), &setup);
+    for normal in 0..3 {
+        for (storage, lanes, axis) in layouts() {
+            let mut setup = laid_out(box_of(0.03), storage, lanes, axis);
+            setup.faces[normal] = [Face::FreeSlip, Face::Wall([0.0; 3])];
+            let name = format!("normal {normal}, {storage:?} {lanes} along {axis}");
+            assert_equal_to_twin(&name, &setup);
         }
     }
 }
@@ -110,8 +124,9 @@ fn channels_along_each_axis() {
 #[test]
 fn consistent_start_and_macroscopic_fields() {
     let rig = Rig::new();
-    for (storage, lanes) in layouts() {
+    for (storage, lanes, axis) in layouts() {
         let mut setup = walled(lanes, storage);
+        setup.lane_axis = axis;
         setup.force = Force::Constant([1e-3, 2e-3, -1e-3]);
         let mut twin = twin_of(&setup);
         let n = twin.domain.cell_count();

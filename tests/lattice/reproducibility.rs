@@ -66,17 +66,18 @@ fn a_run_repeats_to_the_bit() {
 fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
     let rig = Rig::new();
     let reference = bits(&run(&rig, setup(), 51).1);
-    let mut others = vec![setup(); 6];
+    let mut others = vec![setup(); 7];
     others[0].lanes = 4;
     others[1].bindings = Some(rig.most_bindings());
     others[2].brick = [64, 1, 1];
     others[3].brick = [32, 4, 2];
     others[4].brick = [4, 4, 8];
     others[5].brick = [4, 4, 2];
+    (others[6].lanes, others[6].lane_axis) = (4, 1);
     for other in others {
         let what = format!(
-            "{} lanes, {:?} bindings, brick {:?}",
-            other.lanes, other.bindings, other.brick
+            "{} lanes along {}, {:?} bindings, brick {:?}",
+            other.lanes, other.lane_axis, other.bindings, other.brick
         );
         assert!(bits(&run(&rig, other, 51).1) == reference, "{what}");
     }
@@ -170,12 +171,18 @@ fn a_checkpoint_changes_lanes_and_bindings() {
     let saved = run(&rig, setup(), 31).1;
     let mut other = setup();
     (other.lanes, other.bindings) = (4, Some(rig.most_bindings().min(9)));
-    let mut lattice = Lattice::new(&rig.device, other).unwrap();
-    lattice
-        .set_populations(&rig.device, &rig.queue, &saved)
-        .unwrap();
-    rig.run(&mut lattice, 29);
-    assert!(bits(&rig.populations(&mut lattice)) == bits(&whole));
+    for axis in [1, 2] {
+        other.lane_axis = axis;
+        let mut lattice = Lattice::new(&rig.device, other.clone()).unwrap();
+        lattice
+            .set_populations(&rig.device, &rig.queue, &saved)
+            .unwrap();
+        rig.run(&mut lattice, 29);
+        assert!(
+            bits(&rig.populations(&mut lattice)) == bits(&whole),
+            "axis {axis}"
+        );
+    }
 }
 
 #[test]

@@ -24,17 +24,13 @@ pub fn cell_of(grid: &Grid, brick: u32, local: usize, lane: usize) -> Option<usi
     let [bricks_x, bricks_y, _] = grid.bricks();
     let [x, y, _] = grid.brick;
     let local = local as u32;
-    let element = [
+    let mut cell = [
         x * (brick % bricks_x) + local % x,
         y * (brick / bricks_x % bricks_y) + local / x % y,
         grid.brick[2] * (brick / (bricks_x * bricks_y)) + local / (x * y),
     ];
-    let inside = (0..3).all(|a| element[a] < grid.elements[a]);
-    let cell = [
-        element[0],
-        element[1],
-        element[2] + lane as u32 * grid.elements[2],
-    ];
+    let inside = (0..3).all(|a| cell[a] < grid.elements[a]);
+    cell[grid.lane_axis] += lane as u32 * grid.elements[grid.lane_axis];
     (inside && grid.contains(cell)).then(|| grid.index(cell))
 }
 

@@ -24,6 +24,7 @@ fn bindings_by_name() {
         cells: [8; 3],
         elements: [8, 8, 4],
         lanes: 2,
+        lane_axis: 2,
         brick: [4; 3],
     };
     let programs = [

@@ -22,11 +22,11 @@ struct World {
 }
 
 impl World {
-    fn new(brick: [u32; 3], lanes: u32) -> Self {
+    fn new(brick: [u32; 3], lanes: u32, lane_axis: usize) -> Self {
         let rig = Rig::new();
-        let mut setup = Setup::periodic([70, 22, 16], 0.02);
+        let mut setup = Setup::periodic([70, 24, 16], 0.02);
         setup.brick = brick;
-        setup.lanes = lanes;
+        (setup.lanes, setup.lane_axis) = (lanes, lane_axis);
         setup.solid_operator = Some(SolidOperator::Holdych);
         let lattice = Lattice::new(&rig.device, setup).unwrap();
         let units = Units {
@@ -114,13 +114,14 @@ fn poses(step: u32) -> Vec<Pose> {
 
 #[test]
 fn blocks_that_move_have_the_cells_of_blocks_that_are_put_there() {
-    for (brick, lanes) in [
-        ([64, 1, 1], 1),
-        ([16, 2, 2], 4),
-        ([8, 4, 1], 4),
-        ([4, 4, 2], 1),
+    for (brick, lanes, axis) in [
+        ([64, 1, 1], 1, 2),
+        ([16, 2, 2], 4, 2),
+        ([8, 4, 1], 4, 2),
+        ([32, 1, 1], 4, 1),
+        ([4, 4, 2], 1, 2),
     ] {
-        let [mut moving, mut put_there] = [0, 1].map(|_| World::new(brick, lanes));
+        let [mut moving, mut put_there] = [0, 1].map(|_| World::new(brick, lanes, axis));
         let (mut steps_on, mut bricks) = (0, 0);
         for step in 0..24 {
             let searches = moving.immersed.work().searches;

@@ -80,6 +80,7 @@ pub fn grid(cells: [u32; 3], lanes: u32, brick: [u32; 3]) -> Grid {
         cells,
         elements: [x, y, z.div_ceil(lanes)],
         lanes,
+        lane_axis: 2,
         brick,
     }
 }

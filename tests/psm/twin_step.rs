@@ -72,10 +72,17 @@ fn odd_rates_beside_blocks_have_a_floor_and_one_magic_rate_has_none() {
 #[test]
 fn layouts_with_walls_beside_blocks_and_everything_on() {
     let cases = [
-        (Storage::F32, 1, 2, [4, 4, 2], SolidOperator::Noble),
-        (Storage::F32, 4, 5, [16, 2, 2], SolidOperator::Superposition),
-        (Storage::F16, 2, 3, [4, 2, 4], SolidOperator::Holdych),
-        (Storage::F16, 4, 2, [8, 4, 1], SolidOperator::Holdych),
+        (Storage::F32, (1, 2), 2, [4, 4, 2], SolidOperator::Noble),
+        (
+            Storage::F32,
+            (4, 2),
+            5,
+            [16, 2, 2],
+            SolidOperator::Superposition,
+        ),
+        (Storage::F32, (4, 1), 2, [8, 4, 1], SolidOperator::Holdych),
+        (Storage::F16, (2, 1), 3, [4, 2, 4], SolidOperator::Holdych),
+        (Storage::F16, (4, 2), 2, [8, 4, 1], SolidOperator::Holdych),
     ];
     // All but the populations takes up to seven bindings, of the 10 that SwiftShader has.
     let most = Rig::new()
@@ -83,9 +90,10 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
         .limits()
         .max_storage_buffers_per_shader_stage
         - 7;
-    for (n, (storage, lanes, bindings, brick, operator)) in cases.into_iter().enumerate() {
+    for (n, (storage, (lanes, axis), bindings, brick, operator)) in cases.into_iter().enumerate() {
         let mut setup = walled(lanes, storage);
         (setup.bindings, setup.brick) = (Some(bindings.min(most)), brick);
+        setup.lane_axis = axis;
         setup.solid_operator = Some(operator);
         setup.wale = Some(0.5);
         setup.force = match n % 2 {
@@ -97,7 +105,7 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
             ),
         };
         let name = format!(
-            "{storage:?}, {lanes} lanes, {:?} bindings, {operator:?}",
+            "{storage:?}, {lanes} lanes along {axis}, {:?} bindings, {operator:?}",
             setup.bindings
         );
         assert_equal_to_twin(&name, &setup);

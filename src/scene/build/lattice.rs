@@ -50,17 +50,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         scene::Storage::F32 => Storage::F32,
         scene::Storage::F16 => Storage::F16,
     };
-    let periodic_z = scene.boundaries.z_min == Boundary::Periodic;
     let mut setup = Setup::periodic(cells, units.viscosity_to_lattice(scene.fluid.viscosity));
-    setup.lanes = numerics.lanes.unwrap_or_else(|| {
-        let divides = |lanes: u32| !periodic_z || cells[2].is_multiple_of(lanes);
-        match storage {
-            Storage::F32 if software && divides(4) => 4,
-            Storage::F32 => 1,
-            Storage::F16 if software && divides(4) => 4,
-            Storage::F16 => 2,
-        }
-    });
     setup.storage = storage;
     setup.collision = match numerics.collision {
         scene::Collision::Hermite => Collision::Hermite,
@@ -134,6 +124,12 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         if mask.solid_count() > 0 {
             setup.solid = mask.as_slice().iter().map(|&s| s != 0).collect();
         }
+    }
+    let fewest = if storage == Storage::F32 { 1 } else { 2 };
+    let lanes = numerics.lanes.unwrap_or(if software { 4 } else { fewest });
+    if !setup.spread_lanes(lanes) {
+        // What is requested and impossible is refused with its reason.
+        setup.lanes = numerics.lanes.unwrap_or(fewest);
     }
     Ok(setup)
 }

@@ -110,13 +110,16 @@ pub fn limit(setup: &Setup) -> f64 {
     }
 }
 
-/// Storage and lanes: each precision, the fewest lanes and four.
-pub fn layouts() -> [(Storage, u32); 4] {
+/// Storage, lanes and their axis: each precision, the fewest lanes and four.
+pub fn layouts() -> [(Storage, u32, usize); 7] {
     [
-        (Storage::F32, 1),
-        (Storage::F32, 4),
-        (Storage::F16, 2),
-        (Storage::F16, 4),
+        (Storage::F32, 1, 2),
+        (Storage::F32, 4, 1),
+        (Storage::F32, 4, 2),
+        (Storage::F16, 2, 1),
+        (Storage::F16, 2, 2),
+        (Storage::F16, 4, 1),
+        (Storage::F16, 4, 2),
     ]
 }
 

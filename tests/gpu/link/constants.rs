@@ -82,6 +82,7 @@ fn constants_of_blocks() {
         cells: [8; 3],
         elements: [8; 3],
         lanes: 1,
+        lane_axis: 2,
         brick: [4; 3],
     };
     let linked = psm::combine_parts(&grid, psm::Walk::Serial).link().unwrap();

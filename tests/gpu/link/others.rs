@@ -61,6 +61,7 @@ fn grid() -> Grid {
         cells: [8; 3],
         elements: [8, 8, 4],
         lanes: 2,
+        lane_axis: 2,
         brick: [4; 3],
     }
 }

@@ -27,7 +27,7 @@ fn collide_stream(
     to_moments(&h);
     let rho = 1.0 + h[0u];
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
-    let bad = out_of_range(cell, rho, u);
+    guard(p, out_of_range(cell, rho, u), index == 0u && local == 0u);
     store_velocity(p, cell, mean_velocity(psm, u));
     var d = equilibrium(rho, u);
     for (var k = 1u; k < 27u; k++) { // unroll
@@ -36,15 +36,15 @@ fn collide_stream(
     take_half_source(p, u, &d);
     // Only the change goes back from moments: its round-off is relative to the change, not to f, and
     // weak forces are not lost in that of f.
+    let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, rho, u, &h);
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);
-    apply_solid(p, index, local, cell, psm, tau_excess, rho, u, &h, &change);
+    draw_to_solid(weights, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];
     }
     clear_solid(cell, &f);
     store(p, &f);
-    guard(p, bad, index == 0u && local == 0u);
 }

@@ -31,22 +31,29 @@ fn out_of_range(cell: u32, rho: Real, u: Vector) -> Mask {
 
 // Notes the cells at fault; one invocation of the step counts it.
 fn guard(p: Place, bad: Mask, first: bool) {
-    let done = select(guard_state.odd, guard_state.even, GUARD_ODD);
-    if (mask_any(bad) && done < STOPPED) {
-        let cell = padded_index(p, lowest_lane(bad));
-        if (GUARD_ODD) {
-            atomicMin(&guard_state.odd_cell, cell);
-        } else {
-            atomicMin(&guard_state.even_cell, cell);
+    if (mask_any(bad)) {
+        if (steps_done() < STOPPED) {
+            let cell = padded_index(p, lowest_lane(bad));
+            if (GUARD_ODD) {
+                atomicMin(&guard_state.odd_cell, cell);
+            } else {
+                atomicMin(&guard_state.even_cell, cell);
+            }
         }
     }
     if (GUARD_COUNTS && first) {
+        let done = steps_done();
         if (GUARD_ODD) {
             guard_state.odd = count(done, atomicLoad(&guard_state.even_cell));
         } else {
             guard_state.even = count(done, atomicLoad(&guard_state.odd_cell));
         }
     }
+}
+
+// Steps before this one. Loaded only where it is needed: a GPU would wait for it in every invocation.
+fn steps_done() -> u32 {
+    return select(guard_state.odd, guard_state.even, GUARD_ODD);
 }
 
 fn count(done: u32, cell_before: u32) -> u32 {

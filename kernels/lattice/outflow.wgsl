@@ -13,31 +13,22 @@ struct Inside {
     outward_speed: f32,
 }
 
-fn inside(at: Neighbourhood) -> Inside {
-    var excess = read_incoming(at, 0u);
-    var flux = 0.0;
-    for (var q = 1u; q < 27u; q++) { // unroll
-        let f = read_incoming(at, q);
-        excess += f;
-        flux += f * dot(vec3<f32>(C[q]), open_face.normal);
+fn all_incoming(at: Neighbourhood) -> array<f32, 27> {
+    var f: array<f32, 27>;
+    for (var q = 0u; q < 27u; q++) { // unroll
+        f[q] = read_incoming(at, q);
     }
-    return Inside(excess, flux / (1.0 + excess));
+    return f;
 }
 
-fn remember_cell(n: u32, inner_state: Inside) {
-    let here = face_cells[n];
-    let cell = neighbourhood(padded_cell(here.cell));
-    let inner = neighbourhood(padded_cell(here.inner));
-    let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
+fn inside(f: array<f32, 27>) -> Inside {
+    var excess = f[0u];
+    var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
-        if ((here.entering & (1u << q)) != 0u) {
-            let f = read_incoming(cell, q);
-            carried[27u * n + q] = f + speed * (read_incoming(inner, q) - f);
-        }
+        excess += f[q];
+        flux += f[q] * dot(vec3<f32>(C[q]), open_face.normal);
     }
-    // The density on the face, half a cell further out.
-    let face_excess = 1.5 * inside(cell).excess - 0.5 * inner_state.excess;
-    carried[27u * n] += open_face.integral * (open_face.density - 1.0 - face_excess);
+    return Inside(excess, flux / (1.0 + excess));
 }
 
 @compute @workgroup_size(64)
@@ -47,9 +38,22 @@ fn remember(
     @builtin(local_invocation_index) local: u32,
 ) {
     let n = cell_pass.first + invocation(group, groups, local);
-    if (n < cell_pass.end) {
-        remember_cell(n, inside(neighbourhood(padded_cell(face_cells[n].inner))));
+    if (n >= cell_pass.end) {
+        return;
     }
+    let here = face_cells[n];
+    let own = all_incoming(neighbourhood(padded_cell(here.cell)));
+    let inner = all_incoming(neighbourhood(padded_cell(here.inner)));
+    let inner_state = inside(inner);
+    let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
+    for (var q = 1u; q < 27u; q++) { // unroll
+        if ((here.entering & (1u << q)) != 0u) {
+            carried[27u * n + q] = own[q] + speed * (inner[q] - own[q]);
+        }
+    }
+    // The density on the face, half a cell further out.
+    let face_excess = 1.5 * inside(own).excess - 0.5 * inner_state.excess;
+    carried[27u * n] += open_face.integral * (open_face.density - 1.0 - face_excess);
 }
 
 @compute @workgroup_size(64)
@@ -64,11 +68,16 @@ fn flow_out(
     }
     let here = face_cells[n];
     let cell = neighbourhood(padded_cell(here.cell));
-    let difference = open_face.density - 1.0 - inside(neighbourhood(padded_cell(here.inner))).excess;
-    let anchor = open_face.hold * difference + carried[27u * n];
+    let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))));
+    let anchor = open_face.hold * (open_face.density - 1.0 - inner_state.excess) + carried[27u * n];
+    // All before the first write, so that the loads do not wait for each other.
+    var kept: array<f32, 27>;
+    for (var q = 1u; q < 27u; q++) { // unroll
+        kept[q] = carried[27u * n + q];
+    }
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
-            write_incoming(cell, q, carried[27u * n + q] + anchor * weight(q));
+            write_incoming(cell, q, kept[q] + anchor * weight(q));
         }
     }
 }

@@ -44,7 +44,15 @@ fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t * (1.0 - min(psm.fraction, Real(1.0)));
 }
 
-fn apply_solid(
+// How far the change of a moment is drawn to that of the solid: of mass and momentum, and of the others.
+struct SolidWeights {
+    momentum: Real,
+    higher: Real,
+}
+
+// Before the collision: stores what the loads need, and puts the change by the solid alone in the place of the moments h, so
+// that a GPU holds no more values than without solids.
+fn collide_with_solid(
     p: Place,
     slot: u32,
     local: u32,
@@ -54,8 +62,7 @@ fn apply_solid(
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
-    change: ptr<function, array<Real, 27>>,
-) {
+) -> SolidWeights {
     let e = min(psm.fraction, Real(1.0));
     // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
     let open = e / (1.0 + (1.0 - e) / tau_minus_half);
@@ -73,16 +80,13 @@ fn apply_solid(
     let closed = open + joint * (min(open, Real(JOINT_WEIGHT)) - open);
     let weight = select(closed, Real(1.0), psm.interior);
     let v = psm.velocity;
+    let excess = (*h)[0u];
     var s = equilibrium(rho, v);
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
     let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, &s);
-    let higher = (1.0 - joint) * weight;
-    for (var k = 1u; k < 27u; k++) { // unroll
-        let part = select(higher, weight, Mask(k == 1u || k == 3u || k == 9u));
-        (*change)[k] += part * (s[k] - (*change)[k]);
-    }
+    *h = s;
     let fluid = (psm.fraction > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
@@ -90,10 +94,19 @@ fn apply_solid(
     let a = select(Real(0.0), factor * rho, fluid);
     let each = 2.0 * closure / max(psm.fraction, Real(1.0));
     write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
-    write_psm(PLANE_A, slot, local, put_reals(select(beta * a, (*h)[0u], adjacent)));
-    write_psm(PLANE_G, slot, local, put_reals(select(beta * select(Real(0.0), s[1u] - a * v.x, fluid) + each * lost.x, u.x, adjacent)));
-    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * select(Real(0.0), s[3u] - a * v.y, fluid) + each * lost.y, u.y, adjacent)));
-    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * select(Real(0.0), s[9u] - a * v.z, fluid) + each * lost.z, u.z, adjacent)));
+    write_psm(PLANE_A, slot, local, put_reals(select(beta * a, excess, adjacent)));
+    write_psm(PLANE_G, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[1u] - a * v.x, fluid) + each * lost.x, u.x, adjacent)));
+    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[3u] - a * v.y, fluid) + each * lost.y, u.y, adjacent)));
+    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[9u] - a * v.z, fluid) + each * lost.z, u.z, adjacent)));
+    return SolidWeights(weight, (1.0 - joint) * weight);
+}
+
+// Draws the change by the collision to that by the solid.
+fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
+    for (var k = 1u; k < 27u; k++) { // unroll
+        let part = select(weights.higher, weights.momentum, Mask(k == 1u || k == 3u || k == 9u));
+        (*change)[k] += part * ((*solid)[k] - (*change)[k]);
+    }
 }
 
 // Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where

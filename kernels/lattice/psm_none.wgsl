@@ -17,7 +17,11 @@ fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t;
 }
 
-fn apply_solid(
+struct SolidWeights {
+    unused: u32,
+}
+
+fn collide_with_solid(
     p: Place,
     slot: u32,
     local: u32,
@@ -27,6 +31,9 @@ fn apply_solid(
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
-    change: ptr<function, array<Real, 27>>,
-) {
+) -> SolidWeights {
+    return SolidWeights(0u);
+}
+
+fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
 }

@@ -19,6 +19,7 @@ struct FaceJob {
 @group(0) @binding(7) var<storage, read_write> face_partials: array<f32>;
 
 var<private> sums: array<f32, FACE_LOAD>;
+// Those of an invocation next to each other, so that the invocations that add them read from different banks.
 var<workgroup> sums_of_all: array<f32, 64 * FACE_LOAD>;
 
 fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
@@ -83,7 +84,7 @@ fn reduce_faces(
         }
     }
     for (var k = 0u; k < FACE_LOAD; k++) {
-        sums_of_all[k * 64u + local] = sums[k];
+        sums_of_all[local * FACE_LOAD + k] = sums[k];
     }
     workgroupBarrier();
     if (!here || local >= FACE_LOAD) {
@@ -91,7 +92,7 @@ fn reduce_faces(
     }
     var sum = 0.0;
     for (var n = 0u; n < 64u; n++) {
-        sum += sums_of_all[local * 64u + n];
+        sum += sums_of_all[n * FACE_LOAD + local];
     }
     face_partials[index * FACE_LOAD + local] = sum;
 }

@@ -1,0 +1,252 @@
+//! The kernels as a scene on a GPU links them, as SPIR-V: `gpu_kernels FOLDER [KERNELS]`.
+//!
+//! Writes a file NAME.spv for each kernel, and `index.json` with its entry point and its bindings. Files of the folder
+//! KERNELS, if it is given, stand for those of the library, so that a change is looked at without a build.
+
+use glam::DVec3;
+use naga::{
+    ShaderStage,
+    back::{pipeline_constants::process_overrides, spv},
+    proc::{BoundsCheckPolicies, BoundsCheckPolicy},
+};
+use riprap::{
+    gpu::{kernel::bindings, link::Program},
+    lattice::{
+        self, BrickKind, Collision, Face, Force, Grid, SolidOperator, Storage, collide_stream,
+        single_cells,
+    },
+    psm::{self, Forms, Walk},
+    sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
+    wgpu,
+};
+use std::{
+    collections::{HashMap, HashSet},
+    error::Error,
+    fs,
+    path::Path,
+};
+
+type Outcome = Result<(), Box<dyn Error>>;
+
+/// What is written, and what it is made from.
+struct Output<'a> {
+    folder: &'a Path,
+    replaced: Vec<(String, String)>,
+    index: serde_json::Map<String, serde_json::Value>,
+    written: HashSet<Vec<u8>>,
+}
+
+impl Output<'_> {
+    /// Links, fills the overrides, those that depend on a scene's size with 1, and writes what wgpu would give to a
+    /// driver with robustBufferAccess2. What two setups have in common is written once.
+    fn put(
+        &mut self,
+        name: &str,
+        program: &Program,
+        entry: &str,
+        constants: &[(&'static str, f64)],
+    ) -> Outcome {
+        let replaced = self.replaced.iter();
+        let program = replaced.fold(program.clone(), |p, (file, text)| p.text(file, text));
+        let linked = program.link()?;
+        let given: HashMap<_, _> = constants.iter().copied().collect();
+        let overrides = linked.module.overrides.iter();
+        let numbers = overrides
+            .filter_map(|(_, o)| o.name.clone())
+            .map(|n| (n.clone(), given.get(n.as_str()).copied().unwrap_or(1.0)))
+            .collect();
+        let stage = (ShaderStage::Compute, entry);
+        let (module, info) =
+            process_overrides(&linked.module, &linked.info, Some(stage), &numbers)?;
+        let options = spv::Options {
+            lang_version: (1, 3),
+            flags: spv::WriterFlags::empty(),
+            bounds_check_policies: BoundsCheckPolicies {
+                index: BoundsCheckPolicy::Restrict,
+                buffer: BoundsCheckPolicy::Unchecked,
+                ..Default::default()
+            },
+            ..Default::default()
+        };
+        let pipeline = spv::PipelineOptions {
+            shader_stage: ShaderStage::Compute,
+            entry_point: entry.into(),
+        };
+        let words = spv::write_vec(&module, &info, &options, Some(&pipeline))?;
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        if self.written.contains(&bytes) {
+            return Ok(());
+        }
+        fs::write(self.folder.join(format!("{name}.spv")), &bytes)?;
+        self.written.insert(bytes);
+        let bound: Vec<_> = bindings(&linked, entry)?
+            .iter()
+            .map(|b| serde_json::json!([b.number, b.kind == wgpu::BufferBindingType::Uniform]))
+            .collect();
+        let described = serde_json::json!({ "entry": entry, "bindings": bound });
+        self.index.insert(name.into(), described);
+        Ok(())
+    }
+
+    /// The steps of the lattice, and what runs on single cells.
+    fn lattice(&mut self) -> Outcome {
+        for (storage, lanes, stored) in [(Storage::F32, 1, "f32"), (Storage::F16, 2, "f16")] {
+            let mut setup = lattice::Setup::periodic([128; 3], 0.01);
+            (setup.storage, setup.lanes) = (storage, lanes);
+            for (wale, eddy) in [(None, ""), (Some(0.5), "_wale")] {
+                let mut setup = setup.clone();
+                setup.wale = wale;
+                self.step(&format!("{stored}{eddy}"), BrickKind::All, &setup)?;
+                setup.faces = [(); 3].map(|()| [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])]);
+                self.step(&format!("{stored}{eddy}_walls"), BrickKind::Flagged, &setup)?;
+                for (operator, name) in [
+                    (SolidOperator::Holdych, "holdych"),
+                    (SolidOperator::Noble, "noble"),
+                    (SolidOperator::Superposition, "superposition"),
+                ] {
+                    setup.solid_operator = Some(operator);
+                    let name = format!("{stored}{eddy}_psm_{name}");
+                    self.step(&name, BrickKind::Psm, &setup)?;
+                }
+            }
+            let variant = |change: fn(&mut lattice::Setup)| {
+                let mut setup = setup.clone();
+                change(&mut setup);
+                setup
+            };
+            for (name, setup) in [
+                ("bgk", variant(|s| s.collision = Collision::Bgk)),
+                ("suga", variant(|s| s.collision = Collision::Suga)),
+                ("force", variant(|s| s.force = Force::Constant([1e-6; 3]))),
+                ("no_guard", variant(|s| s.max_speed = 0.0)),
+            ] {
+                self.step(&format!("{stored}_{name}"), BrickKind::All, &setup)?;
+            }
+            self.single_cells(stored, setup)?;
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, name: &str, kind: BrickKind, setup: &lattice::Setup) -> Outcome {
+        let grid = Grid::new(setup)?;
+        let mut constants = lattice::constants(setup, &grid, false);
+        constants.push(("BRICKS", grid.bricks().iter().product::<u32>().into()));
+        let program = collide_stream(setup, 1, kind);
+        let name = format!("step_{name}");
+        self.put(&name, &program, "collide_stream", &constants)
+    }
+
+    fn single_cells(&mut self, stored: &str, mut setup: lattice::Setup) -> Outcome {
+        setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        let grid = Grid::new(&setup)?;
+        let constants = lattice::constants(&setup, &grid, false);
+        for (file, entry) in [
+            ("links", "reflect"),
+            ("moving_wall", "move_wall"),
+            ("pressure_face", "hold_pressure"),
+            ("outflow", "flow_out"),
+            ("outflow", "remember"),
+            ("exchange", "take_out"),
+            ("exchange", "bring_in"),
+            ("initialise", "initialise"),
+            ("macroscopic", "macroscopic"),
+            ("velocity_psm", "velocity_psm"),
+            ("velocity_restored", "velocity_restored"),
+            ("sums", "sum_cells"),
+            ("derive", "derive"),
+            ("gather", "gather"),
+        ] {
+            let program = single_cells(&setup, 1, file).slot("quantity", "quantity_eddy_viscosity");
+            self.put(&format!("{entry}_{stored}"), &program, entry, &constants)?;
+        }
+        Ok(())
+    }
+
+    fn blocks(&mut self) -> Outcome {
+        let grid = Grid::new(&lattice::Setup::periodic([128; 3], 0.01))?;
+        let constants = psm::constants(&grid);
+        for (entry, program) in [
+            ("voxelise", psm::voxelise(&grid, Walk::Parallel, Forms::ALL)),
+            ("voxelise_edges", psm::voxelise_edges(&grid, Forms::ALL)),
+            ("combine_parts", psm::combine_parts(&grid, Walk::Parallel)),
+            ("reduce_tiles", psm::reduce_tiles(&grid, Walk::Parallel)),
+            ("reduce_faces", psm::reduce_faces(&grid)),
+            ("sum_faces", psm::sum_faces()),
+            ("reduce_blocks", psm::reduce_blocks()),
+        ] {
+            self.put(entry, &program, entry, &constants)?;
+        }
+        Ok(())
+    }
+
+    fn water(&mut self) -> Outcome {
+        for (search, searched) in [
+            (NeighbourSearch::Cells, "cells"),
+            (NeighbourSearch::Lists, "lists"),
+        ] {
+            let mut setup = sph::Setup::tank(DVec3::splat(2.0), 0.02, 10.0);
+            (setup.neighbours, setup.batched_neighbours) = (search, true);
+            self.particles(searched, &setup)?;
+            setup.equation_of_state = EquationOfState::Tait;
+            self.particles(&format!("{searched}_tait"), &setup)?;
+            setup.laminar_viscosity = 0.01;
+            setup.faces[0] = [Side::Periodic; 2];
+            self.particles(&format!("{searched}_tait_viscous_periodic"), &setup)?;
+            let mut setup = sph::Setup::tank(DVec3::splat(2.0), 0.02, 10.0);
+            (setup.neighbours, setup.batched_neighbours) = (search, true);
+            setup.scheme = Scheme::Mueller { viscosity: 0.01 };
+            self.particles(searched, &setup)?;
+        }
+        Ok(())
+    }
+
+    fn particles(&mut self, name: &str, setup: &sph::Setup) -> Outcome {
+        let grid = CellGrid::new(setup)?;
+        let mut constants = sph::constants(setup, &grid);
+        constants.push(("CAPACITY", 128.0));
+        for kernel in sph::kernels_of(setup) {
+            let program = sph::program(setup, &grid, kernel);
+            self.put(&format!("{kernel}_{name}"), &program, kernel, &constants)?;
+        }
+        Ok(())
+    }
+
+    fn searches(&mut self) -> Outcome {
+        for kernel in ["bin_count", "bin_scatter", "scan_sum", "scan_spread"] {
+            self.put(kernel, &Program::new(kernel), kernel, &[])?;
+        }
+        for found in ["found_count", "found_write"] {
+            let program = Program::new("pairs").slot("found", found);
+            self.put(&format!("pairs_{found}"), &program, "pairs", &[])?;
+        }
+        Ok(())
+    }
+}
+
+fn main() -> Outcome {
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().ok_or("gpu_kernels FOLDER [KERNELS]")?;
+    fs::create_dir_all(&folder)?;
+    let mut replaced = Vec::new();
+    for file in arguments.next().iter().flat_map(fs::read_dir).flatten() {
+        let path = file?.path();
+        let name = path.file_stem().ok_or("a file without a name")?;
+        replaced.push((
+            name.to_string_lossy().into_owned(),
+            fs::read_to_string(&path)?,
+        ));
+    }
+    let mut output = Output {
+        folder: Path::new(&folder),
+        replaced,
+        index: serde_json::Map::new(),
+        written: HashSet::new(),
+    };
+    output.lattice()?;
+    output.blocks()?;
+    output.water()?;
+    output.searches()?;
+    let index = serde_json::to_string_pretty(&output.index)?;
+    fs::write(output.folder.join("index.json"), index)?;
+    Ok(())
+}

@@ -91,13 +91,13 @@ fn collide_with_solid(
     let adjacent = psm.adjacent & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
     // What lies beyond the domain may be no number, and nothing of it counts.
-    let a = select(Real(0.0), factor * rho, fluid);
+    let a = factor * rho;
     let each = 2.0 * closure / max(psm.fraction, Real(1.0));
     write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
-    write_psm(PLANE_A, slot, local, put_reals(select(beta * a, excess, adjacent)));
-    write_psm(PLANE_G, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[1u] - a * v.x, fluid) + each * lost.x, u.x, adjacent)));
-    write_psm(PLANE_G + 1u, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[3u] - a * v.y, fluid) + each * lost.y, u.y, adjacent)));
-    write_psm(PLANE_G + 2u, slot, local, put_reals(select(beta * select(Real(0.0), (*h)[9u] - a * v.z, fluid) + each * lost.z, u.z, adjacent)));
+    write_psm(PLANE_A, slot, local, put_reals(select(select(Real(0.0), beta * a, fluid), excess, adjacent)));
+    write_psm(PLANE_G, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));
+    write_psm(PLANE_G + 1u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
+    write_psm(PLANE_G + 2u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
     return SolidWeights(weight, (1.0 - joint) * weight);
 }
 

@@ -1,6 +1,7 @@
 //! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
 
 use super::{Face, Grid, Setup, stages::Stages};
+use crate::gpu::Processor;
 
 /// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
 pub const C: [[i32; 3]; 27] = [
@@ -104,10 +105,9 @@ pub struct Geometry {
     pub open: Vec<(usize, usize, Vec<FaceCell>)>,
     /// The order in which the cells of both are completed.
     pub stages: Stages,
-    /// Bricks of plain fluid; none where they are fewer than those with flagged cells.
+    /// Bricks of plain fluid that run the kernel without flags.
     pub plain: Vec<u32>,
-    /// Bricks with flagged cells, and all where those of plain fluid are fewer: neighbours then run one after the other,
-    /// which saves more time than flags take.
+    /// Bricks that run the kernel with flags.
     pub mixed: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -172,6 +172,9 @@ impl Geometry {
             geometry.stages.sort(cells, grid);
         }
         geometry.sort_bricks(grid);
+        if setup.processor == Some(Processor::Cpu) {
+            geometry.merge_bricks();
+        }
         geometry
     }
 
@@ -270,6 +273,11 @@ impl Geometry {
                 (false, _) => self.plain.push(brick),
             }
         }
+    }
+
+    /// Has all bricks run the kernel with flags where those of plain fluid are fewer: on a CPU neighbours that run one
+    /// after the other save more time than flags take.
+    fn merge_bricks(&mut self) {
         if self.plain.len() < self.mixed.len() {
             self.mixed.append(&mut self.plain);
             self.mixed.sort_unstable();

@@ -181,7 +181,8 @@ pub struct Setup {
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
     pub wide: bool,
-    /// What the kernels of blocks in the fluid are made for; `None`: what the device is.
+    /// What the kernels of blocks in the fluid are made for; `None`: what the device is. For [`Processor::Cpu`], too, all
+    /// bricks run the kernel with flags where most have them.
     pub processor: Option<Processor>,
 }
 
@@ -237,6 +238,10 @@ impl Setup {
     /// Has an invocation treat `lanes` cells, along y or z: the axis along which fewer elements hold fluid, z where both do
     /// alike. False, with nothing changed, where both are periodic and do not divide into the lanes.
     pub fn spread_lanes(&mut self, lanes: u32) -> bool {
+        if lanes == 1 {
+            (self.lanes, self.lane_axis) = (1, 2);
+            return true;
+        }
         let elements = |axis| Some((self.fluid_elements(axis, lanes)?, axis));
         let least = [2, 1]
             .into_iter()

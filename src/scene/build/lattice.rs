@@ -126,10 +126,13 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         }
     }
     let fewest = if storage == Storage::F32 { 1 } else { 2 };
-    let lanes = numerics.lanes.unwrap_or(if software { 4 } else { fewest });
-    if !setup.spread_lanes(lanes) {
-        // What is requested and impossible is refused with its reason.
-        setup.lanes = numerics.lanes.unwrap_or(fewest);
+    let preferred = match numerics.lanes {
+        Some(requested) => [requested; 2],
+        None => [if software { 4 } else { fewest }, fewest],
+    };
+    if !preferred.iter().any(|&lanes| setup.spread_lanes(lanes)) {
+        // What is impossible is refused with its reason.
+        setup.lanes = preferred[1];
     }
     Ok(setup)
 }

@@ -2,8 +2,7 @@
 # Runs a scene, the block plucked from its bed if none is named; all else goes to `riprap run`.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
-# Mesa would ask a display which GPU to prefer, and complain where there is none.
-export NODEVICE_SELECT=1
+source "$root/harness/environment.sh"
 
 "$root/harness/setup.sh"
 [ $# -gt 0 ] || set -- "$root/harness/scenes/plucking.toml"

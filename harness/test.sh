@@ -5,8 +5,7 @@
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-# Mesa would ask a display which GPU to prefer, and complain where there is none.
-export NODEVICE_SELECT=1
+source "$root/harness/environment.sh"
 
 harness/setup.sh --tests
 harness/python.sh

@@ -5,7 +5,7 @@
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
-export NODEVICE_SELECT=1
+source "$root/harness/environment.sh"
 
 harness/setup.sh --adapters
 target=${CARGO_TARGET_DIR:-target}

@@ -54,7 +54,7 @@ fn drop_fragment(in: Disc) -> Point {
     let sun = lights[0].towards.xyz;
     let sky = view.weights.z - view.weights.x * max(dot(sun, view.zenith.xyz), 0.0);
     let below = 0.5 - 0.5 * dot(normal, view.zenith.xyz);
-    let light = view.weights.x * reached(0u, p, normal, 0) + sky * (1.0 - below) + view.zenith.w * below;
+    let light = view.weights.x * sunlight(p, normal, 0) + sky * (1.0 - below) + view.zenith.w * below;
     let colour = linear_of_srgb(in.colour.rgb) * exposed(light);
     return Point(vec4f(colour, covered), view.forward.w / seen(p).z);
 }

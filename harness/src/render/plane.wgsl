@@ -39,16 +39,16 @@ fn plane_fragment(in: Seen) -> @location(0) vec4f {
     let shorter = select(right, down, leans);
     let level = log2(max(max(length(shorter), length(longer) / f32(TAPS)), 1.0));
     // A pixel that is smaller than a cell needs but one place.
-    let reach = select(vec2f(0.0), longer, length(longer) > 1.0);
+    let taps = select(1, TAPS, length(longer) > 1.0);
     let pixel = max(abs(right) + abs(down), vec2f(1e-6));
     var texel = vec4f(0.0);
-    for (var tap = 0; tap < TAPS; tap++) {
-        let place = in.place + ((f32(tap) + 0.5) / f32(TAPS) - 0.5) * reach;
+    for (var tap = 0; tap < taps; tap++) {
+        let place = in.place + ((f32(tap) + 0.5) / f32(taps) - 0.5) * longer;
         // Cells have one colour each: only within a pixel of an edge between two is there a mean of both.
         let edge = floor(place + 0.5);
         let sharp = edge + clamp((place - edge) / pixel, vec2f(-0.5), vec2f(0.5));
         let size = vec2f(plane.along.w, plane.upwards.w);
-        texel += textureSampleLevel(cells, cell_sampler, sharp / size, level) / f32(TAPS);
+        texel += textureSampleLevel(cells, cell_sampler, sharp / size, level) / f32(taps);
     }
     // The part that is fluid says how many samples of the pixel are covered.
     return vec4f(texel.rgb / max(texel.a, 1e-3), texel.a);

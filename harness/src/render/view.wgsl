@@ -69,21 +69,31 @@ fn exposed(light: f32) -> f32 {
     return select(bent, light, light < SHOULDER);
 }
 
-// Illuminance from light `index` at p on a surface with the normal n, 1 if all of it falls straight on; `reach` texels soften it.
-fn reached(index: u32, p: vec3f, n: vec3f, reach: i32) -> f32 {
-    let light = lights[index];
+// Where a light sees a surface: xy in its shadow map, z its depth there; w: cosine of its slant.
+fn seen_by(light: Light, p: vec3f, n: vec3f, reach: f32) -> vec4f {
     let cosine = dot(n, light.towards.xyz);
     // Off the surface by more than a texel slants over it, else it would shade itself.
-    let q = p + n * light.towards.w * (2.25 - 1.5 * cosine + f32(reach));
-    let place = vec3f(
+    let q = p + n * light.towards.w * (2.25 - 1.5 * cosine + reach);
+    return vec4f(
         dot(light.across.xyz, q) + light.across.w,
         1.0 - dot(light.upwards.xyz, q) - light.upwards.w,
         dot(light.depth.xyz, q) + light.depth.w,
+        cosine,
     );
-    // A light behind the surface needs no look, and beside what it sees nothing hides it. Loops of no
-    // turns say so, since devices on the CPU pass over them, but run both ways of a branch.
-    let beside = any(place.xy <= vec2f(0.0)) || any(place.xy >= vec2f(1.0));
-    let looks = select(reach, -1, beside || cosine <= 0.0);
+}
+
+// A light behind the surface needs no look, and beside what it sees nothing hides it. Loops of no
+// turns say so, since devices on the CPU pass over them, but run both ways of a branch.
+fn needs_look(place: vec4f) -> bool {
+    return place.w > 0.0 && all(place.xy > vec2f(0.0)) && all(place.xy < vec2f(1.0));
+}
+
+// Illuminance from the sun at p on a surface with the normal n, 1 if all of it falls straight on; `reach` texels
+// soften the edges of shadows.
+fn sunlight(p: vec3f, n: vec3f, reach: i32) -> f32 {
+    let light = lights[0];
+    let place = seen_by(light, p, n, f32(reach));
+    let looks = select(-1, reach, needs_look(place));
     var hidden = 0.0;
     for (var j = -looks; j <= looks; j++) {
         for (var i = -looks; i <= looks; i++) {
@@ -97,7 +107,20 @@ fn reached(index: u32, p: vec3f, n: vec3f, reach: i32) -> f32 {
         }
     }
     let width = f32(2 * reach + 1);
-    return max(cosine, 0.0) * (1.0 - hidden / (width * width));
+    return max(place.w, 0.0) * (1.0 - hidden / (width * width));
+}
+
+// The same from direction `index` of the sky, one of so many that the nearest texel will do.
+fn skylight(index: u32, p: vec3f, n: vec3f) -> f32 {
+    let light = lights[index];
+    let place = seen_by(light, p, n, 0.0);
+    let looks = select(0, 1, needs_look(place));
+    var open = 1.0;
+    for (var look = 0; look < looks; look++) {
+        let texel = vec2i((light.tile.xy + place.xy * light.tile.z) / light.tile.w);
+        open = select(0.0, 1.0, min(place.z, 1.0) <= textureLoad(shadows, texel, 0));
+    }
+    return max(place.w, 0.0) * open;
 }
 
 // Illuminance: the sun, an even sky hidden in part by bodies, and light back from the ground. All are
@@ -105,10 +128,10 @@ fn reached(index: u32, p: vec3f, n: vec3f, reach: i32) -> f32 {
 fn illuminance(p: vec3f, n: vec3f) -> f32 {
     var sky = 0.0;
     for (var index = 1u; index < u32(view.size.z); index++) {
-        sky += view.weights.y * reached(index, p, n, 0);
+        sky += view.weights.y * skylight(index, p, n);
     }
     let below = 0.5 - 0.5 * dot(n, view.zenith.xyz);
     // What directions of the sky are not looked into gives its light to all that it would see.
     sky += view.weights.w * (1.0 - below);
-    return view.weights.x * reached(0u, p, n, 1) + sky + view.zenith.w * below;
+    return view.weights.x * sunlight(p, n, 1) + sky + view.zenith.w * below;
 }

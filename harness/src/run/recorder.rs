@@ -15,6 +15,9 @@ pub trait Recorder {
     /// Writes, and says which files.
     fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()>;
 
+    /// Waits for what is still being written, and says which files.
+    fn settle(&mut self, _log: &mut RunLog) {}
+
     /// Writes what only the end of the run can show.
     fn finish(&mut self, _run: &SceneRun, _log: &mut RunLog) -> Result<()> {
         Ok(())

@@ -5,7 +5,7 @@ use super::{
     header::print_header,
     history,
     progress::Progress,
-    recorder::{Recorders, RunLog},
+    recorder::{Recorder, Recorders, RunLog},
     scene_run::SceneRun,
     summary::{Summary, Unfinished},
     throughput::{Batch, Throughput, Timed},
@@ -88,18 +88,16 @@ impl Runner {
                     self.summary.divergence = Some(diverged.to_string());
                     if run.is_intact() {
                         self.record(run, true)
-                            .with_context(|| Unfinished::new(step, &self.log))?;
+                            .with_context(|| self.unfinished(step))?;
                     }
                 }
-                _ => return Err(error).context(Unfinished::new(step, &self.log)),
+                _ => return Err(error).context(self.unfinished(step)),
             },
             Ok(()) => self.summary.complete = step == self.last,
         }
-        for recorder in &mut self.recorders {
-            recorder
-                .finish(run, &mut self.log)
-                .with_context(|| Unfinished::new(step, &self.log))?;
-        }
+        let mut recorders = self.recorders.iter_mut();
+        let finished = recorders.try_for_each(|recorder| recorder.finish(run, &mut self.log));
+        finished.with_context(|| self.unfinished(step))?;
         run.finish(&mut self.summary, &self.log, &self.throughput);
         let summary = &mut self.summary;
         summary.steps = step;
@@ -146,13 +144,30 @@ impl Runner {
 
     /// Writes what is due; everything that is not, if the run is `ending` here.
     fn record(&mut self, run: &mut SceneRun, ending: bool) -> Result<()> {
+        let is_due = |recorder: &dyn Recorder, step| recorder.schedule().due(step) != ending;
         let step = run.step();
-        for recorder in &mut self.recorders {
-            if recorder.schedule().due(step) != ending {
+        let Some((checkpoints, others)) = self.recorders.split_last_mut() else {
+            return Ok(());
+        };
+        for recorder in others.iter_mut() {
+            if is_due(&**recorder, step) {
                 recorder.record(run, &mut self.log)?;
             }
         }
+        if is_due(&**checkpoints, step) {
+            others
+                .iter_mut()
+                .for_each(|recorder| recorder.settle(&mut self.log));
+            checkpoints.record(run, &mut self.log)?;
+        }
         Ok(())
+    }
+
+    /// What is kept of a run that ends by an error at `step`.
+    fn unfinished(&mut self, step: u64) -> Unfinished {
+        let recorders = self.recorders.iter_mut();
+        recorders.for_each(|recorder| recorder.settle(&mut self.log));
+        Unfinished::new(step, &self.log)
     }
 }
 

@@ -1,5 +1,5 @@
 //! Pictures in space: `NAME_000123.png`, some of them side by side as `NAME_strip.png`, and all
-//! of them in turn as `NAME.png`.
+//! of them in turn as `NAME.png`. They are drawn on a thread of their own while the run goes on, one at a time.
 
 use super::super::{
     recorder::{Recorder, RunLog, Schedule},
@@ -7,10 +7,12 @@ use super::super::{
 };
 use super::{fluid::Fluid, frame::frame, stage::Stage};
 use crate::render::{Drawing, Picture, animate};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use riprap::scene::View;
 use std::{
     path::{Path, PathBuf},
+    sync::Arc,
+    thread::{self, JoinHandle},
     time::Duration,
 };
 
@@ -30,9 +32,11 @@ pub struct Views {
     folder: PathBuf,
     last: u64,
     /// Made with the first picture.
-    stage: Option<Stage>,
+    stage: Option<Arc<Stage>>,
     /// Why it could not be made.
     failed: Option<String>,
+    /// The picture that is being drawn while the run goes on.
+    under_way: Option<(PathBuf, JoinHandle<Result<()>>)>,
     /// Frames for the strip.
     strip: Vec<Drawing<'static>>,
 }
@@ -57,6 +61,7 @@ impl Views {
             last,
             stage: None,
             failed: None,
+            under_way: None,
             strip: Vec::new(),
         }
     }
@@ -65,19 +70,27 @@ impl Views {
         self.folder.join(format!("{}{ending}.png", self.view.name))
     }
 
-    fn stage(&mut self, run: &SceneRun, frame: &Drawing<'static>) -> Result<&Stage> {
+    fn stage(&mut self, run: &SceneRun, frame: &Drawing<'static>) -> Result<Arc<Stage>> {
         if let Some(failed) = &self.failed {
             bail!("{failed}");
         }
-        let stage = match self.stage.take() {
-            Some(stage) => stage,
-            None => {
-                let made = Stage::new(run, &self.view, self.adapter.as_deref(), frame);
-                // It would fail again, and open a device for each picture.
-                made.inspect_err(|error| self.failed = Some(format!("{error:#}")))?
-            }
-        };
-        Ok(self.stage.insert(stage))
+        if let Some(stage) = &self.stage {
+            return Ok(Arc::clone(stage));
+        }
+        let made = Stage::new(run, &self.view, self.adapter.as_deref(), frame);
+        // It would fail again, and open a device for each picture.
+        let stage = made.inspect_err(|error| self.failed = Some(format!("{error:#}")))?;
+        Ok(Arc::clone(self.stage.insert(Arc::new(stage))))
+    }
+
+    /// Begins to draw a frame.
+    fn begin(&mut self, run: &SceneRun, frame: Drawing<'static>, path: &Path) -> Result<()> {
+        let stage = self.stage(run, &frame)?;
+        let file = path.to_owned();
+        let draw = move || stage.draw(frame)?.save(&file);
+        let thread = thread::Builder::new().name("picture".into()).spawn(draw)?;
+        self.under_way = Some((path.to_owned(), thread));
+        Ok(())
     }
 
     /// Whether the strip wants a frame by now.
@@ -122,14 +135,24 @@ impl Recorder for Views {
         let path = self.path(&format!("_{:06}", run.step()));
         let frame = frame(run, &self.fluid)?;
         let wanted = self.wanted(run.step()).then(|| frame.clone());
-        let stage = self.stage(run, &frame);
-        let drawn = stage.and_then(|stage| stage.draw(frame)?.save(&path));
-        log.picture(path, drawn);
+        self.settle(log);
+        if let Err(error) = self.begin(run, frame, &path) {
+            log.picture(path, Err(error));
+        }
         self.strip.extend(wanted);
         Ok(())
     }
 
+    fn settle(&mut self, log: &mut RunLog) {
+        if let Some((path, thread)) = self.under_way.take() {
+            let drawn = thread.join();
+            let drawn = drawn.unwrap_or_else(|_| Err(anyhow!("the thread that drew it panicked")));
+            log.picture(path, drawn);
+        }
+    }
+
     fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
+        self.settle(log);
         let Some(stage) = &self.stage else {
             return Ok(());
         };

@@ -109,8 +109,9 @@ fn a_dam_with_a_gate_on_closed_joints() {
     check(&dam(100.0), 60, 0.0);
 }
 
-/// Until they touch: a collision multiplies differences.
+/// They meet after some ten steps, and the film between them holds them apart. Long after, moments at one step differ
+/// by more: 6e-5 after 60.
 #[test]
-fn two_blocks_with_a_film_that_approach_each_other_across_a_periodic_face() {
-    check(&pair(8.0, true), 10, 0.1);
+fn two_blocks_with_a_film_that_meet_across_a_periodic_face() {
+    check(&pair(8.0, true), 24, 0.1);
 }

@@ -67,7 +67,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let times = turns.measure(&mut worlds)?;
     let more = 100.0 * (times.ratio(1, 0) - 1.0);
     table.add(
-        "loads of faces, where they are asked for",
+        "loads of faces, where requested",
         &format!("{n}³"),
         more,
         "%",

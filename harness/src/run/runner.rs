@@ -5,7 +5,7 @@ use super::{
     header::print_header,
     history,
     progress::Progress,
-    recorder::{Recorder, Recorders, RunLog},
+    recorder::{Recorders, RunLog},
     scene_run::SceneRun,
     summary::{Summary, Unfinished},
     throughput::{Batch, Throughput, Timed},
@@ -144,29 +144,29 @@ impl Runner {
 
     /// Writes what is due; everything that is not, if the run is `ending` here.
     fn record(&mut self, run: &mut SceneRun, ending: bool) -> Result<()> {
-        let is_due = |recorder: &dyn Recorder, step| recorder.schedule().due(step) != ending;
         let step = run.step();
-        let Some((checkpoints, others)) = self.recorders.split_last_mut() else {
-            return Ok(());
-        };
-        for recorder in others.iter_mut() {
-            if is_due(&**recorder, step) {
-                recorder.record(run, &mut self.log)?;
+        for number in 0..self.recorders.len() {
+            if self.recorders[number].schedule().due(step) == ending {
+                continue;
             }
-        }
-        if is_due(&**checkpoints, step) {
-            others
-                .iter_mut()
-                .for_each(|recorder| recorder.settle(&mut self.log));
-            checkpoints.record(run, &mut self.log)?;
+            // The last one writes checkpoints.
+            if number + 1 == self.recorders.len() {
+                self.settle();
+            }
+            self.recorders[number].record(run, &mut self.log)?;
         }
         Ok(())
     }
 
-    /// What is kept of a run that ends by an error at `step`.
-    fn unfinished(&mut self, step: u64) -> Unfinished {
+    /// Waits for all that is still being written.
+    fn settle(&mut self) {
         let recorders = self.recorders.iter_mut();
         recorders.for_each(|recorder| recorder.settle(&mut self.log));
+    }
+
+    /// What is kept of a run that ends by an error at `step`.
+    fn unfinished(&mut self, step: u64) -> Unfinished {
+        self.settle();
         Unfinished::new(step, &self.log)
     }
 }

@@ -1,5 +1,5 @@
 //! Pictures in space: `NAME_000123.png`, some of them side by side as `NAME_strip.png`, and all
-//! of them in turn as `NAME.png`. They are drawn on a thread of their own while the run goes on, one at a time.
+//! of them in turn as `NAME.png`. A background thread draws each picture in parallel with the simulation.
 
 use super::super::{
     recorder::{Recorder, RunLog, Schedule},
@@ -35,8 +35,8 @@ pub struct Views {
     stage: Option<Arc<Stage>>,
     /// Why it could not be made.
     failed: Option<String>,
-    /// The picture that is being drawn while the run goes on.
-    under_way: Option<(PathBuf, JoinHandle<Result<()>>)>,
+    /// The picture that a background thread draws.
+    in_progress: Option<(PathBuf, JoinHandle<Result<()>>)>,
     /// Frames for the strip.
     strip: Vec<Drawing<'static>>,
 }
@@ -61,7 +61,7 @@ impl Views {
             last,
             stage: None,
             failed: None,
-            under_way: None,
+            in_progress: None,
             strip: Vec::new(),
         }
     }
@@ -83,13 +83,13 @@ impl Views {
         Ok(Arc::clone(self.stage.insert(Arc::new(stage))))
     }
 
-    /// Begins to draw a frame.
+    /// Draws a frame in the background.
     fn begin(&mut self, run: &SceneRun, frame: Drawing<'static>, path: &Path) -> Result<()> {
         let stage = self.stage(run, &frame)?;
         let file = path.to_owned();
         let draw = move || stage.draw(frame)?.save(&file);
         let thread = thread::Builder::new().name("picture".into()).spawn(draw)?;
-        self.under_way = Some((path.to_owned(), thread));
+        self.in_progress = Some((path.to_owned(), thread));
         Ok(())
     }
 
@@ -144,7 +144,7 @@ impl Recorder for Views {
     }
 
     fn settle(&mut self, log: &mut RunLog) {
-        if let Some((path, thread)) = self.under_way.take() {
+        if let Some((path, thread)) = self.in_progress.take() {
             let drawn = thread.join();
             let drawn = drawn.unwrap_or_else(|_| Err(anyhow!("the thread that drew it panicked")));
             log.picture(path, drawn);

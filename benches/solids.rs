@@ -240,6 +240,10 @@ fn sums(adapter: &mut Adapter<'_>) -> Result<(), Error> {
             ])),
         ),
         ("solid_fractions", buffer(bytemuck::cast_slice(&shares))),
+        (
+            "effective_fractions",
+            buffer(bytemuck::cast_slice(&[&shares[..]; 2].concat())),
+        ),
         ("psm_planes_0", buffer(bytemuck::cast_slice(&planes))),
         ("block_first", buffer(bytemuck::cast_slice(&first))),
         ("partials", empty(WRENCH as u32 * count)),

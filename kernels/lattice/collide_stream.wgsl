@@ -36,7 +36,7 @@ fn collide_stream(
     take_half_source(p, u, &d);
     // Only the change goes back from moments: its round-off is relative to the change, not to f, and
     // weak forces are not lost in that of f.
-    let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, rho, u, &h);
+    let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, third_order_rate(cell, psm, shear_rate), rho, u, &h);
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);

@@ -1,7 +1,7 @@
-// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid with B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)),
-// e the solid fraction of the cell, tau the relaxation time. The operator of the solid is linear in rho and in the
+// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid, with the weight B of the fraction e of the cell that
+// blocks fill, and of the relaxation time tau. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $reals
+// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals
 
 // Largest B in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations in
 // such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
@@ -10,8 +10,9 @@
 const JOINT_WEIGHT = 0.25;
 
 struct PsmCell {
-    // Sum over the blocks; more than 1 where they overlap.
+    // e, and the sum over the parts, of which each has its part of the force; more than 1 where blocks overlap.
     fraction: Real,
+    shares: Real,
     velocity: Vector,
     near: Mask,
     adjacent: Mask,
@@ -26,12 +27,13 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
         get_reals(read_psm(PLANE_VELOCITY + 1u, slot, local)),
         get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
-    return PsmCell(sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
+    let fraction = get_reals(read_psm(PLANE_FRACTION, slot, local));
+    return PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
 }
 
 // The velocity for the eddy viscosity of the next step: the solid's velocity in the solid.
 fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
-    let e = min(psm.fraction, Real(1.0));
+    let e = psm.fraction;
     return Vector(
         u.x + e * (psm.velocity.x - u.x),
         u.y + e * (psm.velocity.y - u.y),
@@ -41,7 +43,7 @@ fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
 
 // Solid rotation has an eddy viscosity by the formula, which it must not have.
 fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
-    return nu_t * (1.0 - min(psm.fraction, Real(1.0)));
+    return nu_t * (1.0 - psm.fraction);
 }
 
 // How far the change of a moment is drawn to that of the solid: of mass and momentum, and of the others.
@@ -59,13 +61,13 @@ fn collide_with_solid(
     cell: u32,
     psm: PsmCell,
     tau_minus_half: Real,
+    odd_rate: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
 ) -> SolidWeights {
-    let e = min(psm.fraction, Real(1.0));
-    // Divided by tau - 1/2, so that no compiler adds that to one and rounds it away.
-    let open = e / (1.0 + (1.0 - e) / tau_minus_half);
+    let e = psm.fraction;
+    let open = solid_weight(e, tau_minus_half, odd_rate);
     let closure = clamp((e - Real(1.0 - OPEN_GAP)) / (OPEN_GAP - CLOSED_GAP), Real(0.0), Real(1.0));
     let narrow = (closure > Real(0.0)) & !psm.interior;
     var at_wall = Mask(false);
@@ -87,12 +89,12 @@ fn collide_with_solid(
     }
     let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, &s);
     *h = s;
-    let fluid = (psm.fraction > Real(0.0)) & !solid(cell);
+    let fluid = (psm.shares > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);
-    let beta = select(Real(0.0), weight / max(psm.fraction, Real(1e-30)), fluid);
+    let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
     // What lies beyond the domain may be no number, and nothing of it counts.
     let a = factor * rho;
-    let each = 2.0 * closure / max(psm.fraction, Real(1.0));
+    let each = 2.0 * closure / max(psm.shares, Real(1.0));
     write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
     write_psm(PLANE_A, slot, local, put_reals(select(select(Real(0.0), beta * a, fluid), excess, adjacent)));
     write_psm(PLANE_G, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));

@@ -28,6 +28,7 @@ fn collide_with_solid(
     cell: u32,
     psm: PsmCell,
     tau_minus_half: Real,
+    odd_rate: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,

@@ -8,6 +8,11 @@ override S17: f32;
 override S18: f32;
 override S20: f32;
 
+// Of 120 + 102, and for y and z.
+fn third_order_rate(cell: u32, psm: PsmCell, shear_rate: Real) -> Real {
+    return Real(odd_rates(cell, psm).s10);
+}
+
 fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real, 27>>, h: ptr<function, array<Real, 27>>) {
     let odd = odd_rates(cell, psm);
 

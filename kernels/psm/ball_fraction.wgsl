@@ -1,4 +1,4 @@
-// Solid fraction of a sphere in a cell on its surface.
+// Fractions of a sphere in a cell on its surface.
 //
 // Along the main axis z the solid fraction is G(z0) - G(z1), G(z) the volume of the sphere above height z over the cell's square.
 // With h = sqrt(R^2 - x^2 - y^2), u = max(h - z, 0), t = R - z and F(u) = u^2 (z/2 + u/3), the field (C - F) / rho^2 (x, y)
@@ -6,7 +6,7 @@
 //     G = sum of +-a [ integral of (C - F) / rho^2 along what of the edge is in the sphere ] + C (angle of the rest),
 // a being the distance of the edge from the axis. Away from the axis C = 0: the surface adds nothing. Near it C = F(t),
 // which makes the integrand (t + u) / 4 + (t - u)^2 / (12 (R + h)). All terms are of the size of a cell: nothing cancels.
-// needs tables, axes, ball_power, angle
+// needs tables, axes, ball_power, angle, $effective
 
 // Half the edge of a square, squared, over which the axis is near; for spheres of more than 4 cells their radius.
 const AXIS = 4.0;
@@ -32,7 +32,26 @@ struct Square {
 
 const SIDES = vec4(1.0, -1.0, 1.0, -1.0);
 
-fn ball_fraction(part: Part, cell: vec3<i32>) -> f32 {
+fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
+    // A loop, so that compilers do not write the same twice.
+    var ball = part;
+    var solid = 0.0;
+    var effective = 0.0;
+    for (var n = 0u; n < 2u; n++) {
+        effective = ball_volume(ball, cell);
+        let outer = effective_radius(ball.radius);
+        if (n == 0u) {
+            solid = effective;
+        }
+        if (outer == ball.radius) {
+            break;
+        }
+        ball.radius = outer;
+    }
+    return Fractions(solid, vec2(effective));
+}
+
+fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
     // By symmetry in the octant where all are positive.
     let far = abs(centre_from(cell, part.base, part.fraction));
     let at = turned(far, main_axis(far));
@@ -58,7 +77,7 @@ fn ball_fraction(part: Part, cell: vec3<i32>) -> f32 {
         }
         fraction += weight * volume_above(at.xy, z, middle_power, part.radius);
     }
-    return select(NEAR, min(fraction, 1.0), fraction > BALL_EMPTY);
+    return select(0.0, min(fraction, 1.0), fraction > BALL_EMPTY);
 }
 
 // at: the middle of the square from the axis; power: its power.

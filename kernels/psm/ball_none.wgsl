@@ -5,6 +5,6 @@ fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
     return 0.0;
 }
 
-fn ball_fraction(part: Part, cell: vec3<i32>) -> f32 {
-    return 0.0;
+fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
+    return Fractions(0.0, vec2(0.0));
 }

@@ -1,17 +1,20 @@
 // Whether a cell is in a sphere, next to it, or on its surface.
-// needs tables, ball_power
+// needs tables, ball_power, $effective
 
 fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
     let far = abs(centre_from(cell, part.base, part.fraction));
-    let power = ball_power(part, cell);
+    var outer = part;
+    outer.radius = effective_radius(part.radius);
+    let power = ball_power(outer, cell);
     if (nearest_power(power, far, 1.5) <= 0.0) {
         return 0.0;
     }
     if (nearest_power(power, far, 0.5) <= 0.0) {
         return NEAR;
     }
-    if (farthest_power(power, far, 0.5) >= 0.0) {
-        return select(1.0, INTERIOR, farthest_power(power, far, 2.5) >= 0.0);
+    let inner = power - (outer.radius - part.radius) * (outer.radius + part.radius);
+    if (farthest_power(inner, far, 0.5) >= 0.0) {
+        return select(1.0, INTERIOR, farthest_power(inner, far, 2.5) >= 0.0);
     }
     return UNDECIDED;
 }

@@ -1,5 +1,5 @@
-// Gardner & Sitar 2018, eq. 10: the solid fraction of each cell, and how that solid moves, over all parts that share the
-// cell, where one of them can reach. A workgroup is a lane of a brick with blocks; its invocations share the cells.
+// Gardner & Sitar 2018, eq. 10: the fraction of each cell that decides the weight of the solid, and how that solid moves, over
+// all parts that share the cell, where one of them can reach. A workgroup is a lane of a brick with blocks; its invocations share the cells.
 // needs tables, psm_planes, psm_storage, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
@@ -12,13 +12,18 @@ override LANES_OF_ELEMENT: u32;
 @group(0) @binding(3) var<storage, read> lane_first: array<u32>;
 @group(0) @binding(4) var<storage, read> lane_tiles: array<u32>;
 @group(0) @binding(5) var<storage, read> solid_fractions: array<f32>;
+@group(0) @binding(6) var<storage, read> effective_fractions: array<vec2<f32>>;
 
 // Sums over the parts in one cell.
 struct Sums {
-    // Velocity weighed by the solid fractions, and their sum.
+    // Velocity weighed by the effective fractions, and their sum.
     solid: vec4<f32>,
     // The same of parts that touch only, each as one.
     touching: vec4<f32>,
+    // Sum of the solid fractions, the largest effective fraction, and the parts that have one.
+    fraction: f32,
+    largest: f32,
+    parts: u32,
     // Whether a part is interior, or near.
     interior: bool,
     near: bool,
@@ -52,18 +57,35 @@ fn combine_parts(
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
         var sums: Sums;
         if (begin < end) {
-            sums = with_part(sums, solid_fractions[first * WORKGROUP + place], tile, motion, place);
+            sums = with_part(sums, first, tile, motion, place);
         }
         for (var k = begin + 1u; k < end; k++) {
             let number = lane_tiles[k];
-            let mark = solid_fractions[number * WORKGROUP + place];
-            if (mark != 0.0) {
+            if (solid_fractions[number * WORKGROUP + place] != 0.0) {
                 let other = tiles[number];
-                sums = with_part(sums, mark, other, motions[other.block], place);
+                sums = with_part(sums, number, other, motions[other.block], place);
+            }
+        }
+        if (sums.parts > 1u) {
+            sums.largest = 0.0;
+            for (var k = begin; k < end; k++) {
+                sums.largest = max(sums.largest, beside_others(lane_tiles[k] * WORKGROUP + place, sums.fraction));
             }
         }
         write(lane, place, sums);
     }
+}
+
+// Effective fraction of a part where all parts fill `all` of the cell: that of the part alone, less the more others fill what
+// it would, were it longer by the cell over one of its edges. Parts that are flush with each other leave what one does.
+fn beside_others(at: u32, all: f32) -> f32 {
+    let solid = clamp(solid_fractions[at], 0.0, 1.0);
+    let effective = effective_fractions[at];
+    // Two planes at a right angle leave `effective.y` and `other` of the cell.
+    let other = solid / max(effective.y, 1e-9);
+    let longer = min(other, effective.y) - solid;
+    let free = clamp(1.0 - (all - solid) / max(longer, 1e-9), 0.0, 1.0);
+    return effective.y + free * (effective.x - effective.y);
 }
 
 fn reach_of_all(begin: u32, end: u32) -> vec2<u32> {
@@ -75,14 +97,19 @@ fn reach_of_all(begin: u32, end: u32) -> vec2<u32> {
     return reach;
 }
 
-fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) -> Sums {
+fn with_part(before: Sums, number: u32, tile: Tile, motion: Motion, place: u32) -> Sums {
+    let mark = solid_fractions[number * WORKGROUP + place];
+    let effective = effective_fractions[number * WORKGROUP + place].x;
     let cell = tile.cell + vec3<i32>(place_in_brick(place));
     let u = vec4(velocity_at(motion, centre_from(cell, motion.base, motion.fraction)), 1.0);
     let met = mark > 0.0 || mark == TOUCHES;
     let another = before.first_block != 0u && before.first_block != tile.block + 1u;
     return Sums(
-        before.solid + clamp(mark, 0.0, 1.0) * u,
+        before.solid + effective * u,
         before.touching + select(0.0, 1.0, mark == TOUCHES) * u,
+        before.fraction + clamp(mark, 0.0, 1.0),
+        max(before.largest, effective),
+        before.parts + select(0u, 1u, effective > 0.0),
         before.interior || mark == INTERIOR,
         before.near || mark < 0.0,
         select(before.first_block, tile.block + 1u, met),
@@ -91,15 +118,16 @@ fn with_part(before: Sums, mark: f32, tile: Tile, motion: Motion, place: u32) ->
 }
 
 fn write(lane: u32, place: u32, sums: Sums) {
-    let fraction = sums.solid.w;
-    let some = fraction > 0.0;
-    let closure = select(0.0, joint_closure(fraction), sums.several && !sums.interior);
+    let shares = sums.solid.w;
+    let some = shares > 0.0;
+    let closure = select(0.0, joint_closure(sums.fraction), sums.several && !sums.interior);
     let joint = closure > 0.0;
     let slot = lane / LANES_OF_ELEMENT;
     let at = place * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let all = sums.solid + closure * sums.touching;
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    write_psm(PLANE_SUM, slot, at, encode_sum(fraction, sums.near, sums.interior, joint));
+    write_psm(PLANE_SUM, slot, at, encode_sum(shares, sums.near, sums.interior, joint));
+    write_psm(PLANE_FRACTION, slot, at, min(max(sums.fraction, sums.largest), 1.0));
     write_psm(PLANE_VELOCITY, slot, at, u.x);
     write_psm(PLANE_VELOCITY + 1u, slot, at, u.y);
     write_psm(PLANE_VELOCITY + 2u, slot, at, u.z);

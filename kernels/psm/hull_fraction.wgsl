@@ -1,8 +1,8 @@
-// Solid fraction of a convex polyhedron in a cell that several of its faces cut.
-// needs tables, faces, several_planes, columns
+// Fractions of a convex polyhedron in a cell that several of its faces cut.
+// needs tables, faces, several_planes, columns, $effective
 
 // r: the centre of the cell from the part's centroid.
-fn hull_fraction(part: Part, r: vec3<f32>) -> f32 {
+fn hull_fraction(part: Part, r: vec3<f32>) -> Fractions {
     var cuts = 0u;
     var planes = NO_CUTS;
     for (var k = 0u; k < part.faces; k++) {
@@ -19,7 +19,8 @@ fn hull_fraction(part: Part, r: vec3<f32>) -> f32 {
     } else {
         fraction = many_planes_volume(part, r);
     }
-    return select(NEAR, fraction, fraction > EMPTY);
+    let solid = select(0.0, fraction, fraction > EMPTY);
+    return Fractions(solid, effective_hull(part, r, solid));
 }
 
 // By columns through all faces of the part.

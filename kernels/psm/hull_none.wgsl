@@ -5,6 +5,6 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
     return 0.0;
 }
 
-fn hull_fraction(part: Part, r: vec3<f32>) -> f32 {
-    return 0.0;
+fn hull_fraction(part: Part, r: vec3<f32>) -> Fractions {
+    return Fractions(0.0, vec2(0.0));
 }

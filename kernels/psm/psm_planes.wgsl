@@ -1,15 +1,17 @@
-// Partially saturated cells: the nine planes of numbers that blocks and fluid exchange, for each brick that blocks reach.
+// Partially saturated cells: the ten planes of numbers that blocks and fluid exchange, for each brick that blocks reach.
 // needs $lanes
 
-// Sum of the solid fractions of all blocks, with a code: see encode_sum.
+// Sum of the effective fractions of all parts, with a code: see encode_sum.
 const PLANE_SUM = 0u;
 // Mean velocity of the blocks (3).
 const PLANE_VELOCITY = 1u;
-// For the forces on the blocks: beta = B / e, beta a and beta G (3). In fluid cells next to a block these are 1, rho - 1 and
+// For the forces on the blocks: beta = B / sum, beta a and beta G (3). In fluid cells next to a block these are 1, rho - 1 and
 // the velocity of the fluid.
 const PLANE_BETA = 4u;
 const PLANE_A = 5u;
 const PLANE_G = 6u;
+// Fraction that decides the weight of the solid, 0..1.
+const PLANE_FRACTION = 9u;
 
 // Added to the sum in a cell that is in the interior of one of the blocks.
 const INTERIOR_SUM = 8.0;

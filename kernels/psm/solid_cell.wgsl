@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, eqs. 11-12, with the minus that their text has and the equations lack: what the fluid does to
-// one part in one cell, f = -e (a u_p + G), e being the solid fraction; a and G come from the fluid kernel.
+// one part in one cell, f = -e (a u_p + G), e being the effective fraction; a and G come from the fluid kernel.
 // needs workgroup, tables, psm_planes, psm_storage, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
@@ -11,7 +11,7 @@ override LANES_OF_ELEMENT: u32;
 struct SolidCell {
     // Its centre from that of the block.
     r: vec3<f32>,
-    // Solid fraction.
+    // Effective fraction.
     e: f32,
     // Force on the part.
     f: vec3<f32>,
@@ -19,9 +19,9 @@ struct SolidCell {
     beta: f32,
 }
 
-// For solid fractions above zero; other cells may hold any bits.
+// For effective fractions e above zero; other cells may hold any bits.
 // `motion` is that of the tile's block.
-fn solid_cell(tile: Tile, motion: Motion, fraction: f32, local: u32) -> SolidCell {
+fn solid_cell(tile: Tile, motion: Motion, e: f32, local: u32) -> SolidCell {
     let r = centre_from(tile.cell + vec3<i32>(place_in_brick(local)), motion.base, motion.fraction);
     let at = local * LANES_OF_ELEMENT + tile.lane;
     let a = read_psm(PLANE_A, tile.slot, at);
@@ -30,7 +30,6 @@ fn solid_cell(tile: Tile, motion: Motion, fraction: f32, local: u32) -> SolidCel
         read_psm(PLANE_G + 1u, tile.slot, at),
         read_psm(PLANE_G + 2u, tile.slot, at),
     );
-    let e = min(fraction, 1.0);
     // Blocks that meet slide on what is between them: none of it is due to how they differ.
     let mean = vec3(
         read_psm(PLANE_VELOCITY, tile.slot, at),

@@ -59,6 +59,14 @@ const WRENCH = 20u;
 // Numbers that a face has: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
 const FACE_LOAD = 18u;
 
+// Of a part in a cell.
+struct Fractions {
+    // Its volume there.
+    solid: f32,
+    // What decides the weight of the solid: where the part is alone, and where others fill the cell beside it.
+    effective: vec2<f32>,
+}
+
 // The centre of a cell, from base + fraction.
 fn centre_from(cell: vec3<i32>, base: vec3<i32>, fraction: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(cell - base) + 0.5 - fraction;

@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction, volume of (cell and convex part) / volume of the cell, of one part
-// in each cell of the listed tiles that it can reach. A workgroup is a tile; its invocations share the cells. Cells at
+// in each cell of the listed tiles that it can reach, and its effective fraction, which decides the weight of the solid. A workgroup is a tile; its invocations share the cells. Cells at
 // edges, and on spheres, are few and dear: they are put on a list for voxelise_edges, in any order, since neighbours in a
 // workgroup would wait for them.
 // needs tables, brick, $ball_quick, $hull_quick
@@ -9,6 +9,7 @@
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
 // WORKGROUP a tile.
 @group(0) @binding(4) var<storage, read_write> solid_fractions: array<f32>;
+@group(0) @binding(7) var<storage, read_write> effective_fractions: array<vec2<f32>>;
 
 struct Edges {
     count: atomic<u32>,
@@ -39,6 +40,7 @@ fn voxelise(
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
         let fraction = quick_fraction(tile, part, place_in_brick(place));
         solid_fractions[number * WORKGROUP + place] = fraction;
+        effective_fractions[number * WORKGROUP + place] = vec2(clamp(fraction, 0.0, 1.0));
         if (fraction == UNDECIDED) {
             edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + place;
         }

@@ -1,9 +1,10 @@
-// Gardner & Sitar 2018, fig. 3: the solid fraction of one part in each cell that voxelise has left over.
+// Gardner & Sitar 2018, fig. 3: the fractions of one part in each cell that voxelise has left over.
 // needs workgroup, tables, brick, $ball_fraction, $hull_fraction
 
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
 @group(0) @binding(4) var<storage, read_write> solid_fractions: array<f32>;
+@group(0) @binding(7) var<storage, read_write> effective_fractions: array<vec2<f32>>;
 
 struct Edges {
     count: u32,
@@ -26,10 +27,13 @@ fn voxelise_edges(
         let tile = tiles[place / WORKGROUP];
         let part = parts[tile.part];
         let cell = tile.cell + vec3<i32>(place_in_brick(place % WORKGROUP));
+        var fractions: Fractions;
         if (part.faces == 0u) {
-            solid_fractions[place] = ball_fraction(part, cell);
+            fractions = ball_fraction(part, cell);
         } else {
-            solid_fractions[place] = hull_fraction(part, centre_from(cell, part.base, part.fraction));
+            fractions = hull_fraction(part, centre_from(cell, part.base, part.fraction));
         }
+        solid_fractions[place] = select(NEAR, fractions.solid, fractions.solid > 0.0);
+        effective_fractions[place] = fractions.effective;
     }
 }

@@ -1,6 +1,6 @@
 //! A setup that can be computed, in numbers that the device can hold.
 
-use super::{Face, Force, Setup, face_name, in_plane};
+use super::{Face, Force, Setup, SolidOperator, SolidWeight, face_name, in_plane};
 use crate::{Error, Result};
 
 impl Setup {
@@ -88,6 +88,13 @@ impl Setup {
                 let message = format!("is {lambda}; give a number greater than 0");
                 return Err(Error::argument(name, message));
             }
+        }
+        if self.weight() == SolidWeight::Exact
+            && !matches!(self.solid_operator, None | Some(SolidOperator::Holdych))
+        {
+            let message = "the exact weight belongs to SolidOperator::Holdych; leave it out, or use \
+                           SolidWeight::Standard";
+            return Err(Error::argument("solid_weight", message));
         }
         if !(0.0..2.0).contains(&self.odd_rate_floor) {
             let message = format!(

@@ -65,7 +65,9 @@ pub use memory::{Memory, bytes_a_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
 #[doc(hidden)]
 pub use program::{BrickKind, collide_stream, constants, single_cells};
-pub use setup::{Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, Storage};
+pub use setup::{
+    Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, SolidWeight, Storage,
+};
 pub use spread::{Bindings, PSM_PLANES};
 #[doc(hidden)]
 pub use spread::{PsmAccess, psm_storage};

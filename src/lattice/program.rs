@@ -1,8 +1,8 @@
 //! Which files and numbers make the kernels of a setup.
 
 use super::{
-    Bindings, Collision, Equilibrium, Face, Force, Grid, PsmAccess, Setup, SolidOperator, Storage,
-    populations, psm_storage, spread,
+    Bindings, Collision, Equilibrium, Face, Force, Grid, PsmAccess, Setup, SolidOperator,
+    SolidWeight, Storage, populations, psm_storage, spread,
 };
 use crate::gpu::link::Program;
 
@@ -74,6 +74,13 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
         Some(operator) => program
             .slot("psm", "psm_cells")
             .slot("operator", operator)
+            .slot(
+                "weight",
+                match setup.weight() {
+                    SolidWeight::Exact => "weight_exact",
+                    SolidWeight::Standard => "weight_standard",
+                },
+            )
             .slot("odd_rates", "odd_rates_solids"),
         None => program.slot("psm", "psm_none").slot(
             "odd_rates",

@@ -33,6 +33,16 @@ pub enum SolidOperator {
     Superposition,
 }
 
+/// Weight B of the solid operator in a cell of which blocks fill the fraction ε (Gardner & Sitar 2018, eq. 10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidWeight {
+    /// That with which the operator of Holdych puts a plane along the grid where it is, in steady shear; of curved
+    /// surfaces and edges ε grows by what they lack.
+    Exact,
+    /// ε (τ − ½) / ((1 − ε) + (τ − ½)) (Noble & Torczynski 1998).
+    Standard,
+}
+
 /// How populations lie in memory; arithmetic is f32 in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -151,6 +161,9 @@ pub struct Setup {
     pub odd_rate_floor: f64,
     /// Blocks may be in the fluid, with this operator; `None` has no code for them.
     pub solid_operator: Option<SolidOperator>,
+    /// Weight of this operator; `None`: [`SolidWeight::Exact`] with [`SolidOperator::Holdych`], otherwise
+    /// [`SolidWeight::Standard`].
+    pub solid_weight: Option<SolidWeight>,
     /// Magic parameter of the odd rates in cells with a block and next to them, floored as next to walls;
     /// `None` keeps `rates` there too.
     pub solid_lambda: Option<f64>,
@@ -199,6 +212,7 @@ impl Setup {
             lambda: None,
             odd_rate_floor: 0.8,
             solid_operator: None,
+            solid_weight: None,
             solid_lambda: Some(0.1),
             equilibrium: Equilibrium::Product,
             wale: None,
@@ -215,6 +229,15 @@ impl Setup {
             wide: false,
             processor: None,
         }
+    }
+
+    /// The weight of the solid operator, which is [`SolidWeight::Standard`] where there is none.
+    pub fn weight(&self) -> SolidWeight {
+        let usual = match self.solid_operator {
+            Some(SolidOperator::Holdych) => SolidWeight::Exact,
+            _ => SolidWeight::Standard,
+        };
+        self.solid_weight.unwrap_or(usual)
     }
 
     /// Suits an adapter that computes on the CPU and offers `features`: bricks that are rows of 32 or

@@ -26,7 +26,7 @@ impl From<u32> for Bindings {
 }
 
 /// Numbers that each cell of a brick with blocks has on the device.
-pub const PSM_PLANES: u32 = 9;
+pub const PSM_PLANES: u32 = 10;
 
 /// Names of the bindings of those planes.
 pub(super) const PSM_NAMES: [&str; PSM_PLANES as usize] = [
@@ -39,6 +39,7 @@ pub(super) const PSM_NAMES: [&str; PSM_PLANES as usize] = [
     "psm_planes_6",
     "psm_planes_7",
     "psm_planes_8",
+    "psm_planes_9",
 ];
 
 /// Planes of each of so many bindings: the same number in each but the last.

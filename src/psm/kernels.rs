@@ -47,11 +47,12 @@ impl Growing {
     }
 }
 
-/// Iterations of the loops of `hull_fraction` for a part of so many faces: through all of them, and again for each column.
+/// Iterations of the loops of `hull_fraction` for a part of so many faces: three times through all of them, and again for
+/// each column.
 fn loop_iterations(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));
     let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
-    faces + columns * (1 + columns * (1 + faces))
+    3 * faces + columns * (1 + columns * (1 + faces))
 }
 
 pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
@@ -66,12 +67,13 @@ pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buff
 }
 
 /// Names of the buffers in WGSL.
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 14] = [
     "tiles",
     "parts",
     "faces",
     "motions",
     "solid_fractions",
+    "effective_fractions",
     "lane_first",
     "lane_tiles",
     "block_first",
@@ -124,14 +126,16 @@ impl Kernels {
             Processor::Cpu => Walk::Serial,
             Processor::Gpu => Walk::Parallel,
         };
+        let weight = lattice.setup().weight();
         let programs = [
-            program::voxelise(grid, walk, forms),
-            program::voxelise_edges(grid, forms),
+            program::voxelise(grid, walk, forms, weight),
+            program::voxelise_edges(grid, forms, weight),
             program::spread(program::combine_parts(grid, walk), lattice),
             program::spread(program::reduce_tiles(grid, walk), lattice),
             program::reduce_blocks(),
         ];
-        let constants = program::constants(grid);
+        let mut constants = program::constants(grid);
+        constants.push(("SPHERE_GROWTH", program::sphere_growth(lattice.setup())));
         let kernel = |((entry, _), program): (&(&str, Option<&str>), Program)| {
             let linked = program.link()?;
             Kernel::new(device, &linked, entry, &linked.constants_of(&constants))
@@ -175,6 +179,7 @@ impl Kernels {
             (16 * faces) as u64,
             (size_of::<super::Motion>() * blocks) as u64,
             words(tiles) * self.workgroup,
+            2 * words(tiles) * self.workgroup,
             words(plan.lane_first.len()),
             words(tiles),
             words(loaded + 1),
@@ -188,7 +193,7 @@ impl Kernels {
             buffer.hold(device, bytes)?;
         }
         // Its length says how many blocks there are.
-        let first = &mut self.buffers[7];
+        let first = &mut self.buffers[8];
         if first.buffer.size() != words(loaded + 1) {
             first.buffer = made(device, first.label, words(loaded + 1));
         }

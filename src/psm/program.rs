@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::link::Program,
-    lattice::{Grid, Lattice, PsmAccess, psm_storage},
+    lattice::{Grid, Lattice, PsmAccess, Setup, SolidWeight, psm_storage},
 };
 
 /// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
@@ -70,20 +70,39 @@ impl Walk {
 
 /// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, of
 /// which the first word must be 0 before, and which has room for a word more than `solid_fractions`.
-pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms) -> Program {
+pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
+        .slot("effective", effective(weight))
         .slot("ball_quick", ball)
         .slot("hull_quick", hull)
 }
 
 /// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
 /// `parts`, `faces`, `solid_fractions`, `edges`.
-pub fn voxelise_edges(grid: &Grid, forms: Forms) -> Program {
+pub fn voxelise_edges(grid: &Grid, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("ball_fraction", "hull_fraction");
     base("voxelise_edges", grid)
+        .slot("effective", effective(weight))
         .slot("ball_fraction", ball)
         .slot("hull_fraction", hull)
+}
+
+fn effective(weight: SolidWeight) -> &'static str {
+    match weight {
+        SolidWeight::Exact => "effective_surface",
+        SolidWeight::Standard => "effective_volume",
+    }
+}
+
+/// c, cells², of a sphere of R cells, whose effective radius is R + c/R: fitted to drags of a cubic array of concentration 0.125, and to
+/// torques, from D = 5 on.
+pub fn sphere_growth(setup: &Setup) -> f64 {
+    let excess = setup.tau() - 0.5;
+    match setup.weight() {
+        SolidWeight::Exact => 1.0 / 12.0 + 0.4 * excess / (excess + 0.06),
+        SolidWeight::Standard => 0.0,
+    }
 }
 
 /// A program whose `psm_planes` are spread as those of `lattice`; without this they have one binding.

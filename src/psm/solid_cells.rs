@@ -6,6 +6,7 @@ use super::{
     frame::MAX_DISTANCE,
     kernels::Kernels,
     near_cells::{outline, rows},
+    program,
     tiles::{Outline, Tiling},
 };
 use crate::{
@@ -48,6 +49,8 @@ pub struct CellWork {
 pub struct SolidCells {
     pub(super) frame: Frame,
     tiling: Tiling,
+    /// See [`super::program::sphere_growth`].
+    sphere_growth: f64,
     /// In the order of the device: those with loads first.
     pub(super) blocks: Vec<SolidBlock>,
     /// Place of each block in that order.
@@ -129,6 +132,7 @@ impl SolidCells {
         let parts = first_face.len() - 1;
         Ok(Self {
             face_sums,
+            sphere_growth: program::sphere_growth(lattice.setup()),
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
@@ -261,7 +265,10 @@ impl SolidCells {
 
     fn outlines_at(&self, block: usize, pose: &Pose) -> Vec<Outline> {
         let parts = self.blocks[block].shape.parts().iter();
-        parts.map(|part| outline(&self.frame, part, pose)).collect()
+        let outlines = parts.map(|part| outline(&self.frame, part, pose));
+        outlines
+            .map(|outline| outline.grown(self.sphere_growth))
+            .collect()
     }
 
     /// Finds the tiles of a block anew, if that is due.

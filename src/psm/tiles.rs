@@ -13,7 +13,7 @@ use std::ops::Range;
 pub struct Outline {
     /// Centroid, from the lower corner of the domain.
     pub centre: DVec3,
-    /// Corners of the box around it, from the centroid.
+    /// Corners of the box around it, from the centroid; of a sphere in a fluid, around its effective radius.
     pub low: DVec3,
     /// See `low`.
     pub high: DVec3,
@@ -24,6 +24,23 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// With the box of a sphere around its effective radius, which is larger by `growth` (cells²) over the radius.
+    pub fn grown(mut self, growth: f64) -> Self {
+        if self.faces.is_empty() {
+            let effective = self.radius + growth / self.radius.max(LEAST_RADIUS);
+            (self.low, self.high) = (DVec3::splat(-effective), DVec3::splat(effective));
+        }
+        self
+    }
+
+    /// Corners of the box around the part, a sphere as it is, from the centroid.
+    fn ends(&self) -> [DVec3; 2] {
+        match self.faces.is_empty() {
+            true => [-self.radius, self.radius].map(DVec3::splat),
+            false => [self.low, self.high],
+        }
+    }
+
     /// Whether a box of half extents `half` around `middle` (from the centroid) lies off it for sure.
     fn is_off(&self, middle: DVec3, half: DVec3) -> bool {
         if (middle + half).cmplt(self.low).any() || (middle - half).cmpgt(self.high).any() {
@@ -31,7 +48,7 @@ impl Outline {
         }
         if self.faces.is_empty() {
             let gap = (middle.abs() - half).max(DVec3::ZERO);
-            return gap.length_squared() > self.radius * self.radius;
+            return gap.length_squared() > self.high.x * self.high.x;
         }
         let faces = self.faces.iter();
         faces
@@ -40,6 +57,9 @@ impl Outline {
     }
 }
 
+/// Radius below which spheres grow no more, cells: `LEAST_RADIUS` of the kernel.
+const LEAST_RADIUS: f64 = 2.0;
+
 /// How much longer than a period a block is that has no images, cells: rounding.
 const LONGER: f64 = 1e-6;
 
@@ -47,7 +67,7 @@ const LONGER: f64 = 1e-6;
 /// those that it does not fill. One that is longer than a period is in the domain as it lies there.
 pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bool; 3] {
     [0, 1, 2].map(|axis| {
-        let ends = |of: &Outline| [of.low, of.high].map(|end| of.centre[axis] + end[axis]);
+        let ends = |of: &Outline| of.ends().map(|end| of.centre[axis] + end[axis]);
         let [low, high] = min_max(outlines.iter().flat_map(ends));
         periodic[axis] && high - low <= f64::from(cells[axis]) + LONGER
     })

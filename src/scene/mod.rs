@@ -77,7 +77,9 @@ pub use face::{Axis, Direction, Face};
 pub use fluid::Fluid;
 pub use initial::{Initial, InitialPressure};
 pub use materials::{Material, MaterialPair};
-pub use numerics::{Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, Storage};
+pub use numerics::{
+    Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, SolidWeight, Storage,
+};
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use particles::{EquationOfState, Particles, Scheme, Water};
 pub use probes::{Probe, ProbePlace};

@@ -43,6 +43,8 @@ pub struct Numerics {
     pub odd_rate_floor: f64,
     /// How partially saturated cells are drawn to the block in them. Default `holdych`.
     pub solid_operator: SolidOperator,
+    /// Weight of this operator where blocks fill a part of a cell. Default: `exact` with `holdych`, otherwise `standard`.
+    pub solid_weight: Option<SolidWeight>,
     /// Magic parameter Λ in cells with a block and next to them, no unit. Default 1/10, with which the
     /// drag depends least on the viscosity.
     pub solid_lambda: f64,
@@ -64,6 +66,7 @@ impl Default for Numerics {
             lambda: None,
             odd_rate_floor: 0.8,
             solid_operator: SolidOperator::default(),
+            solid_weight: None,
             solid_lambda: 0.1,
         }
     }
@@ -98,6 +101,16 @@ pub enum SolidOperator {
     Noble,
     /// The second form of Noble & Torczynski (1998).
     Superposition,
+}
+
+/// Weight of the solid operator in partially saturated cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SolidWeight {
+    /// Puts plane surfaces where they are at every viscosity; with `solid_operator = "holdych"`.
+    Exact,
+    /// B of Noble & Torczynski (1998), as Gardner & Sitar (2018) have it.
+    Standard,
 }
 
 /// Equilibrium distribution.
@@ -176,6 +189,13 @@ impl Scene {
                 "numerics.lambda",
                 "only `collision = \"hermite\"` has a magic parameter to set; remove `lambda` or \
                  choose hermite",
+            );
+        }
+        if n.solid_weight == Some(SolidWeight::Exact) && n.solid_operator != SolidOperator::Holdych
+        {
+            return refuse(
+                "numerics.solid_weight",
+                "`exact` belongs to solid_operator = \"holdych\"; leave `solid_weight` out, or use \"standard\"",
             );
         }
         self.check_lanes()

@@ -1,6 +1,9 @@
 //! The solid of all parts in each cell.
 
-use crate::tiling::{Placed, Tiling, centre, grid, split};
+use crate::{
+    effective::together,
+    tiling::{Placed, Tiling, centre, grid, split},
+};
 use glam::{DMat3, DVec3};
 use kit::{POISON, Random, Workbench, assert_near};
 use riprap::psm::{
@@ -82,10 +85,29 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Random) -> Vec<f32> {
     shares
 }
 
-/// Sum of the shares with its marks, and velocity, of one cell of a slot.
-fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f64, DVec3) {
+/// Effective fractions that go with them, of any size where a part is in a cell or next to it.
+pub fn random_effective(shares: &[f32], noise: &mut Random) -> Vec<[f32; 2]> {
+    let one = |share: &f32| match *share {
+        INTERIOR | 1.0 => [1.0; 2],
+        share if share > 0.0 || (share == NEAR && noise.unit() > 0.5) => {
+            let alone = noise.unit() as f32;
+            [alone, alone * (0.5 + 0.5 * noise.unit() as f32)]
+        }
+        _ => [0.0; 2],
+    };
+    shares.iter().map(one).collect()
+}
+
+/// Sum of the effective fractions with its marks, velocity, and fraction of one cell of a slot.
+fn twin(
+    tiling: &Tiling,
+    (shares, effective): (&[f32], &[[f32; 2]]),
+    moving: &[Moving],
+    at: [u32; 3],
+) -> (f64, DVec3, f64) {
     let [slot, lane, local] = at;
     let (mut sum, mut flux, mut deep, mut near) = (0.0, DVec3::ZERO, false, false);
+    let mut parts = Vec::new();
     let mut met = BTreeSet::new();
     let (mut touching, mut touched) = (DVec3::ZERO, 0.0);
     let here = |tile: &Tile| tile.slot == slot && tile.lane == lane;
@@ -101,25 +123,29 @@ fn twin(tiling: &Tiling, shares: &[f32], moving: &[Moving], at: [u32; 3]) -> (f6
             touched += 1.0;
         }
         deep |= share == INTERIOR;
-        let fraction = f64::from(share.clamp(0.0, 1.0));
+        let both = effective[number * tiling.workgroup() + local as usize].map(f64::from);
+        parts.push((f64::from(share.clamp(0.0, 1.0)), both));
+        let [fraction, _] = both;
         if fraction > 0.0 {
             let cell = tiling.cell(tile, local as usize).unwrap();
             sum += fraction;
             flux += fraction * moving[tile.block as usize].at(centre(cell));
         }
     }
-    match (sum > 0.0, near) {
+    let filled: f64 = parts.iter().map(|(share, _)| share).sum();
+    let (mark, velocity) = match (sum > 0.0, near) {
         (true, _) if deep => (sum + f64::from(INTERIOR_SUM), flux / sum),
-        (true, _) if met.len() > 1 && sum > 0.9 => {
+        (true, _) if met.len() > 1 && filled > 0.9 => {
             // Those that touch count as the joint closes.
-            let tight = ((sum - 0.9) / 0.098).min(1.0);
+            let tight = ((filled - 0.9) / 0.098).min(1.0);
             let mean = (flux + tight * touching) / (sum + tight * touched);
             (sum + f64::from(JOINT_SUM), mean)
         }
         (true, _) => (sum, flux / sum),
         (false, true) => (f64::from(NEAR), DVec3::ZERO),
         (false, false) => (0.0, DVec3::ZERO),
-    }
+    };
+    (mark, velocity, together(&parts))
 }
 
 #[test]
@@ -139,6 +165,7 @@ fn shares_add_and_velocities_are_their_mean() {
         tiling.shorten(&mut noise);
         let moving: Vec<_> = (0..7).map(|_| Moving::new(middle, &mut noise)).collect();
         let shares = random_shares(&tiling, &mut noise);
+        let effective = random_effective(&shares, &mut noise);
         let (lane_first, lane_tiles) = tiling.by_lane();
         let motions: Vec<_> = moving.iter().map(Moving::on_device).collect();
         let words = tiling.slots as usize * PLANES * shares.len() / tiling.tiles.len();
@@ -157,6 +184,7 @@ fn shares_add_and_velocities_are_their_mean() {
             ("lane_first", &bench.buffer(&lane_first)),
             ("lane_tiles", &bench.buffer(&lane_tiles)),
             ("solid_fractions", &bench.buffer(&shares)),
+            ("effective_fractions", &bench.buffer(&effective)),
             ("psm_planes_0", &saturation),
         ];
         // Either walk.
@@ -185,13 +213,19 @@ fn shares_add_and_velocities_are_their_mean() {
                 empty += u32::from(reach.is_empty());
                 let reached = reach.contains(&(local as usize));
                 if !listed(&row) || !(whole(row) || reached) {
-                    assert!((0..4).all(untouched), "row {row}, {local}: not asked for");
+                    let solid = [0, 1, 2, 3, 9];
+                    assert!(
+                        solid.into_iter().all(untouched),
+                        "row {row}, {local}: not asked for"
+                    );
                     left += 1;
                     continue;
                 }
-                let (sum, u) = twin(&tiling, &shares, &moving, [slot, lane, local]);
+                let both = (&shares[..], &effective[..]);
+                let (sum, u, fraction) = twin(&tiling, both, &moving, [slot, lane, local]);
                 shared += u32::from(sum > 16.0);
                 assert_near(f64::from(plane(0)), sum, 4e-6);
+                assert_near(f64::from(plane(9)), fraction, 1e-4);
                 for (a, expected) in u.to_array().into_iter().enumerate() {
                     let error = f64::from(plane(1 + a as u32)) - expected;
                     // Speeds are below 1.

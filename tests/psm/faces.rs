@@ -53,7 +53,7 @@ impl Case {
                 saturation[tiling.scalar(tile, 0, local)] = mark;
                 let fluid = exact || any > 0.4;
                 saturation[tiling.scalar(tile, 4, local)] = if fluid { 1.0 } else { 0.0 };
-                for plane in 5..PLANES {
+                for plane in 5..PLANES - 1 {
                     let any = 0.1 * (noise.unit() - 0.5) as f32;
                     let value = if exact && plane == 5 { 0.03 } else { any };
                     saturation[tiling.scalar(tile, plane, local)] = value;

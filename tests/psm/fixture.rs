@@ -8,11 +8,12 @@ use kit::{
 use riprap::{
     gpu::readback::Readback,
     lattice::{Grid, Lattice, Setup},
+    psm::PLANES,
 };
 
 /// Where the numbers of a slot are in the saturation: plane, element of the brick, lane.
 pub fn place(grid: &Grid, slot: usize, plane: usize, local: usize, lane: usize) -> usize {
-    ((slot * 9 + plane) * workgroup(grid) + local) * grid.lanes as usize + lane
+    ((slot * PLANES + plane) * workgroup(grid) + local) * grid.lanes as usize + lane
 }
 
 pub fn workgroup(grid: &Grid) -> usize {
@@ -54,7 +55,7 @@ pub fn places(grid: &Grid, bricks: &[u32]) -> Vec<(usize, usize, usize, usize)> 
 fn random_solid(cell: usize) -> Solid {
     let unit = |n: usize| 0.5 + 0.5 * noise(1_000_003 * (n + 1) + cell);
     let coarse = |x: f64| (x * 1024.0).round() / 1024.0;
-    let (fraction, deep) = match (unit(0) * 20.0) as u32 {
+    let (shares, deep) = match (unit(0) * 20.0) as u32 {
         0..=4 => return Solid::default(),
         5..=6 => {
             return Solid {
@@ -71,8 +72,12 @@ fn random_solid(cell: usize) -> Solid {
         18 => (1.0, false),
         _ => (1.0, true),
     };
+    // Parts that are flush with each other have more shares than their planes leave.
+    let flush = unit(6) > 0.5 && !deep;
+    let fraction = f64::min(if flush { coarse(0.8 * shares) } else { shares }, 1.0);
     Solid {
         fraction,
+        shares,
         velocity: [2, 3, 4].map(|n| f64::from((0.02 * (unit(n) - 0.5)) as f32)),
         beside: false,
         deep,
@@ -84,16 +89,17 @@ fn random_solid(cell: usize) -> Solid {
     }
 }
 
-/// Planes 0 to 3 of a solid as the layout says.
-pub fn planes(solid: &Solid) -> [f32; 4] {
+/// Planes 0 to 3, and the last one, of a solid as the layout says.
+pub fn planes(solid: &Solid) -> [(usize, f32); 5] {
     let mark = match solid {
         Solid { beside: true, .. } => -1.0,
-        Solid { deep: true, .. } => solid.fraction + 8.0,
-        Solid { tight, .. } if *tight > 0.0 => solid.fraction + 16.0,
-        _ => solid.fraction,
+        Solid { deep: true, .. } => solid.shares + 8.0,
+        Solid { tight, .. } if *tight > 0.0 => solid.shares + 16.0,
+        _ => solid.shares,
     };
     let [x, y, z] = solid.velocity;
-    [mark, x, y, z].map(|v| v as f32)
+    let all = [(0, mark), (1, x), (2, y), (3, z), (9, solid.fraction)];
+    all.map(|(plane, value)| (plane, value as f32))
 }
 
 /// A lattice and its twin, in the same state.
@@ -144,11 +150,13 @@ impl Subject {
         for slot in 0..bricks.len() {
             let first = place(&grid, slot, 0, 0, 0);
             values[first..place(&grid, slot, 4, 0, 0)].fill(0.0);
+            let last = place(&grid, slot, 9, 0, 0);
+            values[last..place(&grid, slot + 1, 0, 0, 0)].fill(0.0);
         }
         let (_, solids) = self.twin.blocks.as_mut().unwrap();
         for (slot, local, lane, cell) in places(&grid, bricks) {
             let solid = random_solid(cell);
-            for (plane, value) in planes(&solid).into_iter().enumerate() {
+            for (plane, value) in planes(&solid) {
                 values[place(&grid, slot, plane, local, lane)] = value;
             }
             solids[cell] = solid;
@@ -199,17 +207,17 @@ impl Subject {
                 }
                 continue;
             }
-            if self.twin.domain.solid[cell] || solid.fraction == 0.0 {
+            if self.twin.domain.solid[cell] || solid.shares == 0.0 {
                 assert!((4..9).all(|plane| at(plane) == 0.0), "cell {cell}");
                 continue;
             }
             let tau = self.twin.config.tau_eff(nu_t[cell]);
-            let weight = solid.weight(tau);
+            let weight = solid.weight(&self.twin.config, tau);
             // One of two blocks: three tenths of the solid, with a velocity of its own.
-            let part = 0.3 * solid.fraction;
+            let part = 0.3 * solid.shares;
             let velocity = [0, 1, 2].map(|a| solid.velocity[a] + 0.01 * noise(3 * cell + a));
             let force = self.twin.force_on(cell, part, velocity, tau);
-            worst = worst.max((part * at(4) - weight * part / solid.fraction).abs());
+            worst = worst.max((part * at(4) - weight * part / solid.shares).abs());
             for a in 0..3 {
                 let load = -part * (at(5) * velocity[a] + at(6 + a));
                 assert!(load.is_finite(), "cell {cell}");

@@ -2,6 +2,7 @@
 
 mod bindings;
 mod combine_solids;
+mod effective;
 mod exact;
 mod faces;
 mod fixture;

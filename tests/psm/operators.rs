@@ -1,15 +1,18 @@
 //! Blocks that [`SolidCells`] puts into the fluid, against the twin with exact solid fractions.
 
-use crate::fixture::Subject;
+use crate::{
+    effective::{effective_hull, together},
+    fixture::Subject,
+};
 use glam::{DMat3, DQuat, DVec3};
 use kit::{
     twin::of_setup::{limit, walled},
     twin::{Solid, tightness},
 };
 use riprap::{
-    geometry::{Load, Polyhedron, Pose},
+    geometry::{HalfSpace, Load, Polyhedron, Pose},
     gpu::readback::Readback,
-    lattice::{Face, Setup, SolidOperator, Storage},
+    lattice::{Face, Setup, SolidOperator, SolidWeight, Storage},
     psm::{Frame, SolidBlock, SolidCells},
     units::Units,
 };
@@ -34,6 +37,20 @@ impl Cuboid {
         let low = (centre - 0.5).max(self.centre - 0.5 * self.size);
         let high = (centre + 0.5).min(self.centre + 0.5 * self.size);
         (high - low).max(DVec3::ZERO).element_product()
+    }
+
+    /// The same for the weight of the solid.
+    fn effective(&self, centre: DVec3, weight: SolidWeight) -> [f64; 2] {
+        let share = self.share(centre);
+        if weight == SolidWeight::Standard {
+            return [share; 2];
+        }
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = axes.into_iter().flat_map(|axis| {
+            let distance = 0.5 * self.size.dot(axis);
+            [axis, -axis].map(|normal| HalfSpace { normal, distance })
+        });
+        effective_hull(&faces.collect::<Vec<_>>(), centre - self.centre, share)
     }
 
     /// Whether all of the box of half width `reach` around `centre` lies inside, or any of it.
@@ -85,8 +102,9 @@ fn images(cells: [usize; 3], periodic: [bool; 3], cell: usize) -> Vec<DVec3> {
 }
 
 /// What some boxes leave of a cell.
-fn solid_of(boxes: &[Cuboid], centres: &[DVec3]) -> Solid {
+fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
     let mut flux = DVec3::ZERO;
+    let mut parts = Vec::new();
     let mut solid = Solid::default();
     let mut met = BTreeSet::new();
     let each = boxes.iter().enumerate();
@@ -95,21 +113,25 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3]) -> Solid {
         if share > 0.0 || block.borders(x) {
             met.insert(number);
         }
-        solid.fraction += share;
-        flux += share * block.velocity_at(x);
+        let effective = block.effective(x, weight);
+        parts.push((share, effective));
+        solid.shares += effective[0];
+        flux += effective[0] * block.velocity_at(x);
         solid.deep |= block.holds(x, 2.5);
         solid.beside |= block.touches(x, 1.5);
     }
-    solid.beside &= solid.fraction == 0.0;
+    let filled: f64 = parts.iter().map(|(share, _)| share).sum();
+    solid.fraction = together(&parts);
+    solid.beside &= solid.shares == 0.0;
     if met.len() > 1 && !solid.deep {
-        solid.tight = tightness(solid.fraction);
+        solid.tight = tightness(filled);
     }
-    if solid.fraction > 0.0 {
-        solid.velocity = (flux / solid.fraction).to_array();
+    if solid.shares > 0.0 {
+        solid.velocity = (flux / solid.shares).to_array();
     }
     if solid.tight > 0.0 {
         // Those that touch it count as one each where it is closed.
-        let mut all = solid.fraction;
+        let mut all = solid.shares;
         for (block, &x) in boxes
             .iter()
             .flat_map(|b| centres.iter().map(move |x| (b, x)))
@@ -143,9 +165,10 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
                 let tight = twin.blocks.as_ref().unwrap().1[cell].tight;
                 let own = block.velocity_at(x);
                 let velocity = own.lerp(solid.velocity.into(), tight).to_array();
-                let weight = solid.weight(tau);
-                let force = DVec3::from_array(twin.force_on(cell, share, velocity, tau));
-                let held = weight * share / solid.fraction;
+                let weight = solid.weight(&twin.config, tau);
+                let [effective, _] = block.effective(x, subject.setup.weight());
+                let force = DVec3::from_array(twin.force_on(cell, effective, velocity, tau));
+                let held = weight * effective / solid.shares;
                 load.force += force;
                 load.moment += DMat3::from_cols(force * r.x, force * r.y, force * r.z);
                 load.entrained += held;
@@ -228,7 +251,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
         let twin = &mut subject.twin;
         let (_, solids) = twin.blocks.as_mut().unwrap();
         for (cell, solid) in solids.iter_mut().enumerate() {
-            *solid = solid_of(&boxes, &images(cells, periodic, cell));
+            *solid = solid_of(&boxes, &images(cells, periodic, cell), setup.weight());
         }
         let exact = exact_loads(&subject, &boxes, periodic);
         for ((found, exact), block) in found.iter().zip(&exact).zip(&boxes) {
@@ -271,6 +294,8 @@ fn blocks_across_periodic_borders_that_overlap() {
         },
     ];
     assert_equal_to_twin("periodic", &setup, &boxes, limit(&setup));
+    setup.solid_weight = Some(SolidWeight::Standard);
+    assert_equal_to_twin("standard weight", &setup, &boxes, limit(&setup));
 }
 
 /// Blocks that reach through walls and through a static solid, beside a velocity face.

@@ -2,12 +2,14 @@
 
 use riprap::{
     gpu::{kernel::bindings, link::Program},
-    lattice::Grid,
+    lattice::{Grid, SolidWeight},
     psm::{
         Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
         voxelise_edges,
     },
 };
+
+const EXACT: SolidWeight = SolidWeight::Exact;
 
 /// The names of the bindings of a kernel.
 fn names(program: &Program, entry: &str) -> String {
@@ -28,8 +30,8 @@ fn bindings_by_name() {
         brick: [4; 3],
     };
     let programs = [
-        ("voxelise", voxelise(&grid, Walk::Serial, Forms::ALL)),
-        ("voxelise_edges", voxelise_edges(&grid, Forms::ALL)),
+        ("voxelise", voxelise(&grid, Walk::Serial, Forms::ALL, EXACT)),
+        ("voxelise_edges", voxelise_edges(&grid, Forms::ALL, EXACT)),
         ("combine_parts", combine_parts(&grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(&grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(&grid, Walk::Parallel)),

@@ -1,14 +1,12 @@
 //! Loads on blocks from what the fluid leaves in each cell.
 
 use crate::{
-    combine_solids::{Moving, crowd, random_shares},
+    combine_solids::{Moving, crowd, random_effective, random_shares},
     tiling::{Tiling, centre, grid},
 };
 use glam::DVec3;
 use kit::{POISON, Random, Workbench};
-use riprap::psm::{
-    INTERIOR, JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
-};
+use riprap::psm::{JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles};
 
 const BLOCKS: u32 = 9;
 
@@ -17,6 +15,7 @@ struct Case {
     tiling: Tiling,
     moving: Vec<Moving>,
     shares: Vec<f32>,
+    effective: Vec<[f32; 2]>,
     saturation: Vec<f32>,
 }
 
@@ -32,12 +31,13 @@ impl Case {
         let moving = (0..BLOCKS).map(|_| Moving::new(middle, &mut noise));
         let moving: Vec<_> = moving.collect();
         let shares = random_shares(&tiling, &mut noise);
+        let effective = random_effective(&shares, &mut noise);
         let size = tiling.workgroup() * PLANES * lanes as usize;
         let mut saturation = vec![f32::from_bits(POISON); tiling.slots as usize * size];
         // Cells without solid stay poison.
         for (number, tile) in tiling.tiles.iter().enumerate() {
             for local in 0..tiling.workgroup() {
-                if shares[number * tiling.workgroup() + local] <= 0.0 {
+                if effective[number * tiling.workgroup() + local][0] <= 0.0 {
                     continue;
                 }
                 let at = |plane| tiling.scalar(tile, plane, local);
@@ -53,7 +53,7 @@ impl Case {
                         let any = 0.1 * noise.unit() as f32;
                         saturation[at(plane)] = if joint { any } else { f32::NAN };
                     }
-                    for plane in 4..PLANES {
+                    for plane in 4..PLANES - 1 {
                         let scale = if plane > 4 { 1e-3 } else { 1.0 };
                         let any = scale * noise.unit() as f32;
                         saturation[at(plane)] = if fluid { any } else { 0.0 };
@@ -65,6 +65,7 @@ impl Case {
             tiling,
             moving,
             shares,
+            effective,
             saturation,
         }
     }
@@ -76,15 +77,12 @@ impl Case {
         for (number, tile) in tiling.tiles.iter().enumerate() {
             let moving = &self.moving[tile.block as usize];
             for local in 0..tiling.workgroup() {
-                let share = self.shares[number * tiling.workgroup() + local];
-                if share <= 0.0 || !tiling.reach(tile).contains(&local) {
+                let at = number * tiling.workgroup() + local;
+                let (share, e) = (self.shares[at], f64::from(self.effective[at][0]));
+                if e <= 0.0 || !tiling.reach(tile).contains(&local) {
                     continue;
                 }
-                let e = if share == INTERIOR {
-                    1.0
-                } else {
-                    f64::from(share)
-                };
+                let solid = f64::from(share.clamp(0.0, 1.0));
                 let point = centre(tiling.cell(tile, local).unwrap());
                 let r = (point - moving.centre).to_array();
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
@@ -97,7 +95,7 @@ impl Case {
                 let u = u.to_array();
                 let (beta, a) = (at(4), at(5));
                 let held = e * beta;
-                let freed = if beta > 0.0 { e - held } else { 0.0 };
+                let freed = if beta > 0.0 { solid - held } else { 0.0 };
                 let mut add = |k: usize, value: f64| {
                     all[tile.block as usize][k].0 += value;
                     all[tile.block as usize][k].1 += value.abs();
@@ -132,6 +130,7 @@ impl Case {
             ("tiles", &bench.buffer(&listed)),
             ("motions", &bench.buffer(&motions)),
             ("solid_fractions", &bench.buffer(&self.shares)),
+            ("effective_fractions", &bench.buffer(&self.effective)),
             ("psm_planes_0", &bench.buffer(&self.saturation)),
             ("block_first", &bench.buffer(&self.tiling.by_block(BLOCKS))),
             ("partials", &partials),

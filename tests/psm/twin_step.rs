@@ -3,7 +3,7 @@
 use crate::fixture::Subject;
 use kit::Rig;
 use kit::twin::of_setup::{limit, noise, walled};
-use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, Storage};
+use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, SolidWeight, Storage};
 
 /// Against the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights are 1 in sum:
 /// they have the rounding of those.
@@ -43,6 +43,8 @@ fn operators_collisions_and_equilibria() {
     use {Collision::*, Equilibrium::*, SolidOperator::*};
     let all = [
         (Holdych, Hermite, Product, Some(0.1)),
+        (Holdych, Suga, Product, None),
+        (Holdych, Bgk, SecondOrder, None),
         (Noble, Hermite, SecondOrder, Some(0.125)),
         (Superposition, Bgk, Product, None),
         (Noble, Suga, SecondOrder, None),
@@ -57,6 +59,23 @@ fn operators_collisions_and_equilibria() {
             &setup,
         );
     }
+}
+
+/// From almost no viscosity to more than is of use, and with the weight of the paper.
+#[test]
+fn weights_at_any_viscosity() {
+    for nu in [1e-6, 0.01, 0.5] {
+        for weight in [SolidWeight::Standard, SolidWeight::Exact] {
+            let mut setup = box_of(nu, SolidOperator::Holdych);
+            setup.solid_weight = Some(weight);
+            assert_equal_to_twin(&format!("{weight:?}, ν = {nu}"), &setup);
+        }
+    }
+    let mut setup = box_of(0.01, SolidOperator::Noble);
+    setup.solid_weight = Some(SolidWeight::Exact);
+    let refused = riprap::lattice::Lattice::new(&Rig::new().device, setup);
+    let error = refused.unwrap_err().to_string();
+    assert!(error.contains("solid_weight"), "{error}");
 }
 
 /// (1/s − ½)(τ − ½) = Λ asks for less than the floor at this viscosity; the second has one Λ for all cells.

@@ -1,6 +1,7 @@
 //! Solid fractions against exact volumes.
 
 use crate::{
+    effective::{effective_ball, effective_hull},
     exact::{ball_fraction, hull_fraction},
     shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
     tiling::{Placed, Tiling, centre, grid, rotation},
@@ -9,22 +10,46 @@ use glam::{DQuat, DVec3};
 use kit::{POISON, Random, Workbench};
 use riprap::{
     geometry::HalfSpace,
+    lattice::SolidWeight,
     psm::{Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
 };
 
+/// c of the exact weight, cells².
+const GROWTH: f64 = 0.4;
+
 /// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
+    let [shares, effective] = both(bench, tiling, work, SolidWeight::Standard);
+    // With the weight of the paper the effective fraction is that of the volume.
+    let poison = |value: f32| value.to_bits() == POISON;
+    let equal = |(share, effective): (&f32, &[f32])| {
+        let equal = |e: &f32| (poison(*share) && poison(*e)) || share.clamp(0.0, 1.0) == *e;
+        effective.iter().all(equal)
+    };
+    assert!(shares.iter().zip(effective.chunks(2)).all(equal));
+    shares
+}
+
+/// Shares and effective fractions, two a cell.
+fn both(bench: &Workbench, tiling: &Tiling, work: &[u32], weight: SolidWeight) -> [Vec<f32>; 2] {
     let [serial, parallel] =
-        [Walk::Serial, Walk::Parallel].map(|walk| walked(bench, tiling, work, walk));
+        [Walk::Serial, Walk::Parallel].map(|walk| walked(bench, tiling, work, (walk, weight)));
     let bits = |shares: &[f32]| shares.iter().map(|s| s.to_bits()).collect::<Vec<_>>();
-    assert!(bits(&serial) == bits(&parallel), "the walks differ");
+    let same = serial.each_ref().map(|s| bits(s)) == parallel.each_ref().map(|s| bits(s));
+    assert!(same, "the walks differ");
     serial
 }
 
-fn walked(bench: &Workbench, tiling: &Tiling, work: &[u32], walk: Walk) -> Vec<f32> {
-    let shares = bench.poisoned(tiling.tiles.len() * tiling.workgroup());
+fn walked(
+    bench: &Workbench,
+    tiling: &Tiling,
+    work: &[u32],
+    (walk, weight): (Walk, SolidWeight),
+) -> [Vec<f32>; 2] {
+    let cells = tiling.tiles.len() * tiling.workgroup();
+    let (shares, effective) = (bench.poisoned(cells), bench.poisoned(2 * cells));
     // A list without an entry yet, in memory full of rubbish.
-    let mut list = vec![POISON; tiling.tiles.len() * tiling.workgroup() + 1];
+    let mut list = vec![POISON; cells + 1];
     list[0] = 0;
     let edges = bench.buffer(&list);
     let buffers = [
@@ -33,21 +58,83 @@ fn walked(bench: &Workbench, tiling: &Tiling, work: &[u32], walk: Walk) -> Vec<f
         ("parts", &bench.buffer(&tiling.parts)),
         ("faces", &bench.buffer(&tiling.faces)),
         ("solid_fractions", &shares),
+        ("effective_fractions", &effective),
         ("edges", &edges),
     ];
-    let numbers = constants(&tiling.grid);
-    let program = voxelise(&tiling.grid, walk, Forms::ALL);
+    let mut numbers = constants(&tiling.grid);
+    numbers.push(("SPHERE_GROWTH", GROWTH));
+    let program = voxelise(&tiling.grid, walk, Forms::ALL, weight);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * work.len());
-    let program = voxelise_edges(&tiling.grid, Forms::ALL);
+    let program = voxelise_edges(&tiling.grid, Forms::ALL, weight);
     // Fewer invocations than there are cells at edges: each does several.
     bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
-    bench.read(&shares)
+    [bench.read(&shares), bench.read(&effective)]
 }
 
 /// The shares of all tiles.
 pub fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
     let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
     run(bench, tiling, &work)
+}
+
+/// Fourth roots of what planes leave out take rounding of 1e-7 to 0.02; there are few such cells.
+#[test]
+fn effective_fractions_of_edges_and_spheres() {
+    let bench = Workbench::new(None);
+    let mut noise = Random(12);
+    let at = |noise: &mut Random| DVec3::splat(9.0) + noise.point();
+    let mut placed: Vec<Placed> = [1.0, 2.5, 6.3]
+        .into_iter()
+        .map(|radius: f64| Placed::ball(0, f64::from(radius as f32), at(&mut noise)))
+        .collect();
+    let shapes = [
+        cuboid(7.0, 5.0, 6.0),
+        tetrahedron(9.0),
+        icosahedron(4.0),
+        pebble(60, 5.0),
+    ];
+    for shape in &shapes {
+        for turn in [DQuat::IDENTITY, rotation(&mut noise)] {
+            placed.push(Placed::hull(0, shape, at(&mut noise), turn));
+        }
+    }
+    let tiling = Tiling::new(grid([20; 3], 1, [4; 3]), [0; 3], placed);
+    let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
+    let [shares, effective] = both(&bench, &tiling, &work, SolidWeight::Exact);
+    let (mut worst, mut sum, mut cells) = (0f64, 0.0, 0.0);
+    for (number, tile) in tiling.tiles.iter().enumerate() {
+        let placed = &tiling.placed[tile.part as usize];
+        for local in 0..tiling.workgroup() {
+            let Some(cell) = tiling.cell(tile, local) else {
+                continue;
+            };
+            let r = centre(cell) - placed.centre;
+            let place = number * tiling.workgroup() + local;
+            let share = shares[place];
+            let expected = match placed.faces.is_empty() {
+                true => [effective_ball(placed.radius, GROWTH, r); 2],
+                false => effective_hull(&placed.faces, r, fraction(share)),
+            };
+            for (found, expected) in effective[2 * place..].iter().zip(expected) {
+                let found = f64::from(*found);
+                assert!((0.0..=1.0).contains(&found), "{r}: {found}");
+                // A cell that counts has a mark.
+                assert!(share != 0.0 || found == 0.0, "{r}: {found}");
+                let error = (found - expected).abs();
+                if expected > 0.0 && expected < 1.0 {
+                    (worst, sum, cells) = (worst.max(error), sum + error, cells + 1.0);
+                } else {
+                    assert!(error < 1e-4, "{r}: {found}, {expected}");
+                }
+            }
+        }
+    }
+    assert!(
+        worst < 0.02 && sum / cells < 1e-4,
+        "{worst} {}",
+        sum / cells
+    );
+    assert!(cells > 1000.0, "{cells}");
 }
 
 /// 0..1 from a share and its marks.

@@ -12,8 +12,8 @@ use naga::{
 use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::{
-        self, BrickKind, Collision, Face, Force, Grid, SolidOperator, Storage, collide_stream,
-        single_cells,
+        self, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight, Storage,
+        collide_stream, single_cells,
     },
     psm::{self, Forms, Walk},
     sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
@@ -164,10 +164,15 @@ impl Output<'_> {
 
     fn blocks(&mut self) -> Outcome {
         let grid = Grid::new(&lattice::Setup::periodic([128; 3], 0.01))?;
-        let constants = psm::constants(&grid);
+        let mut constants = psm::constants(&grid);
+        constants.push(("SPHERE_GROWTH", 0.4));
+        let (forms, weight) = (Forms::ALL, SolidWeight::Exact);
         for (entry, program) in [
-            ("voxelise", psm::voxelise(&grid, Walk::Parallel, Forms::ALL)),
-            ("voxelise_edges", psm::voxelise_edges(&grid, Forms::ALL)),
+            (
+                "voxelise",
+                psm::voxelise(&grid, Walk::Parallel, forms, weight),
+            ),
+            ("voxelise_edges", psm::voxelise_edges(&grid, forms, weight)),
             ("combine_parts", psm::combine_parts(&grid, Walk::Parallel)),
             ("reduce_tiles", psm::reduce_tiles(&grid, Walk::Parallel)),
             ("reduce_faces", psm::reduce_faces(&grid)),

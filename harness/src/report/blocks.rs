@@ -31,12 +31,12 @@ pub fn array(full: bool) -> Class {
     let run = |method: Method, edge: u32, tau: f64| {
         let array = Array::new(USUAL, edge, tau).by(method);
         let point = Point::by(method, array.diameter(), move |stand| {
-            let drag = array.measure(stand)?;
+            let found = array.measure(stand)?;
             Ok(Found {
-                value: drag.ratio,
+                value: found.ratio,
                 tau: Some(tau),
                 y_plus: None,
-                trial: drag.trial,
+                trial: found.drag.trial,
             })
         });
         match tau == ARRAY_TAU {

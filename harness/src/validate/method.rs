@@ -70,6 +70,12 @@ impl Method {
         |_| {},
         |scene| scene.numerics.solid_operator = scene::SolidOperator::Superposition,
     );
+    /// The weight of Noble & Torczynski (1998).
+    pub const STANDARD_WEIGHT: Self = Self::of(
+        "standard weight",
+        |_| {},
+        |scene| scene.numerics.solid_weight = Some(scene::SolidWeight::Standard),
+    );
     /// Fluid and blocks meet every second step.
     pub const EVERY_2: Self = Self::of("interval 2", |_| {}, |scene| scene.coupling.interval = 2);
     /// Every eighth step.

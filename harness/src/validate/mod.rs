@@ -31,10 +31,12 @@ pub(crate) mod solids {
     pub mod buoyancy;
     pub mod conservation;
     pub mod crossing;
+    pub mod cubes;
     pub mod cylinder;
     pub mod incline_flow;
     pub mod lubrication;
     pub mod obstacle;
+    pub mod periodic_flow;
     pub mod plates;
     pub mod settling;
     pub mod sphere;
@@ -147,10 +149,12 @@ pub const CASES: &[Case] = &[
     short("stability/taylor-green", "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps", stability::taylor_green),
     short("solids/volume", "solid fractions of cells add up to the volume of the block", solids::conservation::volume),
     short("solids/plates", "flow between two plates that are blocks", solids::plates::run),
+    short("solids/surfaces", "where the surfaces of plates lie along the grid and across it", solids::plates::places),
     short("solids/array", "drag of a simple cubic array of spheres (Zick & Homsy 1982)", solids::array::drag),
     long("solids/array-offset", "drag of the array with the spheres shifted in their cells", solids::array::offset),
     short("solids/array-comparison", "drag of the array at other concentrations and by other operators", solids::array::comparison),
     short("solids/array-map", "error of the drag of the array over resolution and relaxation time", solids::array::map),
+    short("solids/cubes", "drag of arrays of cubes, along the grid and turned, and of a polyhedron", solids::cubes::run),
     short("solids/rotation", "torque on a sphere that turns in a viscous fluid", solids::sphere::rotation),
     short("solids/release", "acceleration of a sphere that is let go: its added mass", solids::sphere::release),
     short("solids/buoyancy", "buoyancy of a block at rest in a closed tank", solids::buoyancy::archimedes),

@@ -5,7 +5,8 @@ use anyhow::Context;
 use riprap::{
     gpu::kernel,
     lattice::{
-        BrickKind, Collision, Equilibrium, Force, Setup, SolidOperator, Storage, collide_stream,
+        BrickKind, Collision, Equilibrium, Force, Setup, SolidOperator, SolidWeight, Storage,
+        collide_stream,
     },
 };
 use std::time::Instant;
@@ -77,6 +78,10 @@ fn setups() -> Vec<Setup> {
     ]);
     vary(&[
         &|s| s.solid_operator = Some(SolidOperator::Holdych),
+        &|s| {
+            s.solid_operator = Some(SolidOperator::Holdych);
+            s.solid_weight = Some(SolidWeight::Standard);
+        },
         &|s| s.solid_operator = Some(SolidOperator::Noble),
         &|s| s.solid_operator = Some(SolidOperator::Superposition),
     ]);

@@ -20,13 +20,13 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
         "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "psm_cells", "psm_none", "scalar_grid", "store_f16", "store_f32",
         "stream", "sums", "velocity", "wale", "wall_rates", "weights", "bricks_all", "bricks_listed",
-        "word_f16_2", "word_f16_4", "word_f16_4_wide";
+        "weight_exact", "weight_standard", "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "gpu":
         "bin_count", "bin_scatter", "invocation", "saturate", "scan_spread", "scan_sum";
     "broadphase":
         "boxes", "found_count", "found_write", "pairs";
     "psm":
-        "angle", "axes", "ball_none", "ball_power", "ball_quick", "ball_fraction", "face_layer", "face_siblings", "brick", "cell_load", "columns", "faces", "hull_none", "hull_quick",
+        "angle", "axes", "ball_none", "ball_power", "ball_quick", "ball_fraction", "face_layer", "face_siblings", "brick", "cell_load", "columns", "effective_surface", "effective_volume", "faces", "hull_none", "hull_quick",
         "hull_fraction", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "combine_parts",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "joint_gap", "joint_closure", "tile_sum_parallel",
         "tile_sum_serial", "workgroup_index", "voxelise", "voxelise_edges", "wrench";

@@ -3,7 +3,7 @@
 use crate::{
     Error, Result,
     gpu::Processor,
-    lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, Storage},
+    lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage},
     scene::{self, BodyForce, Boundary, Numerics, Scene},
     units::{SOUND_SPEED_SQUARED, Units},
 };
@@ -70,6 +70,10 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             scene::SolidOperator::Holdych => SolidOperator::Holdych,
             scene::SolidOperator::Noble => SolidOperator::Noble,
             scene::SolidOperator::Superposition => SolidOperator::Superposition,
+        });
+        setup.solid_weight = numerics.solid_weight.map(|weight| match weight {
+            scene::SolidWeight::Exact => SolidWeight::Exact,
+            scene::SolidWeight::Standard => SolidWeight::Standard,
         });
         // The published operator keeps its rates next to blocks too.
         setup.solid_lambda =

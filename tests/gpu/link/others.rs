@@ -4,7 +4,7 @@ use super::translate::translate;
 use glam::DVec3;
 use riprap::{
     gpu::link::{Program, SOURCES},
-    lattice::{Grid, Setup as Fluid, single_cells},
+    lattice::{Grid, Setup as Fluid, SolidWeight, single_cells},
     psm::{
         Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
         voxelise_edges,
@@ -28,6 +28,9 @@ fn plain(program: &Program, entry: &str) {
 
 const SEARCH: [&str; 4] = ["bin_count", "bin_scatter", "scan_sum", "scan_spread"];
 
+const EXACT: SolidWeight = SolidWeight::Exact;
+const STANDARD: SolidWeight = SolidWeight::Standard;
+
 const SPHERES: Forms = Forms {
     spheres: true,
     polyhedra: false,
@@ -39,13 +42,20 @@ const POLYHEDRA: Forms = Forms {
 
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL)),
-        ("voxelise", voxelise(grid, Walk::Parallel, Forms::ALL)),
-        ("voxelise", voxelise(grid, Walk::Serial, SPHERES)),
-        ("voxelise", voxelise(grid, Walk::Serial, POLYHEDRA)),
-        ("voxelise_edges", voxelise_edges(grid, Forms::ALL)),
-        ("voxelise_edges", voxelise_edges(grid, SPHERES)),
-        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA)),
+        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL, EXACT)),
+        (
+            "voxelise",
+            voxelise(grid, Walk::Parallel, Forms::ALL, STANDARD),
+        ),
+        ("voxelise", voxelise(grid, Walk::Serial, SPHERES, EXACT)),
+        (
+            "voxelise",
+            voxelise(grid, Walk::Serial, POLYHEDRA, STANDARD),
+        ),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL, EXACT)),
+        ("voxelise_edges", voxelise_edges(grid, Forms::ALL, STANDARD)),
+        ("voxelise_edges", voxelise_edges(grid, SPHERES, EXACT)),
+        ("voxelise_edges", voxelise_edges(grid, POLYHEDRA, EXACT)),
         ("combine_parts", combine_parts(grid, Walk::Serial)),
         ("combine_parts", combine_parts(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),

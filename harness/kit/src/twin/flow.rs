@@ -97,7 +97,7 @@ impl Twin {
             Some((_, cells))
                 if !cells[cell].deep && self.domain.walls_at(cell).next().is_some() =>
             {
-                tightness(cells[cell].share())
+                tightness(cells[cell].fraction)
             }
             _ => 0.0,
         }
@@ -128,9 +128,9 @@ impl Twin {
     pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
         let solid = self.solid_at(cell);
         let change = self.solid_change(cell, velocity, tau);
-        let force = force_on(solid.weight(tau), &solid, part, &change);
+        let force = force_on(solid.weight(&self.config, tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
-        [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.fraction.max(1.0))
+        [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.shares.max(1.0))
     }
 
     fn is_beside_wall(&self, cell: usize) -> bool {
@@ -154,7 +154,7 @@ impl Twin {
                     return 0.0;
                 }
                 let nu_t = wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w);
-                nu_t * (1.0 - self.solid_at(cell).share())
+                nu_t * (1.0 - self.solid_at(cell).fraction)
             })
             .collect()
     }
@@ -190,7 +190,7 @@ impl Twin {
     /// f* = f + (1 − B)(fluid − f) + B Ω^s.
     fn saturate(&self, cell: usize, fluid: &[f64; Q], tau: f64) -> [f64; Q] {
         let solid = self.solid_at(cell);
-        let b = solid.weight(tau);
+        let b = solid.weight(&self.config, tau);
         let change = self.solid_change(cell, solid.velocity, tau);
         let f = &self.f[cell];
         let tight = if solid.deep { 0.0 } else { solid.tight };

@@ -21,4 +21,4 @@ pub use collide::collide;
 pub use domain::{Domain, Face, Profile};
 pub use flow::{Force, Twin};
 pub use rates::{Config, Equilibrium, OddClass, Operator, Rates};
-pub use solid::{Solid, SolidOperator, tightness};
+pub use solid::{Solid, SolidOperator, SolidWeight, tightness};

@@ -3,7 +3,8 @@
 use crate::Rig;
 use crate::twin::{self, Twin};
 use riprap::lattice::{
-    Collision, Equilibrium, Face, Force, Lattice, Populations, Setup, SolidOperator, Storage,
+    Collision, Equilibrium, Face, Force, Lattice, Populations, Setup, SolidOperator, SolidWeight,
+    Storage,
 };
 
 /// A number in (−1, 1) that depends on `n` alone.
@@ -50,6 +51,10 @@ pub fn twin_of(setup: &Setup) -> Twin {
         config.lambda_wall = lambda;
     }
     config.lambda_solid = setup.solid_lambda;
+    config.solid_weight = match setup.weight() {
+        SolidWeight::Exact => twin::SolidWeight::Exact,
+        SolidWeight::Standard => twin::SolidWeight::Standard,
+    };
     let nothing = vec![twin::Solid::default(); domain.cell_count()];
     let mut twin = Twin::new(domain, config);
     let blocks = |operator| match operator {

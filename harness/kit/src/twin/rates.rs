@@ -1,6 +1,7 @@
 //! What a scene chooses about its collision, and the relaxation rates that follow from it.
 
 use super::lattice::Q;
+use super::solid::SolidWeight;
 
 /// Form of the equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,6 +107,8 @@ pub struct Config {
     pub lambda_everywhere: Option<f64>,
     /// Lowest odd rate that a Λ may ask for.
     pub floor: f64,
+    /// Weight of the solid in cells of which blocks fill a part.
+    pub solid_weight: SolidWeight,
     /// WALE's C_w; `None` is laminar.
     pub c_w: Option<f64>,
 }
@@ -123,6 +126,7 @@ impl Config {
             lambda_solid: Some(0.1),
             lambda_everywhere: None,
             floor: 0.8,
+            solid_weight: SolidWeight::Exact,
             c_w: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::equilibrium::equilibrium;
 use super::lattice::{C, OPPOSITE, Q, macroscopic};
-use super::rates::Config;
+use super::rates::{Config, OddClass, Operator, moment_rates};
 
 /// Ω^s, what the solid would do to populations that it had for itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +15,23 @@ pub enum SolidOperator {
     Superposition,
 }
 
+/// B of an open cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SolidWeight {
+    /// Of Noble & Torczynski (1998).
+    Standard,
+    /// With which planes lie where they are.
+    Exact,
+}
+
 /// What blocks leave of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solid {
-    /// Sum of the fractions of all blocks, more than 1 where they overlap.
+    /// Fraction that decides the weight, up to 1.
     pub fraction: f64,
-    /// Mean velocity of the blocks, weighted by their fractions.
+    /// Sum of the effective fractions of all blocks, of which each has its part of the force; more than 1 where they overlap.
+    pub shares: f64,
+    /// Mean velocity of the blocks, weighted by their effective fractions.
     pub velocity: [f64; 3],
     /// Whether a direct neighbour holds solid, where the cell itself holds none.
     pub beside: bool,
@@ -39,20 +50,24 @@ pub fn tightness(share: f64) -> f64 {
 }
 
 impl Solid {
-    /// Part of the cell that no fluid fills.
-    pub fn share(&self) -> f64 {
-        self.fraction.min(1.0)
-    }
-
     /// Whether the odd moments relax as beside the surface of a block.
     pub fn is_near(&self) -> bool {
-        self.beside || self.fraction > 0.0
+        self.beside || self.shares > 0.0
     }
 
-    /// B = ε (τ − ½) / ((1 − ε) + (τ − ½)); 1 deep inside, at most a quarter in closed joints.
-    pub fn weight(&self, tau: f64) -> f64 {
-        let (e, excess) = (self.share(), tau - 0.5);
-        let open = e * excess / ((1.0 - e) + excess);
+    /// B at the relaxation time `tau`; 1 deep inside, at most a quarter in closed joints. In an open cell ε (τ − ½) / ((1 − ε) +
+    /// (τ − ½)), or that of docs/src/theory/solids.md.
+    pub fn weight(&self, config: &Config, tau: f64) -> f64 {
+        let (e, excess) = (self.fraction, tau - 0.5);
+        let open = match config.solid_weight {
+            SolidWeight::Standard => e * excess / ((1.0 - e) + excess),
+            SolidWeight::Exact => {
+                let s = third_order_rate(config, tau);
+                let x = (1.0 - e) / excess;
+                let b = s * (1.0 + 2.0 * x) - 3.0 * (2.0 - s) * e;
+                2.0 * s * e / (b + (b * b + 12.0 * (2.0 - s) * (1.0 + x) * s * e).sqrt())
+            }
+        };
         match self.deep {
             true => 1.0,
             false => (1.0 - self.tight) * open + self.tight * open.min(SEEPS),
@@ -61,8 +76,16 @@ impl Solid {
 
     /// What the eddy viscosity sees of the cell: the solid where it is solid.
     pub fn mean_velocity(&self, u: [f64; 3]) -> [f64; 3] {
-        let e = self.share();
+        let e = self.fraction;
         [0, 1, 2].map(|a| (1.0 - e) * u[a] + e * self.velocity[a])
+    }
+}
+
+/// Rate of 120 + 102 in cells with a block.
+fn third_order_rate(config: &Config, tau: f64) -> f64 {
+    match config.operator {
+        Operator::Bgk => 1.0 / tau,
+        _ => moment_rates(config, 0.0, OddClass::Block)[10],
     }
 }
 
@@ -92,9 +115,9 @@ pub fn solid_change(
     })
 }
 
-/// Force on one of the blocks in a cell, −B_p Σ_i c_i Ω^s_i, of which the cell holds the fraction `part` and
+/// Force on one of the blocks in a cell, −B_p Σ_i c_i Ω^s_i, of which the cell has the share `part` and
 /// which moves there with `u_p` (Gardner & Sitar 2018, eq. 11, with the sign of their text).
 pub fn force_on(weight: f64, solid: &Solid, part: f64, change: &[f64; Q]) -> [f64; 3] {
-    let own = weight * part / solid.fraction;
+    let own = weight * part / solid.shares;
     [0, 1, 2].map(|a| -own * (0..Q).map(|i| f64::from(C[i][a]) * change[i]).sum::<f64>())
 }

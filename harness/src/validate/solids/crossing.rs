@@ -3,7 +3,7 @@
 use crate::{
     picture::{Chart, Curve, Mark, Measure},
     validate::{
-        Outcome, Stand,
+        Method, Outcome, Stand,
         tank::{self, Tank, block, numbers, turn},
     },
 };
@@ -97,7 +97,8 @@ pub fn swing(stand: &Stand) -> Outcome {
         (false, _) => &[5, 10],
     };
     let (mut records, mut curves, mut table) = (Vec::new(), Vec::new(), Vec::new());
-    for &size in sizes {
+    let methods = [Method::DEFAULT, Method::STANDARD_WEIGHT];
+    for (&size, method) in sizes.iter().flat_map(|size| methods.map(|m| (size, m))) {
         let mut points = Vec::new();
         for tau in [0.55, 0.6, 0.8, 1.0, 1.5] {
             let mut scene = tank::scene([4 * size + 12, 3 * size, 3 * size], tau)?;
@@ -112,6 +113,7 @@ pub fn swing(stand: &Stand) -> Outcome {
             scene.blocks.push(cube);
             // Each step by itself: what a block feels is the mean of two.
             scene.coupling.average = false;
+            method.choose(&mut scene);
             let mut tank = Tank::fill(stand, &scene)?;
             tank.advance(ramp as u64 + BEFORE * CROSSING as u64)?;
             let mut drag = Vec::new();
@@ -131,15 +133,16 @@ pub fn swing(stand: &Stand) -> Outcome {
             });
             let swing = swing.fold(0.0, f64::max);
             let trial = tank.trial(&format!("cube of {size}"));
-            let of = format!("D = {size}, τ = {tau}");
+            let of = format!("D = {size}, τ = {tau}, {}", method.name);
             records.push(trial.report(format!("largest jump of a step / mean drag, {of}"), jump));
             let quantity = format!("swing of what it feels in a crossing / mean drag, {of}");
             records.push(trial.report(quantity, swing));
             points.push([tau, 100.0 * swing]);
-            table.push([edge, tau, 100.0 * jump, 100.0 * swing]);
+            let standard = f64::from(u8::from(method.name != Method::DEFAULT.name));
+            table.push([edge, tau, standard, 100.0 * jump, 100.0 * swing]);
         }
         curves.push(Curve {
-            name: format!("D = {size}"),
+            name: format!("D = {size}, {}", method.name),
             points,
             mark: Mark::LinePoints,
         });
@@ -151,7 +154,13 @@ pub fn swing(stand: &Stand) -> Outcome {
         curves,
     );
     stand.draw("solids_spike", &chart)?;
-    let heads = ["edge", "tau", "jump_percent", "swing_percent"];
+    let heads = [
+        "edge",
+        "tau",
+        "standard_weight",
+        "jump_percent",
+        "swing_percent",
+    ];
     stand.write_table("solids_spike", heads, &table)?;
     Ok(records)
 }

@@ -1,0 +1,113 @@
+//! Slow steady flow through a simple cubic array of one body.
+
+use crate::validate::{
+    Method, Stand, Trial,
+    tank::{self, Tank, block, numbers},
+};
+use riprap::scene::{BlockShape, Motion, Rotation, Solid};
+use std::f64::consts::TAU;
+
+/// U D/ν: the drag of inertia grows with its square and is below 1e-4 of the whole.
+const REYNOLDS: f64 = 0.05;
+/// Change of the mean velocity, as a part of it, over the longer of its diffusive time (edge/2π)²/ν and the time in which
+/// the drag stops it, below which the flow is steady: what is left then is of this size, a tenth of the limit on the
+/// balance of forces.
+const STEADY: f64 = 1e-4;
+/// Such times after which a flow that is to become steady should be: 8 are usual.
+const MOST_TIMES: u32 = 64;
+
+/// The body of the array.
+#[derive(Clone, Debug)]
+pub enum Body {
+    /// A block in the middle, off it by a part of a cell, and turned.
+    Block(BlockShape, [f64; 3], Rotation),
+    /// Solid cells, with walls by bounce-back.
+    Cells(Vec<Solid>),
+}
+
+/// An array to be computed.
+#[derive(Clone, Debug)]
+pub struct PeriodicFlow {
+    pub body: Body,
+    /// Its size across, cells.
+    pub size: f64,
+    /// Edge of the periodic cube of one body, cells.
+    pub edge: u32,
+    pub tau: f64,
+    pub method: Method,
+    /// About what [`Drag::resistance`] is.
+    pub expected: f64,
+}
+
+/// What an array shows.
+pub struct Drag {
+    /// Force on a body over μU, U the mean velocity over fluid and bodies, cells.
+    pub resistance: f64,
+    /// How far the force on the body is from what pushes the fluid; no number for solid cells.
+    pub balance: f64,
+    /// What was run.
+    pub trial: Trial,
+}
+
+impl PeriodicFlow {
+    /// The steady flow along x.
+    ///
+    /// # Errors
+    /// If the flow does not become steady, or leaves the range of the method.
+    pub fn measure(&self, stand: &Stand, name: &str) -> anyhow::Result<Drag> {
+        let nu = (self.tau - 0.5) / 3.0;
+        let volume = f64::from(self.edge).powi(3);
+        let speed = REYNOLDS * nu / self.size;
+        let push = nu * self.expected * speed / volume;
+        let mut scene = tank::scene([self.edge; 3], self.tau)?;
+        scene.fluid.acceleration = numbers([push, 0.0, 0.0]);
+        scene.initial.velocity = numbers([speed, 0.0, 0.0]);
+        self.method.choose(&mut scene);
+        match &self.body {
+            Body::Block(shape, offset, rotation) => {
+                let centre = offset.map(|part| 0.5 * f64::from(self.edge) + part);
+                // Its loads are wanted, and it is at rest.
+                let mut body = block(shape.clone(), centre, Motion::Driven);
+                body.rotation = *rotation;
+                scene.blocks.push(body);
+            }
+            Body::Cells(solids) => scene.solids = solids.clone(),
+        }
+        // A mean velocity that is off returns at the first rate, its profile at least at the second.
+        let edge = f64::from(self.edge);
+        let rates = [nu * self.expected / volume, nu * (TAU / edge).powi(2)];
+        let time = (1.0 / rates[0].min(rates[1])).ceil();
+        // The force is the mean over one such time.
+        scene.coupling.interval = time as u32;
+        let mut tank = Tank::fill(stand, &scene)?;
+        let mut flux = f64::NAN;
+        for times in 1.. {
+            // What cells inside a body reflect swings with a period of two steps. Without the half force: in
+            // partially saturated cells it is no part of the flux.
+            tank.advance(time as u64 - 1)?;
+            let before = tank.totals()?.momentum[0];
+            tank.advance(1)?;
+            let now = 0.5 * (before + tank.totals()?.momentum[0]) / volume - 0.5 * push;
+            let change = (now - flux).abs();
+            flux = now;
+            if change <= STEADY * now.abs() {
+                break;
+            }
+            anyhow::ensure!(
+                times < MOST_TIMES,
+                "the flow through the array is not steady after {} steps",
+                tank.simulation.step()
+            );
+        }
+        let pushed = push * volume;
+        let force = match self.body {
+            Body::Block(..) => tank.load(0).flow.force.x,
+            Body::Cells(_) => pushed,
+        };
+        Ok(Drag {
+            resistance: force / (nu * flux),
+            balance: force / pushed - 1.0,
+            trial: tank.trial(name),
+        })
+    }
+}

@@ -95,8 +95,8 @@ fn effective(weight: SolidWeight) -> &'static str {
     }
 }
 
-/// c, cells², of a sphere of R cells, whose effective radius is R + c/R: fitted to drags of a cubic array of concentration 0.125, and to
-/// torques, from D = 5 on.
+/// c, cells², of a sphere of R cells, whose effective radius is R + c/R: fitted to the drag of a cubic array of
+/// concentration 0.125, D = 5 and 10, and to the torque on a sphere of D = 8.
 pub fn sphere_growth(setup: &Setup) -> f64 {
     let excess = setup.tau() - 0.5;
     match setup.weight() {

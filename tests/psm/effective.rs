@@ -1,8 +1,14 @@
 //! The fraction of a cell that decides the weight of the solid, in f64 (docs/src/theory/solids.md).
 
-use crate::exact::{ball_fraction, hull_fraction};
-use glam::DVec3;
-use riprap::geometry::HalfSpace;
+use crate::{
+    exact::{ball_fraction, hull_fraction},
+    shapes::{cuboid, icosahedron, pebble, tetrahedron},
+    tiling::{Placed, Tiling, centre, grid, rotation},
+    voxelise::{GROWTH, both, fraction},
+};
+use glam::{DQuat, DVec3};
+use kit::{Random, Workbench};
+use riprap::{geometry::HalfSpace, lattice::SolidWeight};
 
 /// Of a polyhedron of which `solid` is in the cell about `r`: alone, and beside others.
 pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
@@ -103,4 +109,64 @@ fn flush_parts() {
         let found = together(&parts);
         assert!((found - z).abs() < 1e-9, "{x} {y} {z}: {found}");
     }
+}
+
+/// Fourth roots of what planes leave out take rounding of 1e-7 to 0.02; there are few such cells.
+#[test]
+fn effective_fractions_of_edges_and_spheres() {
+    let bench = Workbench::new(None);
+    let mut noise = Random(12);
+    let at = |noise: &mut Random| DVec3::splat(9.0) + noise.point();
+    let mut placed: Vec<Placed> = [1.0, 2.5, 6.3]
+        .into_iter()
+        .map(|radius: f64| Placed::ball(0, f64::from(radius as f32), at(&mut noise)))
+        .collect();
+    let shapes = [
+        cuboid(7.0, 5.0, 6.0),
+        tetrahedron(9.0),
+        icosahedron(4.0),
+        pebble(60, 5.0),
+    ];
+    for shape in &shapes {
+        for turn in [DQuat::IDENTITY, rotation(&mut noise)] {
+            placed.push(Placed::hull(0, shape, at(&mut noise), turn));
+        }
+    }
+    let tiling = Tiling::new(grid([20; 3], 1, [4; 3]), [0; 3], placed);
+    let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
+    let [shares, effective] = both(&bench, &tiling, &work, SolidWeight::Exact);
+    let (mut worst, mut sum, mut cells) = (0f64, 0.0, 0.0);
+    for (number, tile) in tiling.tiles.iter().enumerate() {
+        let placed = &tiling.placed[tile.part as usize];
+        for local in 0..tiling.workgroup() {
+            let Some(cell) = tiling.cell(tile, local) else {
+                continue;
+            };
+            let r = centre(cell) - placed.centre;
+            let place = number * tiling.workgroup() + local;
+            let share = shares[place];
+            let expected = match placed.faces.is_empty() {
+                true => [effective_ball(placed.radius, GROWTH, r); 2],
+                false => effective_hull(&placed.faces, r, fraction(share)),
+            };
+            for (found, expected) in effective[2 * place..].iter().zip(expected) {
+                let found = f64::from(*found);
+                assert!((0.0..=1.0).contains(&found), "{r}: {found}");
+                // A cell that counts has a mark.
+                assert!(share != 0.0 || found == 0.0, "{r}: {found}");
+                let error = (found - expected).abs();
+                if expected > 0.0 && expected < 1.0 {
+                    (worst, sum, cells) = (worst.max(error), sum + error, cells + 1.0);
+                } else {
+                    assert!(error < 1e-4, "{r}: {found}, {expected}");
+                }
+            }
+        }
+    }
+    assert!(
+        worst < 0.02 && sum / cells < 1e-4,
+        "{worst} {}",
+        sum / cells
+    );
+    assert!(cells > 1000.0, "{cells}");
 }

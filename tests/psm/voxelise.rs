@@ -1,7 +1,6 @@
 //! Solid fractions against exact volumes.
 
 use crate::{
-    effective::{effective_ball, effective_hull},
     exact::{ball_fraction, hull_fraction},
     shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
     tiling::{Placed, Tiling, centre, grid, rotation},
@@ -15,7 +14,7 @@ use riprap::{
 };
 
 /// c of the exact weight, cells².
-const GROWTH: f64 = 0.4;
+pub const GROWTH: f64 = 0.4;
 
 /// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
@@ -31,7 +30,12 @@ fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
 }
 
 /// Shares and effective fractions, two a cell.
-fn both(bench: &Workbench, tiling: &Tiling, work: &[u32], weight: SolidWeight) -> [Vec<f32>; 2] {
+pub fn both(
+    bench: &Workbench,
+    tiling: &Tiling,
+    work: &[u32],
+    weight: SolidWeight,
+) -> [Vec<f32>; 2] {
     let [serial, parallel] =
         [Walk::Serial, Walk::Parallel].map(|walk| walked(bench, tiling, work, (walk, weight)));
     let bits = |shares: &[f32]| shares.iter().map(|s| s.to_bits()).collect::<Vec<_>>();
@@ -77,68 +81,8 @@ pub fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
     run(bench, tiling, &work)
 }
 
-/// Fourth roots of what planes leave out take rounding of 1e-7 to 0.02; there are few such cells.
-#[test]
-fn effective_fractions_of_edges_and_spheres() {
-    let bench = Workbench::new(None);
-    let mut noise = Random(12);
-    let at = |noise: &mut Random| DVec3::splat(9.0) + noise.point();
-    let mut placed: Vec<Placed> = [1.0, 2.5, 6.3]
-        .into_iter()
-        .map(|radius: f64| Placed::ball(0, f64::from(radius as f32), at(&mut noise)))
-        .collect();
-    let shapes = [
-        cuboid(7.0, 5.0, 6.0),
-        tetrahedron(9.0),
-        icosahedron(4.0),
-        pebble(60, 5.0),
-    ];
-    for shape in &shapes {
-        for turn in [DQuat::IDENTITY, rotation(&mut noise)] {
-            placed.push(Placed::hull(0, shape, at(&mut noise), turn));
-        }
-    }
-    let tiling = Tiling::new(grid([20; 3], 1, [4; 3]), [0; 3], placed);
-    let work: Vec<u32> = (0..tiling.tiles.len() as u32).collect();
-    let [shares, effective] = both(&bench, &tiling, &work, SolidWeight::Exact);
-    let (mut worst, mut sum, mut cells) = (0f64, 0.0, 0.0);
-    for (number, tile) in tiling.tiles.iter().enumerate() {
-        let placed = &tiling.placed[tile.part as usize];
-        for local in 0..tiling.workgroup() {
-            let Some(cell) = tiling.cell(tile, local) else {
-                continue;
-            };
-            let r = centre(cell) - placed.centre;
-            let place = number * tiling.workgroup() + local;
-            let share = shares[place];
-            let expected = match placed.faces.is_empty() {
-                true => [effective_ball(placed.radius, GROWTH, r); 2],
-                false => effective_hull(&placed.faces, r, fraction(share)),
-            };
-            for (found, expected) in effective[2 * place..].iter().zip(expected) {
-                let found = f64::from(*found);
-                assert!((0.0..=1.0).contains(&found), "{r}: {found}");
-                // A cell that counts has a mark.
-                assert!(share != 0.0 || found == 0.0, "{r}: {found}");
-                let error = (found - expected).abs();
-                if expected > 0.0 && expected < 1.0 {
-                    (worst, sum, cells) = (worst.max(error), sum + error, cells + 1.0);
-                } else {
-                    assert!(error < 1e-4, "{r}: {found}, {expected}");
-                }
-            }
-        }
-    }
-    assert!(
-        worst < 0.02 && sum / cells < 1e-4,
-        "{worst} {}",
-        sum / cells
-    );
-    assert!(cells > 1000.0, "{cells}");
-}
-
 /// 0..1 from a share and its marks.
-fn fraction(share: f32) -> f64 {
+pub fn fraction(share: f32) -> f64 {
     f64::from(share.clamp(0.0, 1.0))
 }
 

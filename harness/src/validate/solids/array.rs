@@ -58,6 +58,11 @@ impl Array {
         found.map_or(f64::NAN, |(_, k)| *k)
     }
 
+    /// [`Drag::resistance`] by the table.
+    pub fn resistance(&self) -> f64 {
+        3.0 * PI * self.diameter() * self.published()
+    }
+
     /// The flow through it.
     ///
     /// # Errors
@@ -66,7 +71,7 @@ impl Array {
         let shape = BlockShape::Sphere {
             radius: 0.5 * self.diameter(),
         };
-        let expected = 3.0 * PI * self.diameter() * self.published();
+        let expected = self.resistance();
         let flow = PeriodicFlow {
             body: Body::Block(shape, self.offset, Rotation::default()),
             size: self.diameter(),

@@ -10,7 +10,7 @@ use riprap::{
     geometry::Polyhedron,
     scene::{BlockShape, Rotation, Scene, Solid},
 };
-use std::{f64::consts::PI, path::Path};
+use std::path::Path;
 
 /// Places of the middle of a cube, from the corner of a cell, cells.
 const OFFSETS: [[f64; 3]; 4] = [
@@ -88,7 +88,7 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
         records.push(drag.trial.report(quantity, drag.resistance / size));
     }
     let polyhedron = flow(Body::Block(polyhedron(edge)?, OFFSETS[3], tank::turn(2)));
-    let sphere = 3.0 * PI * Array::new(USUAL, edge, tau).diameter() * 4.292;
+    let sphere = Array::new(USUAL, edge, tau).resistance();
     let drag = polyhedron.measure(stand, "polyhedra of 80 faces")?;
     let quantity = name("F / F of a sphere of the same volume, 80 faces");
     let ratio = drag.resistance / sphere;

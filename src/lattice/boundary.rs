@@ -30,6 +30,7 @@ impl Lattice {
                 passes.push(self.cell_dispatch(device, &dispatch)?);
             }
         }
+        passes.extend(self.wall_passes(device, odd)?);
         let moving = storage(
             device,
             "moving cells",
@@ -138,7 +139,7 @@ impl Lattice {
 }
 
 /// The pass over a range of cells, which writes one half of the words of 16-bit storage.
-fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
+pub(super) fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
     CellPass {
         odd,
         half,

@@ -1,6 +1,6 @@
 //! What a lattice takes on its device, by kind.
 
-use super::Lattice;
+use super::{Lattice, wall_model::WallPart};
 
 impl Lattice {
     /// Bytes of its buffers, each kind with a name; kinds that it does not have are left out.
@@ -37,6 +37,12 @@ impl Lattice {
                 "open faces",
                 open.map(|(cells, carried)| cells.size() + carried.size())
                     .sum(),
+            ),
+            (
+                "wall model",
+                buffers.walls.iter().map(WallPart::bytes).sum::<u64>()
+                    + size(&buffers.near_wall_viscosity)
+                    + size(&buffers.psm_slots),
             ),
             ("lists of bricks", lists),
             ("saturation of bricks with blocks", psm_planes),

@@ -3,6 +3,9 @@
 use super::{Face, Force, Setup, SolidOperator, SolidWeight, face_name, in_plane};
 use crate::{Error, Result};
 
+/// Largest equivalent sand roughness, cells: the cells beside the wall still lie above the roughness's zero of the log law.
+pub const MAX_ROUGHNESS: f64 = 5.0;
+
 impl Setup {
     /// Whether a fluid can be made of it.
     ///
@@ -109,6 +112,7 @@ impl Setup {
             let message = format!("is {constant}; give a number from 0, such as 0.5");
             return Err(Error::argument("wale", message));
         }
+        self.check_wall_model()?;
         let squared = (self.max_speed * self.max_speed) as f32;
         if !(self.max_speed >= 0.0 && squared.is_finite()) {
             let message = format!(
@@ -116,6 +120,34 @@ impl Setup {
                 self.max_speed
             );
             return Err(Error::argument("max_speed", message));
+        }
+        Ok(())
+    }
+
+    fn check_wall_model(&self) -> Result<()> {
+        if self.wall_model.is_some() && self.wale.is_none() {
+            let message = "a wall model reads the velocity that WALE keeps; set `wale`, or leave the model out";
+            return Err(Error::argument("wall_model", message));
+        }
+        let allowed = |name: &str, roughness: f64| match (0.0..=MAX_ROUGHNESS).contains(&roughness)
+        {
+            true => Ok(()),
+            false => Err(Error::argument(
+                name,
+                format!(
+                    "is {roughness} cells; the log law of rough walls holds from 0 to {MAX_ROUGHNESS} cells"
+                ),
+            )),
+        };
+        for roughness in self.wall_roughness.as_flattened() {
+            allowed("wall_roughness", *roughness)?;
+        }
+        if !self.solid_roughness.is_empty() {
+            let cells = self.cells.iter().map(|&n| u128::from(n)).product();
+            same("solid_roughness", self.solid_roughness.len(), cells)?;
+        }
+        for roughness in &self.solid_roughness {
+            allowed("solid_roughness", f64::from(*roughness))?;
         }
         Ok(())
     }

@@ -22,6 +22,9 @@ pub struct Populations {
     /// Velocity of the last step for the eddy viscosity, component by component; empty without.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
+    /// Least eddy viscosity of each cell in the coming step, by a wall model where blocks are in the fluid; otherwise empty.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
+    pub near_wall: Vec<f32>,
     /// What the outflow faces carry from step to step, face by face.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub carried: Vec<f32>,
@@ -64,6 +67,15 @@ impl Lattice {
                 }
             }
         }
+        let mut near_wall = Vec::new();
+        if let (Some(buffer), Some(_)) =
+            (&self.buffers.near_wall_viscosity, self.setup.solid_operator)
+        {
+            let count = (buffer.size() / 4) as usize;
+            let plane: Vec<f32> = readback.read(device, queue, buffer, count).await?;
+            let of = |cell| plane[self.grid.scalar_of(cell) as usize];
+            near_wall.extend(self.grid.domain().map(of));
+        }
         let mut carried = Vec::new();
         for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
             let count = (buffer.size() / 4) as usize;
@@ -78,6 +90,7 @@ impl Lattice {
             cells: self.grid.cells,
             values,
             velocity,
+            near_wall,
         })
     }
 
@@ -130,6 +143,21 @@ impl Lattice {
         }
         if let [x, y, z] = state.velocity.chunks(cells.max(1)).collect::<Vec<_>>()[..] {
             self.set_velocity_before(queue, &[x.to_vec(), y.to_vec(), z.to_vec()]);
+        }
+        match (
+            &self.buffers.near_wall_viscosity,
+            state.near_wall.len() == cells,
+        ) {
+            (Some(buffer), true) => {
+                let mut plane = vec![0f32; (buffer.size() / 4) as usize];
+                for (cell, value) in self.grid.domain().zip(&state.near_wall) {
+                    plane[self.grid.scalar_of(cell) as usize] = *value;
+                }
+                queue.write_buffer(buffer, 0, bytemuck::cast_slice(&plane));
+            }
+            // Without blocks it follows from the velocity.
+            (Some(_), false) => self.set_near_wall(device, queue)?,
+            (None, _) => {}
         }
         let into: Vec<_> = self
             .halves()

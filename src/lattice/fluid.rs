@@ -8,6 +8,7 @@ use super::{
     populations,
     spread::{PSM_NAMES, planes},
     streams::Streams,
+    wall_model::WallPart,
 };
 use crate::{
     Error, Result,
@@ -52,6 +53,8 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
+    /// Those that find walls with blocks near them.
+    marks: Vec<Dispatch>,
     /// Kernels for single cells.
     pub(super) cells: CellKernels,
     /// Collision and streaming.
@@ -73,6 +76,12 @@ pub(super) struct Buffers {
     pub(super) force: Vec<wgpu::Buffer>,
     pub(super) guard: Option<wgpu::Buffer>,
     pub(super) wall_velocity: Option<wgpu::Buffer>,
+    /// Least eddy viscosity of each cell, by the wall model.
+    pub(super) near_wall_viscosity: Option<wgpu::Buffer>,
+    /// The walls of the model.
+    pub(super) walls: Vec<WallPart>,
+    /// Of each brick its place among those that blocks reach, from 1, for the wall model.
+    pub(super) psm_slots: Option<wgpu::Buffer>,
     /// Cells of each open face, and what they carry from step to step.
     pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
 }
@@ -100,6 +109,8 @@ impl Buffers {
             ("flags", &self.flags),
             ("guard_state", &self.guard),
             ("wall_velocity", &self.wall_velocity),
+            ("near_wall_viscosity", &self.near_wall_viscosity),
+            ("psm_slots", &self.psm_slots),
         ];
         all.extend(
             optional
@@ -137,6 +148,7 @@ impl Lattice {
         let mut lattice = Self {
             bindings: memory.bindings,
             boundary: [Vec::new(), Vec::new()],
+            marks: Vec::new(),
             cells: CellKernels::default(),
             streams,
             setup,
@@ -149,6 +161,7 @@ impl Lattice {
         for odd in [0, 1] {
             lattice.boundary[odd as usize] = lattice.boundary_passes(device, odd)?;
         }
+        lattice.marks = lattice.mark_passes(device)?;
         Ok(lattice)
     }
 
@@ -202,6 +215,9 @@ impl Lattice {
     /// loads on the blocks are known after it.
     pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
+        for dispatch in &self.marks {
+            dispatch.record(pass);
+        }
         self.streams.record(pass, self.parity(), true);
     }
 
@@ -247,7 +263,13 @@ impl Lattice {
             let message = format!("brick {bad} is listed twice; list each brick once");
             return Err(Error::argument("bricks", message));
         }
-        streams.set(device, queue, (setup, geometry, buffers), bricks)
+        if !streams.set(device, queue, (setup, geometry, buffers), bricks)? {
+            return Ok(());
+        }
+        self.write_psm_slots(queue, bricks);
+        // The planes may be other buffers.
+        self.marks = self.mark_passes(device)?;
+        Ok(())
     }
 
     /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of
@@ -397,6 +419,15 @@ fn make_buffers(
         }),
         wall_velocity: (!moving.is_empty())
             .then(|| storage(device, "wall velocity", bytemuck::cast_slice(&moving))),
+        // New buffers hold zeros.
+        near_wall_viscosity: setup
+            .wall_model
+            .map(|_| result_buffer(device, "near-wall viscosity", 4 * scalars)),
+        walls: WallPart::all(device, setup, &geometry.walls),
+        psm_slots: (setup.wall_model.is_some() && setup.solid_operator.is_some()).then(|| {
+            let bricks: u32 = grid.bricks().iter().product();
+            result_buffer(device, "slots of bricks", 4 * u64::from(bricks))
+        }),
     }
 }
 

@@ -1,6 +1,6 @@
 //! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
 
-use super::{Face, Grid, Setup, stages::Stages};
+use super::{Face, Grid, Setup, stages::Stages, wall_model::Walls};
 use crate::gpu::Processor;
 
 /// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
@@ -39,13 +39,13 @@ pub const NEXT_TO_WALL: u8 = 1 << 6;
 /// The cell is not fluid: bit of its flags.
 pub const SOLID: u8 = 1 << 7;
 
-fn opposite(q: usize) -> usize {
+pub(super) fn opposite(q: usize) -> usize {
     if q == 0 { 0 } else { ((q - 1) ^ 1) + 1 }
 }
 
 /// What a direction leads to from a fluid cell.
 #[derive(Clone, Copy, PartialEq)]
-enum Beyond {
+pub(super) enum Beyond {
     Fluid,
     /// Static solid or a wall at rest.
     Wall,
@@ -99,6 +99,8 @@ pub struct Geometry {
     pub flags: Vec<u32>,
     /// Populations that walls at rest and free-slip faces return.
     pub links: Vec<Link>,
+    /// Cells at walls whose friction a law of the wall gives, and their links.
+    pub walls: Walls,
     /// Cells at moving walls and velocity faces; in the order of their stages.
     pub moving: Vec<MovingCell>,
     /// Axis and side of each pressure or outflow face with its cells in the order of their stages.
@@ -115,9 +117,9 @@ pub struct Geometry {
     pub fluid_cells: u64,
 }
 
-struct Survey<'a> {
-    setup: &'a Setup,
-    grid: &'a Grid,
+pub(super) struct Survey<'a> {
+    pub setup: &'a Setup,
+    pub grid: &'a Grid,
     periodic: [bool; 3],
 }
 
@@ -166,6 +168,7 @@ impl Geometry {
         // Neighbours in the list are neighbours in memory.
         let links = &mut geometry.links;
         links.sort_unstable_by_key(|link| (link.directions, link.to));
+        geometry.walls.own_layers(grid);
         geometry.stages = Stages::new(&geometry.open);
         geometry.stages.sort(&mut geometry.moving, grid);
         for (_, _, cells) in &mut geometry.open {
@@ -187,12 +190,17 @@ impl Geometry {
     fn survey_cell(&mut self, survey: &Survey<'_>, cell: [u32; 3]) -> u8 {
         let grid = survey.grid;
         let mut bits = 0;
+        let surroundings: [Beyond; 27] = std::array::from_fn(|q| match q {
+            0 => Beyond::Fluid,
+            _ => survey.beyond(cell, q),
+        });
+        let modelled = survey.plain_wall(cell, &surroundings);
         let mut moving = MovingCell {
             cell: survey.padded_index(cell),
             through: [0; 3],
         };
         for q in 1..27 {
-            let beyond = survey.beyond(cell, q);
+            let beyond = surroundings[q];
             if beyond != Beyond::Fluid && q < 7 {
                 // Directions 1..6 are +x, -x, +y, ...; flags go -x, +x, -y, ...
                 bits |= 1 << ((q - 1) ^ 1);
@@ -203,6 +211,8 @@ impl Geometry {
             let enters = opposite(q);
             match beyond {
                 Beyond::Fluid => {}
+                // The wall model has their links.
+                Beyond::Wall if modelled.is_some() => {}
                 Beyond::Wall => self.links.push(survey.link(cell, q, cell, enters)),
                 Beyond::Moving(axis) => moving.through[axis] |= 1 << q,
                 Beyond::Slip(axes) => {
@@ -238,6 +248,13 @@ impl Geometry {
         if moving.through != [0; 3] {
             self.moving.push(moving);
         }
+        self.walls.area += surroundings[1..7]
+            .iter()
+            .filter(|b| **b == Beyond::Wall)
+            .count() as u64;
+        if let Some(face) = modelled {
+            self.walls.push(survey, cell, face);
+        }
         bits
     }
 
@@ -258,8 +275,9 @@ impl Geometry {
             for k in range(z, grid.brick[2], nz) {
                 for j in range(y, grid.brick[1], ny) {
                     for i in range(x, grid.brick[0], nx) {
-                        let word = self.flags[(i + nx * (j + ny * k)) as usize] & used;
-                        flagged |= word != 0;
+                        let element = i + nx * (j + ny * k);
+                        let word = self.flags[element as usize] & used;
+                        flagged |= word != 0 || self.walls.reach(element);
                         solid &= word & all_solid == all_solid;
                     }
                 }
@@ -286,7 +304,7 @@ impl Geometry {
 }
 
 impl Survey<'_> {
-    fn is_solid(&self, cell: [u32; 3]) -> bool {
+    pub(super) fn is_solid(&self, cell: [u32; 3]) -> bool {
         let solid = &self.setup.solid;
         !solid.is_empty() && solid[self.grid.index(cell)]
     }
@@ -311,14 +329,14 @@ impl Survey<'_> {
             .all(|first| !solid[first..first + 3].contains(&true))
     }
 
-    fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {
+    pub(super) fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {
         let [nx, ny, _] = self.grid.padded();
         x + nx * (y + ny * z)
     }
 
     /// What direction `q` leads to. Where it crosses several faces the first of: solid, wall, moving
     /// wall, velocity, pressure or outflow, free slip decides.
-    fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
+    pub(super) fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
         let mut crossed = [None; 3];
         for a in 0..3 {
@@ -367,7 +385,13 @@ impl Survey<'_> {
     }
 
     /// What `sender` sent in direction `sent` returns to `receiver` in direction `received`.
-    fn link(&self, sender: [u32; 3], sent: usize, receiver: [u32; 3], received: usize) -> Link {
+    pub(super) fn link(
+        &self,
+        sender: [u32; 3],
+        sent: usize,
+        receiver: [u32; 3],
+        received: usize,
+    ) -> Link {
         let arrived = self.grid.neighbour(sender, C[sent]);
         let (from, direction_from) = self.incoming(arrived, sent);
         let (to, direction_to) = self.incoming(receiver, received);

@@ -81,12 +81,17 @@ impl Room<'_> {
             + 2 * flags
             + 2 * vectors * u32::from(setup.wale.is_some())
             + u32::from(setup.max_speed > 0.0)
+            + u32::from(setup.wall_model.is_some())
             + u32::from(setup.solid_operator.is_some());
-        let boundary = if moving { 2 } else { flags };
+        let boundary = match setup.wall_model {
+            Some(_) => 4 + vectors + u32::from(setup.solid_operator.is_some()),
+            None if moving => 2,
+            None => flags,
+        };
         step.max(boundary).max(4 + flags + field)
     }
 
-    /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm.
+    /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm; mark_blocks has fewer.
     fn with_psm_planes(&self, vectors: u32) -> u32 {
         7.max(5 + vectors * u32::from(self.has_force()))
     }
@@ -196,6 +201,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
     let others = [
         (setup.wale.is_some(), 24 * scalars),
         (!setup.is_all_fluid(), 4 * u64::from(grid.element_count())),
+        (setup.wall_model.is_some(), 4 * scalars),
         (room.has_force(), 12 * scalars),
     ];
     let widest = match room.has_vectors() {

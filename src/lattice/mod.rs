@@ -54,8 +54,10 @@ mod stages;
 mod start;
 mod streams;
 mod traffic;
+mod wall_model;
 
 pub use cell_kernels::{CellPass, OpenFace};
+pub use check::MAX_ROUGHNESS;
 pub use exchange::Populations;
 pub use fluid::{Lattice, face_name, in_plane};
 pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
@@ -67,6 +69,7 @@ pub use observe::{Derived, Fault, Observer, Sums};
 pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{
     Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, SolidWeight, Storage,
+    WallModel,
 };
 pub use spread::{Bindings, PSM_PLANES};
 #[doc(hidden)]
@@ -74,3 +77,4 @@ pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;
 pub use start::State;
 pub use traffic::{bytes_a_cell, bytes_a_step};
+pub use wall_model::{WallCell, WallStress};

@@ -2,7 +2,7 @@
 
 use super::{
     Bindings, Collision, Equilibrium, Face, Force, Grid, PsmAccess, Setup, SolidOperator,
-    SolidWeight, Storage, populations, psm_storage, spread,
+    SolidWeight, Storage, WallModel, populations, psm_storage, spread,
 };
 use crate::gpu::link::Program;
 
@@ -110,6 +110,14 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
             either(setup.wale.is_some(), "eddy_wale", "eddy_none"),
         )
         .slot(
+            "near_wall",
+            either(
+                setup.wall_model.is_some() && flagged,
+                "near_wall_viscosity",
+                "near_wall_none",
+            ),
+        )
+        .slot(
             "store_velocity",
             either(
                 setup.wale.is_some(),
@@ -135,10 +143,23 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         Force::Constant(_) => "cell_force_constant",
         Force::Field(_) => "cell_force_field",
     };
+    let law = match setup.wall_model {
+        Some(WallModel::Reichardt) => "wall_law_reichardt",
+        _ => "wall_law_werner_wengle",
+    };
     Program::new(entry)
         .text(
             "scalars",
             populations::scalars(bindings.populations, setup.storage),
+        )
+        .text("cell_velocities", spread::cell_velocities(bindings.vectors))
+        .slot("wall_law", law)
+        .slot(
+            "wall_blocks",
+            match setup.solid_operator {
+                Some(_) => "wall_blocks_marked",
+                None => "wall_blocks_none",
+            },
         )
         .text("forces", spread::forces(bindings.vectors, true))
         .text(
@@ -183,6 +204,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("MAX_SPEED_SQUARED", setup.max_speed * setup.max_speed),
         ("TAU", setup.tau()),
         ("TAU_MINUS_HALF", 3.0 * setup.nu),
+        ("VISCOSITY", setup.nu),
         ("S4", rates.s4),
         ("S10", bulk(rates.s10)),
         ("S13", bulk(rates.s13)),

@@ -52,6 +52,15 @@ pub enum Storage {
     F16,
 }
 
+/// Law of the wall from which a wall at rest takes its friction where the grid does not resolve it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallModel {
+    /// Werner & Wengle 1991: two powers; within 3 % of the log law (κ 0.384, B 4.27) for y⁺ from 30 to 2500.
+    WernerWengle,
+    /// Reichardt 1951, with these constants: at any y⁺.
+    Reichardt,
+}
+
 /// Body force per volume.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Force {
@@ -171,6 +180,13 @@ pub struct Setup {
     pub equilibrium: Equilibrium,
     /// WALE constant; `None` is laminar.
     pub wale: Option<f64>,
+    /// Friction of walls at rest and static solids by a law of the wall, where a wall is plain and five cells of fluid
+    /// lie before it; without slip elsewhere. It needs `wale`. `None` has no code for it.
+    pub wall_model: Option<WallModel>,
+    /// Equivalent sand roughness k_s of the faces of the domain, cells: lower and upper of x, y, z. 0 is smooth.
+    pub wall_roughness: [[f64; 2]; 3],
+    /// The same of each static solid cell, x fastest; empty if all are smooth.
+    pub solid_roughness: Vec<f32>,
     /// Body force per volume.
     pub force: Force,
     /// Lower and upper face of x, y, z.
@@ -216,6 +232,9 @@ impl Setup {
             solid_lambda: Some(0.1),
             equilibrium: Equilibrium::Product,
             wale: None,
+            wall_model: None,
+            wall_roughness: [[0.0; 2]; 3],
+            solid_roughness: Vec::new(),
             force: Force::None,
             faces: [face(), face(), face()],
             solid: Vec::new(),

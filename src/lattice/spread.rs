@@ -140,6 +140,20 @@ pub(super) fn velocities(bindings: u32) -> String {
     format!("// needs grid, $reals\n{}{}", text(before), text(after))
 }
 
+/// `read_velocity(s, n)`: component s of the velocity of the step before, of cell n.
+pub(super) fn cell_velocities(bindings: u32) -> String {
+    let field = Field {
+        name: "velocity_before",
+        binding: 60,
+        word: "f32",
+        parameters: "e: u32",
+        read: Some("read_velocity"),
+        write: None,
+    };
+    let text = field.text(&planes(3, bindings), |own| vector(own, SCALARS));
+    format!("// needs scalar_grid\n{text}")
+}
+
 /// `read_force(s, n)`: component s of the force field, of an element or, with `scalars`, of a cell.
 pub(super) fn forces(bindings: u32, scalars: bool) -> String {
     let (word, count, needs) = match scalars {

@@ -85,6 +85,7 @@ impl Lattice {
             dispatch.record(&mut pass);
         }
         queue.submit([encoder.finish()]);
+        self.set_near_wall(device, queue)?;
         self.remember_faces(device, queue)
     }
 

@@ -114,16 +114,16 @@ impl Streams {
         Some((stream.list.as_ref()?, stream.groups))
     }
 
-    /// Has these bricks run by the kernel for blocks, and the others by those of their kind.
+    /// Has these bricks run by the kernel for blocks, and the others by those of their kind; false if they did.
     pub fn set(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         (setup, geometry, buffers): (&Setup, &Geometry, &Buffers),
         psm: &[u32],
-    ) -> Result<()> {
+    ) -> Result<bool> {
         if self.psm_bricks == psm {
-            return Ok(());
+            return Ok(false);
         }
         let slots = psm.len().max(1) as u64;
         if let (Some(kept), Some(&brick_bytes)) =
@@ -152,7 +152,7 @@ impl Streams {
             }
         }
         self.psm_bricks = psm.to_vec();
-        Ok(())
+        Ok(true)
     }
 
     /// Records those with blocks, or the others.

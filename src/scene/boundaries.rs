@@ -60,6 +60,9 @@ pub enum Boundary {
         /// Velocity of the wall, m/s; its component normal to the face is 0. Default at rest.
         #[serde(default, deserialize_with = "numbers")]
         velocity: [f64; 3],
+        /// Equivalent sand roughness k_s of a wall at rest, m, for `numerics.wall_model`. Default 0, smooth.
+        #[serde(default)]
+        roughness: f64,
     },
     /// No flow through the face and no friction on it.
     FreeSlip,
@@ -85,7 +88,7 @@ pub enum Boundary {
 impl Boundary {
     pub(super) const KINDS: &[Kind] = &[
         ("periodic", "", ""),
-        ("wall", "", "velocity"),
+        ("wall", "", "velocity roughness"),
         ("free_slip", "", ""),
         ("velocity", "velocity", ""),
         ("pressure", "", "pressure reflecting"),
@@ -145,7 +148,18 @@ impl Scene {
                 );
             }
             match boundary {
-                Boundary::Wall { velocity } => {
+                Boundary::Wall {
+                    velocity,
+                    roughness,
+                } => {
+                    let of_roughness = format!("{key}.roughness");
+                    self.check_roughness(&of_roughness, *roughness)?;
+                    if *roughness != 0.0 && *velocity != [0.0; 3] {
+                        return refuse(
+                            of_roughness,
+                            "the wall model is for walls at rest; remove `roughness` or `velocity`",
+                        );
+                    }
                     finite(format!("{key}.velocity"), velocity)?;
                     let normal = velocity[face.axis().index()];
                     if normal != 0.0 {

@@ -78,7 +78,7 @@ pub use fluid::Fluid;
 pub use initial::{Initial, InitialPressure};
 pub use materials::{Material, MaterialPair};
 pub use numerics::{
-    Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, SolidWeight, Storage,
+    Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, SolidWeight, Storage, WallModel,
 };
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use particles::{EquationOfState, Particles, Scheme, Water};

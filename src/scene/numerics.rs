@@ -6,6 +6,7 @@ use serde::Deserialize;
 use super::Scene;
 use super::rules::{positive, refuse};
 use crate::error::Result;
+use crate::lattice::MAX_ROUGHNESS;
 
 /// Collision, precision and time step.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -20,6 +21,9 @@ pub struct Numerics {
     pub eddy_viscosity: EddyViscosity,
     /// C_w of Nicoud & Ducros (1999), no unit; 0.325 to 0.6 in the literature. Default 0.5.
     pub wale_constant: f64,
+    /// Friction of walls and solids at rest where the grid does not resolve it. It needs `eddy_viscosity = "wale"`. Default
+    /// `none`.
+    pub wall_model: WallModel,
     /// Precision of the stored populations. Default `f32`.
     pub storage: Storage,
     /// Cells an invocation of a kernel treats at once: 1, 2 (`f16` only) or 4. Default: chosen
@@ -57,6 +61,7 @@ impl Default for Numerics {
             equilibrium: Equilibrium::default(),
             eddy_viscosity: EddyViscosity::default(),
             wale_constant: 0.5,
+            wall_model: WallModel::default(),
             storage: Storage::default(),
             lanes: None,
             time_step: None,
@@ -135,6 +140,19 @@ pub enum EddyViscosity {
     Wale,
 }
 
+/// Law of the wall from which walls at rest take their friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WallModel {
+    /// None: no slip.
+    #[default]
+    None,
+    /// Two powers (Werner & Wengle 1991), for y⁺ of the third cell up to 2500.
+    WernerWengle,
+    /// Reichardt (1951), for any y⁺.
+    Reichardt,
+}
+
 /// Precision of the stored populations; arithmetic is always f32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -198,7 +216,38 @@ impl Scene {
                 "`exact` belongs to solid_operator = \"holdych\"; leave `solid_weight` out, or use \"standard\"",
             );
         }
+        if n.wall_model != WallModel::None && n.eddy_viscosity == EddyViscosity::None {
+            return refuse(
+                "numerics.wall_model",
+                "needs eddy_viscosity = \"wale\": walls whose friction is modelled have turbulent water before them; set it, \
+                 or leave `wall_model` out",
+            );
+        }
         self.check_lanes()
+    }
+
+    /// Roughness of a wall or solid, m.
+    pub(super) fn check_roughness(&self, key: &str, roughness: f64) -> Result<()> {
+        if roughness == 0.0 {
+            return Ok(());
+        }
+        if self.numerics.wall_model == WallModel::None {
+            return refuse(
+                key,
+                "walls without a wall model are smooth; set numerics.wall_model, or remove `roughness`",
+            );
+        }
+        let largest = MAX_ROUGHNESS * self.domain.cell;
+        if !(0.0..=largest).contains(&roughness) {
+            return refuse(
+                key,
+                format!(
+                    "is {roughness} m; the log law of rough walls holds from 0 to {MAX_ROUGHNESS} cells, {largest:.3e} m here: \
+                     larger roughness is a shape that the grid resolves"
+                ),
+            );
+        }
+        Ok(())
     }
 
     fn check_lanes(&self) -> Result<()> {

@@ -449,7 +449,7 @@ impl Scene {
                         ),
                     );
                 }
-                Boundary::Wall { velocity } if *velocity != [0.0; 3] => {
+                Boundary::Wall { velocity, .. } if *velocity != [0.0; 3] => {
                     return refuse(
                         format!("{key}.velocity"),
                         "walls of a fluid of particles are at rest; for one that moves use a block with motion = \

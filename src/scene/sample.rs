@@ -175,7 +175,7 @@ impl Scene {
                 let key = format!("boundaries.{}.velocity", face.name());
                 points.map(|x| vector_at(&key, velocity, x, t)).collect()
             }
-            Boundary::Wall { velocity } => Ok(points.map(|_| *velocity).collect()),
+            Boundary::Wall { velocity, .. } => Ok(points.map(|_| *velocity).collect()),
             _ => Ok(points.map(|_| [0.0; 3]).collect()),
         }
     }
@@ -201,7 +201,7 @@ impl Scene {
         let mut largest: f64 = 0.0;
         for (face, boundary) in self.boundaries.iter() {
             match boundary {
-                Boundary::Wall { velocity } => largest = largest.max(length(*velocity)),
+                Boundary::Wall { velocity, .. } => largest = largest.max(length(*velocity)),
                 Boundary::Velocity { .. } => {
                     for velocity in self.face_velocity(face, 0.0)? {
                         largest = largest.max(length(velocity));

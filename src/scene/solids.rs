@@ -33,6 +33,9 @@ pub struct Solid {
     /// Name of the material that blocks touch. Default the first one.
     #[serde(default)]
     pub material: Option<String>,
+    /// Equivalent sand roughness k_s, m, for `numerics.wall_model`. Default 0, smooth.
+    #[serde(default)]
+    pub roughness: f64,
 }
 
 /// Shape of a solid or of a region.
@@ -85,7 +88,7 @@ impl Shape {
 
 /// A region has the keys of a solid that say where it is.
 pub(super) fn check_region(region: &DeTable<'_>, _: &str) -> Result<(), String> {
-    let mut others = ["name", "void", "material"].iter();
+    let mut others = ["name", "void", "material", "roughness"].iter();
     match others.find(|key| region.contains_key(**key)) {
         Some(key) => Err(format!("`{key}` has no meaning for a region; remove it")),
         None => Ok(()),
@@ -102,6 +105,7 @@ impl Scene {
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
             self.check_region(&key, &solid.shape)?;
+            self.check_roughness(&format!("{key}.roughness"), solid.roughness)?;
             if solid.void && self.has_blocks() {
                 return refuse(
                     format!("{key}.void"),

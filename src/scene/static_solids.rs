@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::{Axis, Domain, Face, Scene, Shape};
+use super::{Axis, Domain, Face, Scene, Shape, Solid};
 use crate::error::{Error, Result};
 use crate::geometry::{TriangleMesh, WindingTree};
 
@@ -105,9 +105,39 @@ impl Scene {
     /// no fluid is left.
     pub fn solid_mask(&self) -> Result<Mask> {
         let mut mask = Mask::new(self.cells())?;
+        self.fill_solids(|solid, cell| mask.set(cell, !solid.void))?;
+        if mask.solid_count() == mask.as_slice().len() {
+            return Err(Error::scene(
+                "solids",
+                "the solids fill the whole domain; leave some fluid, for example turn a half \
+                 space by reversing its normal (it points out of the solid)",
+            ));
+        }
+        Ok(mask)
+    }
+
+    /// Roughness of each solid cell, m, x fastest; empty if all are smooth.
+    ///
+    /// # Errors
+    /// If the file of a mesh cannot be read, or a mesh is open or lies wholly outside the domain.
+    pub fn solid_roughness(&self) -> Result<Vec<f64>> {
+        if self.solids.iter().all(|solid| solid.roughness == 0.0) {
+            return Ok(Vec::new());
+        }
+        let mask = Mask::new(self.cells())?;
+        let mut roughness = vec![0.0; mask.as_slice().len()];
+        self.fill_solids(|solid, cell| {
+            if mask.has(cell) {
+                roughness[mask.index(cell)] = solid.roughness;
+            }
+        })?;
+        Ok(roughness)
+    }
+
+    /// Calls `mark` for each cell of each solid and hole, in their order.
+    fn fill_solids(&self, mut mark: impl FnMut(&Solid, [u32; 3])) -> Result<()> {
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
-            let filled = !solid.void;
             match &solid.shape {
                 Shape::Mesh {
                     file,
@@ -119,19 +149,12 @@ impl Scene {
                     self.check_reach(&format!("{key} ({})", file.display()), min, max)?;
                     mesh.closed()
                         .map_err(|message| Error::file(self.dir().join(file), message))?;
-                    cells_in_mesh(&mesh, &self.domain, |cell| mask.set(cell, filled));
+                    cells_in_mesh(&mesh, &self.domain, |cell| mark(solid, cell));
                 }
-                shape => cells_in_shape(shape, &self.domain, |cell| mask.set(cell, filled)),
+                shape => cells_in_shape(shape, &self.domain, |cell| mark(solid, cell)),
             }
         }
-        if mask.solid_count() == mask.as_slice().len() {
-            return Err(Error::scene(
-                "solids",
-                "the solids fill the whole domain; leave some fluid, for example turn a half \
-                 space by reversing its normal (it points out of the solid)",
-            ));
-        }
-        Ok(mask)
+        Ok(())
     }
 }
 

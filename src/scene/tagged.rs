@@ -32,7 +32,7 @@ struct Tagged {
 const TAGGED: [Tagged; 10] = [
     Tagged {
         path: "boundaries.*",
-        keys: "kind velocity pressure reflecting",
+        keys: "kind velocity roughness pressure reflecting",
         kinds: Boundary::KINDS,
         is_enum: true,
         rule: |_, _| Ok(()),
@@ -95,7 +95,7 @@ const PART: Tagged = Tagged {
 /// Regions: solids without the keys that do not say where they are.
 const REGION: Tagged = Tagged {
     path: "rock_masses.fixed",
-    keys: "kind name void material min max point normal center radius file scale translate",
+    keys: "kind name void material roughness min max point normal center radius file scale translate",
     kinds: Shape::KINDS,
     is_enum: true,
     rule: solids::check_region,

@@ -7,8 +7,8 @@ use riprap::{
         link::{Linked, Program, source},
     },
     lattice::{
-        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, collide_stream,
-        single_cells,
+        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, WallCell, WallStress,
+        collide_stream, single_cells,
     },
 };
 use std::mem::offset_of;
@@ -34,6 +34,20 @@ fn structures_of_the_lattice() {
         ("through_z", through + 8),
     ];
     check::<MovingCell>(&linked("moving_wall").module, "MovingCell", &moving).unwrap();
+    let wall = [
+        ("cell", offset_of!(WallCell, cell)),
+        ("face", offset_of!(WallCell, face)),
+        ("layers", offset_of!(WallCell, layers)),
+        ("roughness", offset_of!(WallCell, roughness)),
+    ];
+    let stress = [
+        ("stress", offset_of!(WallStress, stress)),
+        ("friction", offset_of!(WallStress, friction)),
+        ("share", offset_of!(WallStress, share)),
+    ];
+    let walls = linked("wall_model").module;
+    check::<WallCell>(&walls, "WallCell", &wall).unwrap();
+    check::<WallStress>(&walls, "WallStress", &stress).unwrap();
     let cell = [
         ("cell", offset_of!(FaceCell, cell)),
         ("inner", offset_of!(FaceCell, inner)),

@@ -10,7 +10,7 @@ use riprap::lattice::{
 };
 
 /// Largest |f − f_twin| / w_i over the fluid cells after some steps.
-fn distance(setup: &Setup, steps: usize) -> f64 {
+pub(super) fn distance(setup: &Setup, steps: usize) -> f64 {
     let rig = Rig::new();
     let mut twin = twin_of(setup);
     let start = random_populations(&mut twin);
@@ -34,7 +34,7 @@ fn distance(setup: &Setup, steps: usize) -> f64 {
     worst
 }
 
-fn assert_equal_to_twin(name: &str, setup: &Setup) {
+pub(super) fn assert_equal_to_twin(name: &str, setup: &Setup) {
     for steps in [1, 2, 5] {
         let found = distance(setup, steps);
         println!("{name}, {steps} steps: {found:e}");

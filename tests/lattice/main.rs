@@ -5,3 +5,4 @@ mod kernels;
 mod limits;
 mod reproducibility;
 mod twin;
+mod wall_model;

@@ -3,7 +3,9 @@
 use crate::fixture::Subject;
 use kit::Rig;
 use kit::twin::of_setup::{limit, noise, walled};
-use riprap::lattice::{Collision, Equilibrium, Force, Setup, SolidOperator, SolidWeight, Storage};
+use riprap::lattice::{
+    Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
+};
 
 /// Against the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights are 1 in sum:
 /// they have the rounding of those.
@@ -128,5 +130,47 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
             setup.bindings
         );
         assert_equal_to_twin(&name, &setup);
+    }
+}
+
+/// Where blocks are near, walls have no model.
+#[test]
+fn a_wall_model_beside_blocks() {
+    for (storage, lanes, axis, brick) in [
+        (Storage::F32, 1, 2, [4, 4, 2]),
+        (Storage::F32, 4, 1, [8, 4, 1]),
+        (Storage::F16, 2, 2, [4, 2, 4]),
+    ] {
+        let mut setup = Setup::periodic([13, 12, 11], 1e-6);
+        (setup.storage, setup.lanes, setup.lane_axis, setup.brick) = (storage, lanes, axis, brick);
+        setup.solid_operator = Some(SolidOperator::Holdych);
+        setup.wale = Some(0.5);
+        setup.wall_model = Some(WallModel::WernerWengle);
+        setup.faces[2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
+        let mut subject = Subject::new(&setup);
+        let mut bricks = subject.some_bricks();
+        bricks.truncate(bricks.len() / 8);
+        subject.fill(&bricks);
+        for steps in [1, 1, 3] {
+            subject.rig.run(&mut subject.lattice, steps);
+            subject.twin.run(steps);
+            let error = subject.population_error();
+            println!("{storage:?}, {lanes} lanes: {error:e}");
+            assert!(
+                error < limit(&setup),
+                "{storage:?}, {lanes} lanes: {error:e}"
+            );
+        }
+        let (device, queue) = (&subject.rig.device, &subject.rig.queue);
+        let walls = subject
+            .rig
+            .wait(subject.lattice.wall_stresses(device, queue))
+            .unwrap();
+        let modelled = walls.iter().filter(|wall| wall.share > 0.0).count();
+        assert!(
+            0 < modelled && modelled < walls.len(),
+            "{modelled} of {}",
+            walls.len()
+        );
     }
 }

@@ -13,7 +13,7 @@ use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::{
         self, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight, Storage,
-        collide_stream, single_cells,
+        WallModel, collide_stream, single_cells,
     },
     psm::{self, Forms, Walk},
     sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
@@ -99,6 +99,15 @@ impl Output<'_> {
                 self.step(&format!("{stored}{eddy}"), BrickKind::All, &setup)?;
                 setup.faces = [(); 3].map(|()| [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])]);
                 self.step(&format!("{stored}{eddy}_walls"), BrickKind::Flagged, &setup)?;
+                if wale.is_some() {
+                    let mut setup = setup.clone();
+                    setup.wall_model = Some(WallModel::WernerWengle);
+                    self.step(
+                        &format!("{stored}{eddy}_wall_model"),
+                        BrickKind::Flagged,
+                        &setup,
+                    )?;
+                }
                 for (operator, name) in [
                     (SolidOperator::Holdych, "holdych"),
                     (SolidOperator::Noble, "noble"),
@@ -143,6 +152,8 @@ impl Output<'_> {
         for (file, entry) in [
             ("links", "reflect"),
             ("moving_wall", "move_wall"),
+            ("wall_model", "wall_model"),
+            ("mark_blocks", "mark_blocks"),
             ("pressure_face", "hold_pressure"),
             ("outflow", "flow_out"),
             ("outflow", "remember"),

@@ -2,6 +2,7 @@
 
 use kit::twin::noise::hash32;
 use riprap::lattice::{Setup, State};
+use std::f64::consts::{PI, TAU};
 
 /// A setup with a change.
 pub fn changed(setup: &Setup, change: impl FnOnce(&mut Setup)) -> Setup {
@@ -95,4 +96,33 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
     let above: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
     let below: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
     above / below
+}
+
+/// A channel along x between walls normal to y, of a friction velocity and with Re_τ: the mean profile of Reichardt 1951 with
+/// rolls along the stream and waves across it, strong enough to break up.
+pub fn turbulent_channel(cells: [u32; 3], friction: f64, reynolds: f64) -> State {
+    let [nx, ny, nz] = cells.map(f64::from);
+    let h = ny / 2.0;
+    state(cells, |[x, y, z]| {
+        let wall = (h - (y - h).abs()) / h * reynolds;
+        let mean = (1.0 + 0.4 * wall).ln() / 0.4
+            + 7.8 * (1.0 - (-wall / 11.0).exp() - wall / 11.0 * (-wall / 3.0).exp());
+        // ψ = (1 + cos πη)² sin kz with η from the centre: no slip and no flow through the walls.
+        let eta = PI * (y - h) / h;
+        let (shape, steep) = (
+            (1.0 + eta.cos()).powi(2),
+            -2.0 * (1.0 + eta.cos()) * eta.sin() * PI / h,
+        );
+        let mut u = [friction * mean, 0.0, 0.0];
+        for mode in 1..6u32 {
+            let k = TAU * f64::from(mode) / nz;
+            let l = TAU * f64::from(mode % 3 + 1) / nx;
+            let phase = l * x + PI * noise(mode);
+            let size = 0.6 * friction / k.max(2.0 * PI / h);
+            u[1] += size * k * shape * (k * z + phase.sin()).cos();
+            u[2] -= size * steep * (k * z + phase.sin()).sin();
+            u[0] += 0.5 * friction * shape * (k * z + phase).sin();
+        }
+        (0.0, u)
+    })
 }

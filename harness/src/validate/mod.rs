@@ -24,6 +24,7 @@ pub(crate) mod rock;
 mod slots;
 mod stability;
 mod wale;
+mod wall_model;
 
 /// Blocks in a fluid.
 pub(crate) mod solids {
@@ -143,6 +144,7 @@ pub const CASES: &[Case] = &[
     short("wale/near-wall", "WALE's eddy viscosity grows as y³ at a wall", wale::near_wall),
     short("wale/solid-rotation", "WALE's eddy viscosity in solid rotation", wale::solid_rotation),
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
+    short("wall-model/channel", "turbulent channels on 24 cells at Re_τ 1000 and 5200, with a wall model and without (Lee & Moser 2015)", wall_model::channel),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),

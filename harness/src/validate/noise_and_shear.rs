@@ -48,6 +48,7 @@ fn noise_and_shear(cells: [u32; 3]) -> Populations {
         cells,
         values,
         velocity,
+        near_wall: Vec::new(),
         carried: Vec::new(),
     }
 }

@@ -6,7 +6,7 @@ use riprap::{
     gpu::kernel,
     lattice::{
         BrickKind, Collision, Equilibrium, Force, Setup, SolidOperator, SolidWeight, Storage,
-        collide_stream,
+        WallModel, collide_stream,
     },
 };
 use std::time::Instant;
@@ -64,7 +64,10 @@ fn setups() -> Vec<Setup> {
     vary(&[&|s| s.equilibrium = Equilibrium::Product, &|s| {
         s.equilibrium = Equilibrium::SecondOrder
     }]);
-    vary(&[&|s| s.wale = None, &|s| s.wale = Some(0.5)]);
+    vary(&[&|s| s.wale = None, &|s| s.wale = Some(0.5), &|s| {
+        s.wale = Some(0.5);
+        s.wall_model = Some(WallModel::WernerWengle);
+    }]);
     vary(&[
         &|s| s.force = Force::None,
         &|s| s.force = Force::Constant([1e-5, 0.0, 0.0]),
@@ -93,13 +96,15 @@ fn setups() -> Vec<Setup> {
 fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let mut names: Vec<_> = (0..bindings).map(|b| format!("populations_{b}")).collect();
     let wale = setup.wale.is_some();
+    let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
     let optional = [
         (wale, "velocity_before_0"),
         (wale, "velocity_after_0"),
+        (flagged && setup.wall_model.is_some(), "near_wall_viscosity"),
         (matches!(setup.force, Force::Field(_)), "force_field_0"),
         (setup.max_speed > 0.0, "guard_state"),
         (kind != BrickKind::All, "bricks"),
-        (matches!(kind, BrickKind::Flagged | BrickKind::Psm), "flags"),
+        (flagged, "flags"),
         (kind == BrickKind::Psm, "psm_planes_0"),
     ];
     let used = optional.into_iter().filter(|(used, _)| *used);

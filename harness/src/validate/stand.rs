@@ -5,7 +5,7 @@ use crate::{gpu, picture::Chart};
 use anyhow::Context;
 use kit::clock::{PATIENCE, Spent, Stopwatch};
 use riprap::{
-    lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums},
+    lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums, WallStress},
     wgpu,
 };
 use std::{path::PathBuf, time::Instant};
@@ -245,6 +245,13 @@ impl Flow<'_> {
         let state = stand.drive("reading a state", future)??;
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(state)
+    }
+
+    /// What the walls of a wall model received in the last step, lattice units.
+    pub fn wall_stresses(&mut self) -> anyhow::Result<Vec<WallStress>> {
+        let stand = self.stand;
+        let future = self.lattice.wall_stresses(&stand.device, &stand.queue);
+        Ok(stand.drive("reading wall stresses", future)??)
     }
 
     /// A field that follows from the velocity gradient, lattice units.

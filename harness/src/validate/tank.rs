@@ -46,7 +46,10 @@ pub fn scene(cells: [u32; 3], tau: f64) -> anyhow::Result<Scene> {
 
 /// Closes the tank with walls.
 pub fn close(scene: &mut Scene) {
-    let wall = || Boundary::Wall { velocity: [0.0; 3] };
+    let wall = || Boundary::Wall {
+        velocity: [0.0; 3],
+        roughness: 0.0,
+    };
     let faces = &mut scene.boundaries;
     (faces.x_min, faces.x_max) = (wall(), wall());
     (faces.y_min, faces.y_max) = (wall(), wall());

@@ -2,7 +2,7 @@
 
 use super::{Flow, Outcome, Stand, cavity, fields};
 use riprap::lattice::{Derived, Face, Force, State};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 const CONSTANT: f64 = 0.5;
 const WALLS: [Face; 2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
@@ -144,7 +144,11 @@ pub fn turbulent_channel(stand: &Stand) -> Outcome {
     setup.faces[1] = WALLS;
     setup.force = Force::Constant([FRICTION * FRICTION / h, 0.0, 0.0]);
     setup.wale = Some(CONSTANT);
-    let mut flow = stand.flow(setup, &start(), true)?;
+    let mut flow = stand.flow(
+        setup,
+        &fields::turbulent_channel(CHANNEL, FRICTION, REYNOLDS),
+        true,
+    )?;
     let turn = h / FRICTION;
     flow.advance((SETTLE * turn) as u64)?;
     let mut profile = vec![0.0; 2 * H as usize];
@@ -187,33 +191,4 @@ fn add_profile(profile: &mut [f64], state: &State) {
         let y = (n / CHANNEL[0] as usize) % CHANNEL[1] as usize;
         profile[y] += share * f64::from(u);
     }
-}
-
-/// A turbulent mean profile (Reichardt 1951) with rolls along the stream and waves across it, strong
-/// enough to break up.
-fn start() -> State {
-    let [nx, _, nz] = CHANNEL.map(f64::from);
-    let h = f64::from(H);
-    fields::state(CHANNEL, |[x, y, z]| {
-        let wall = (h - (y - h).abs()) / h * REYNOLDS;
-        let mean = (1.0 + 0.4 * wall).ln() / 0.4
-            + 7.8 * (1.0 - (-wall / 11.0).exp() - wall / 11.0 * (-wall / 3.0).exp());
-        // ψ = (1 + cos πη)² sin kz with η from the centre: no slip and no flow through the walls.
-        let eta = PI * (y - h) / h;
-        let (shape, steep) = (
-            (1.0 + eta.cos()).powi(2),
-            -2.0 * (1.0 + eta.cos()) * eta.sin() * PI / h,
-        );
-        let mut u = [FRICTION * mean, 0.0, 0.0];
-        for mode in 1..6u32 {
-            let k = TAU * f64::from(mode) / nz;
-            let l = TAU * f64::from(mode % 3 + 1) / nx;
-            let phase = l * x + PI * fields::noise(mode);
-            let size = 0.6 * FRICTION / k.max(2.0 * PI / h);
-            u[1] += size * k * shape * (k * z + phase.sin()).cos();
-            u[2] -= size * steep * (k * z + phase.sin()).sin();
-            u[0] += 0.5 * FRICTION * shape * (k * z + phase).sin();
-        }
-        (0.0, u)
-    })
 }

@@ -9,7 +9,7 @@ pub(crate) fn lattice_key(what: &str) -> String {
         "force" => "fluid.acceleration".into(),
         "wale" => "numerics.wale_constant".into(),
         "lanes" | "lambda" | "wall_lambda" | "solid_lambda" | "odd_rate_floor"
-        | "solid_operator" | "solid_weight" => format!("numerics.{what}"),
+        | "solid_operator" | "solid_weight" | "wall_model" => format!("numerics.{what}"),
         "excess" => "initial.pressure".into(),
         "solid" => "solids".into(),
         _ => match (what.strip_prefix("faces."), what.strip_prefix("velocity.")) {

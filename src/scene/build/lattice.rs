@@ -3,7 +3,9 @@
 use crate::{
     Error, Result,
     gpu::Processor,
-    lattice::{Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage},
+    lattice::{
+        Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
+    },
     scene::{self, BodyForce, Boundary, Numerics, Scene},
     units::{SOUND_SPEED_SQUARED, Units},
 };
@@ -81,6 +83,11 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
+    setup.wall_model = match numerics.wall_model {
+        scene::WallModel::None => None,
+        scene::WallModel::WernerWengle => Some(WallModel::WernerWengle),
+        scene::WallModel::Reichardt => Some(WallModel::Reichardt),
+    };
     let force = |a: f64| units.acceleration_to_lattice(a);
     setup.force = match scene.force_field()? {
         BodyForce::None => Force::None,
@@ -95,7 +102,11 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         let side = usize::from(face.is_max());
         setup.faces[face.axis().index()][side] = match boundary {
             Boundary::Periodic => Face::Periodic,
-            Boundary::Wall { velocity } => {
+            Boundary::Wall {
+                velocity,
+                roughness,
+            } => {
+                setup.wall_roughness[face.axis().index()][side] = roughness / units.cell;
                 Face::Wall(velocity.map(|v| units.velocity_to_lattice(v)))
             }
             Boundary::FreeSlip => Face::FreeSlip,
@@ -127,6 +138,8 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         let mask = scene.solid_mask()?;
         if mask.solid_count() > 0 {
             setup.solid = mask.as_slice().iter().map(|&s| s != 0).collect();
+            let roughness = scene.solid_roughness()?.into_iter();
+            setup.solid_roughness = roughness.map(|k| (k / units.cell) as f32).collect();
         }
     }
     let fewest = if storage == Storage::F32 { 1 } else { 2 };

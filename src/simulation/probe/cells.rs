@@ -21,7 +21,7 @@ impl<'a> Cells<'a> {
     pub(super) fn new(scene: &'a Scene, solid: &'a [bool]) -> Self {
         let at = |axis: usize, side: usize| scene.boundaries.face(Face::ALL[2 * axis + side]);
         let wall = |axis, side| match at(axis, side) {
-            Boundary::Wall { velocity } => Some(*velocity),
+            Boundary::Wall { velocity, .. } => Some(*velocity),
             _ => None,
         };
         Self {

@@ -36,6 +36,7 @@ fn files_stand_on_files_that_exist() {
         "populations",
         "scalars",
         "velocities",
+        "cell_velocities",
         "forces",
         "psm_storage",
         "workgroup",

@@ -1,7 +1,7 @@
 //! The kernels at walls and faces, at the start and for output.
 
 use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
-use riprap::lattice::{Equilibrium, Face, Setup, single_cells};
+use riprap::lattice::{Equilibrium, Face, Setup, SolidOperator, WallModel, single_cells};
 
 /// Files, entry points and buffers of the kernels for single cells, without flags and force.
 pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
@@ -10,6 +10,23 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         "moving_wall",
         &["move_wall"],
         &["cell_pass", "moving_cells", "wall_velocity"],
+    ),
+    (
+        "wall_model",
+        &["wall_model", "near_wall"],
+        &[
+            "cell_pass",
+            "wall_cells",
+            "wall_links",
+            "wall_stress",
+            "near_wall_viscosity",
+            "velocity_before_0",
+        ],
+    ),
+    (
+        "mark_blocks",
+        &["mark_blocks"],
+        &["wall_cells", "wall_blocks", "psm_slots", "psm_planes_0"],
     ),
     (
         "pressure_face",
@@ -109,6 +126,8 @@ fn kernels_for_single_cells_in_all_variants() {
             setup.faces[0] = [Face::FreeSlip, Face::FreeSlip];
         }
         setup.force = forces()[force].clone();
+        setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][equilibrium]);
+        setup.solid_operator = (quantity == 1).then_some(SolidOperator::Holdych);
         let count = bindings_of(&variant);
         let program = single_cells(&setup, count, file).slot("quantity", QUANTITIES[quantity]);
         let linked = program
@@ -124,8 +143,9 @@ fn kernels_for_single_cells_in_all_variants() {
             }
             for name in &found {
                 let known = wanted.contains(&name.as_str())
-                    || name == "flags" && walls == 1
-                    || name == "force_field_0" && force == 2;
+                    || name == "flags" && (walls == 1 || quantity == 1)
+                    || name == "force_field_0" && force == 2
+                    || name == "wall_blocks" && quantity == 1;
                 assert!(known, "{entry} binds {name}");
             }
             assert!([0, count as usize].contains(&populations), "{entry}");

@@ -1,7 +1,9 @@
 //! The step: all slots, and each pair of a slot's file and a number of bindings.
 
 use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
-use riprap::lattice::{BrickKind, Collision, Equilibrium, Setup, SolidOperator, collide_stream};
+use riprap::lattice::{
+    BrickKind, Collision, Equilibrium, Setup, SolidOperator, WallModel, collide_stream,
+};
 
 /// What kinds of brick there are, each operator of solids once.
 const KINDS: [(BrickKind, Option<SolidOperator>); 6] = [
@@ -15,7 +17,7 @@ const KINDS: [(BrickKind, Option<SolidOperator>); 6] = [
 
 #[test]
 fn the_step_in_all_variants() {
-    for variant in variants(&[LAYOUTS.len(), 3, 2, 2, 3, 2, KINDS.len()]) {
+    for variant in variants(&[LAYOUTS.len(), 3, 2, 3, 3, 2, KINDS.len()]) {
         let [layout, collision, equilibrium, wale, force, guard, kind] = variant[..] else {
             unreachable!()
         };
@@ -23,12 +25,16 @@ fn the_step_in_all_variants() {
         (setup.storage, setup.lanes, setup.wide) = LAYOUTS[layout];
         setup.collision = [Collision::Bgk, Collision::Hermite, Collision::Suga][collision];
         setup.equilibrium = [Equilibrium::Product, Equilibrium::SecondOrder][equilibrium];
-        setup.wale = (wale == 1).then_some(0.5);
+        setup.wale = (wale > 0).then_some(0.5);
+        setup.wall_model = (wale == 2).then_some(WallModel::WernerWengle);
         setup.force = forces()[force].clone();
         setup.max_speed = 0.4 * guard as f64;
         let (kind, operator) = KINDS[kind];
         setup.solid_operator = operator;
         let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
+        if wale == 2 && !flagged {
+            continue;
+        }
         let count = bindings_of(&variant);
         let linked = collide_stream(&setup, count, kind)
             .link()
@@ -36,6 +42,7 @@ fn the_step_in_all_variants() {
         let wanted = [
             ("velocity_before_0", setup.wale.is_some()),
             ("velocity_after_0", setup.wale.is_some()),
+            ("near_wall_viscosity", wale == 2 && flagged),
             ("force_field_0", force == 2),
             ("guard_state", guard == 1),
             ("bricks", kind != BrickKind::All),

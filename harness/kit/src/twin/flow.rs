@@ -5,7 +5,7 @@ use super::domain::{Domain, Link};
 use super::lattice::{C, OPPOSITE, Q, W, c_dot, macroscopic};
 use super::rates::{Config, OddClass};
 use super::solid::{Solid, SolidOperator, force_on, solid_change, tightness};
-use super::{equilibrium, wale};
+use super::{WallModel, equilibrium, wale};
 
 /// Force per cell.
 #[derive(Clone, Debug)]
@@ -27,10 +27,14 @@ pub struct Twin {
     pub force: Force,
     /// How blocks act, and what they leave of each cell; `None`: there are no blocks.
     pub blocks: Option<(SolidOperator, Vec<Solid>)>,
+    /// Friction of walls at rest by a law of the wall; `None`: they have no slip.
+    pub wall_model: Option<WallModel>,
     /// Shifted populations before collision; 0 in solids.
     pub f: Vec<[f64; Q]>,
     /// Velocity of the step before, which WALE reads.
     previous_velocity: Option<Vec<[f64; 3]>>,
+    /// Which cells had a block in that step, which the wall model reads; empty before the first one.
+    blocks_before: Vec<bool>,
     links: Vec<[Link; Q]>,
 }
 
@@ -44,7 +48,9 @@ impl Twin {
             config,
             force: Force::Uniform([0.0; 3]),
             blocks: None,
+            wall_model: None,
             previous_velocity: None,
+            blocks_before: Vec::new(),
         }
     }
 
@@ -144,9 +150,10 @@ impl Twin {
         let Some(c_w) = self.config.c_w else {
             return vec![0.0; self.domain.cell_count()];
         };
-        let u = match &self.previous_velocity {
-            Some(previous) => previous,
-            None => &self.velocity(),
+        let u = &self.velocity_before();
+        let near_wall = match &self.wall_model {
+            Some(model) => model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before),
+            None => vec![0.0; self.domain.cell_count()],
         };
         self.cells()
             .map(|cell| {
@@ -154,9 +161,15 @@ impl Twin {
                     return 0.0;
                 }
                 let nu_t = wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w);
-                nu_t * (1.0 - self.solid_at(cell).fraction)
+                nu_t.max(near_wall[cell]) * (1.0 - self.solid_at(cell).fraction)
             })
             .collect()
+    }
+
+    /// The velocity that eddy viscosity and wall model read.
+    fn velocity_before(&self) -> Vec<[f64; 3]> {
+        let before = self.previous_velocity.clone();
+        before.unwrap_or_else(|| self.velocity())
     }
 
     /// Whether a cell is beside a bounce-back wall, or in or beside a block.
@@ -220,7 +233,7 @@ impl Twin {
 
     /// Collide, then stream.
     pub fn step(&mut self) {
-        let velocity = self
+        let velocity: Vec<_> = self
             .cells()
             .map(|cell| self.solid_at(cell).mean_velocity(self.macroscopic(cell).1))
             .collect();
@@ -234,6 +247,14 @@ impl Twin {
                 self.stream(&collided, cell)
             })
             .collect();
+        if let Some((_, cells)) = &self.blocks {
+            self.blocks_before = cells.iter().map(|cell| cell.fraction > 0.0).collect();
+        }
+        if let Some(model) = &self.wall_model {
+            // The model acts before the coming step, on what has arrived.
+            let (nu, blocks) = (self.config.nu(), &self.blocks_before);
+            model.hand_over(&self.domain, nu, &velocity, blocks, &mut self.f);
+        }
         self.previous_velocity = Some(velocity);
     }
 

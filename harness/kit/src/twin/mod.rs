@@ -16,9 +16,11 @@ pub mod of_setup;
 pub mod rates;
 pub mod solid;
 pub mod wale;
+pub mod wall_model;
 
 pub use collide::collide;
 pub use domain::{Domain, Face, Profile};
 pub use flow::{Force, Twin};
 pub use rates::{Config, Equilibrium, OddClass, Operator, Rates};
 pub use solid::{Solid, SolidOperator, SolidWeight, tightness};
+pub use wall_model::{WallLaw, WallModel};

@@ -4,7 +4,7 @@ use crate::Rig;
 use crate::twin::{self, Twin};
 use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Lattice, Populations, Setup, SolidOperator, SolidWeight,
-    Storage,
+    Storage, WallModel,
 };
 
 /// A number in (−1, 1) that depends on `n` alone.
@@ -62,6 +62,14 @@ pub fn twin_of(setup: &Setup) -> Twin {
         SolidOperator::Noble => (twin::SolidOperator::Noble, nothing),
         SolidOperator::Superposition => (twin::SolidOperator::Superposition, nothing),
     };
+    twin.wall_model = setup.wall_model.map(|law| twin::WallModel {
+        law: match law {
+            WallModel::WernerWengle => twin::WallLaw::WernerWengle,
+            WallModel::Reichardt => twin::WallLaw::Reichardt,
+        },
+        roughness: setup.wall_roughness,
+        solid_roughness: setup.solid_roughness.clone(),
+    });
     twin.blocks = setup.solid_operator.map(blocks);
     twin.force = match &setup.force {
         Force::None => twin::Force::Uniform([0.0; 3]),
@@ -92,6 +100,7 @@ pub fn random_populations(twin: &mut Twin) -> Populations {
         cells,
         values,
         velocity,
+        near_wall: Vec::new(),
         carried: Vec::new(),
     }
 }

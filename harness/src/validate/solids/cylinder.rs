@@ -51,7 +51,10 @@ pub fn run(stand: &Stand) -> Outcome {
             pressure: 0.0,
             reflecting: false,
         };
-        let wall = || Boundary::Wall { velocity: [0.0; 3] };
+        let wall = || Boundary::Wall {
+            velocity: [0.0; 3],
+            roughness: 0.0,
+        };
         (faces.y_min, faces.y_max) = (wall(), wall());
         let at = [AXIS * cells, AXIS * cells, 0.5 * extent[2]];
         scene

@@ -60,7 +60,10 @@ impl Body {
     fn scene(self, gap: f64, motion: Motion, within: Option<f64>) -> anyhow::Result<Scene> {
         let edge = 40;
         let mut scene = tank::scene([edge; 3], TAU)?;
-        let wall = || Boundary::Wall { velocity: [0.0; 3] };
+        let wall = || Boundary::Wall {
+            velocity: [0.0; 3],
+            roughness: 0.0,
+        };
         (scene.boundaries.z_min, scene.boundaries.z_max) = (wall(), wall());
         let middle = 0.5 * f64::from(edge);
         // Off the corners of the cells, as most blocks are.

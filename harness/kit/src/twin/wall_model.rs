@@ -1,0 +1,216 @@
+//! A law of the wall in the place of no slip: the stress of a plane wall at rest, handed over by the populations that it returns.
+
+use super::domain::{Domain, Link};
+use super::lattice::{C, OPPOSITE, Q, W};
+use std::collections::HashSet;
+
+/// Speed at a distance from a smooth wall, from which the stress follows.
+#[derive(Clone, Copy, Debug)]
+pub enum WallLaw {
+    /// u⁺ = y⁺ up to 11.81, then 8.3 y⁺^(1/7) (Werner & Wengle 1991).
+    WernerWengle,
+    /// Reichardt 1951 with κ = 0.384, B = 4.27.
+    Reichardt,
+}
+
+/// The model of the walls of a flow.
+#[derive(Clone, Debug)]
+pub struct WallModel {
+    /// Of smooth walls.
+    pub law: WallLaw,
+    /// k_s of the lower and upper face of x, y, z, cells.
+    pub roughness: [[f64; 2]; 3],
+    /// k_s of each solid cell, cells; empty if they are smooth.
+    pub solid_roughness: Vec<f32>,
+}
+
+/// A cell whose face `axis`, `side` is a plane wall.
+#[derive(Clone, Copy, Debug)]
+struct Wall {
+    cell: usize,
+    axis: usize,
+    side: usize,
+}
+
+impl Wall {
+    /// The cell of a layer, counted from the wall.
+    fn layer(&self, domain: &Domain, layer: usize) -> Option<usize> {
+        let step = [1, -1][self.side];
+        (0..layer).try_fold(self.cell, |cell, _| {
+            domain.fluid_neighbour(cell, self.axis, step)
+        })
+    }
+
+    /// Tangential part of a vector.
+    fn along(&self, mut u: [f64; 3]) -> [f64; 3] {
+        u[self.axis] = 0.0;
+        u
+    }
+
+    /// Whether a direction leads into the wall.
+    fn is_into(&self, i: usize) -> bool {
+        C[i][self.axis] == [-1, 1][self.side]
+    }
+}
+
+fn norm(u: [f64; 3]) -> f64 {
+    u.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+impl WallLaw {
+    /// u⁺ at y⁺.
+    fn speed(self, y: f64) -> f64 {
+        let k: f64 = 0.384;
+        match self {
+            Self::WernerWengle if y <= 11.81 => y,
+            Self::WernerWengle => 8.3 * y.powf(1.0 / 7.0),
+            Self::Reichardt => {
+                let c = 4.27 - k.ln() / k;
+                (1.0 + k * y).ln() / k + c * (1.0 - (-y / 11.0).exp() - y / 11.0 * (-y / 3.0).exp())
+            }
+        }
+    }
+
+    /// τ/ρ of a smooth wall, from the speed u at the distance y.
+    fn stress(self, u: f64, y: f64, nu: f64) -> f64 {
+        if u == 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::WernerWengle if u * y / nu <= 11.81 * 11.81 => nu * u / y,
+            Self::WernerWengle => (u / 8.3).powf(1.75) * (nu / y).powf(0.25),
+            Self::Reichardt => {
+                // y⁺ u⁺(y⁺) = u y / ν, by bisection of its logarithm.
+                let (mut low, mut high) = (1e-9f64.ln(), 1e12f64.ln());
+                for _ in 0..200 {
+                    let middle = 0.5 * (low + high);
+                    let wall_units = middle.exp();
+                    if wall_units * self.speed(wall_units) < u * y / nu {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                (nu * low.exp() / y).powi(2)
+            }
+        }
+    }
+}
+
+impl WallModel {
+    /// τ/ρ, of the log law of rough walls where it has more.
+    fn stress(&self, wall: &Wall, domain: &Domain, u: f64, y: f64, nu: f64) -> f64 {
+        let at = domain.position(wall.cell)[wall.axis];
+        let at_face = at == [0, domain.cells[wall.axis] - 1][wall.side];
+        let inside = matches!(
+            domain.faces[2 * wall.axis + wall.side],
+            super::Face::Periodic
+        );
+        let k_s = if at_face && !inside {
+            self.roughness[wall.axis][wall.side]
+        } else if self.solid_roughness.is_empty() {
+            0.0
+        } else {
+            let n = domain.cells[wall.axis];
+            let mut behind = domain.position(wall.cell);
+            behind[wall.axis] = (at + [n - 1, 1][wall.side]) % n;
+            self.solid_roughness[domain.index(behind)].into()
+        };
+        let smooth = self.law.stress(u, y, nu);
+        if k_s == 0.0 {
+            return smooth;
+        }
+        let rough = 0.4 * u / (30.0 * y / k_s).max(2.0).ln();
+        smooth.max(rough * rough)
+    }
+
+    /// The cells at plane walls with five cells of fluid before them, each with whether a block is in one of these.
+    fn walls(domain: &Domain, blocks: &[bool]) -> Vec<(Wall, bool)> {
+        let mut walls = Vec::new();
+        for axis in 0..3 {
+            for side in 0..2 {
+                for cell in (0..domain.cell_count()).filter(|&cell| !domain.solid[cell]) {
+                    let wall = Wall { cell, axis, side };
+                    let plane = (1..Q).all(|i| match domain.link(cell, i) {
+                        Link::Bounce => wall.is_into(i),
+                        Link::Fluid(_) | Link::Mirror { .. } => !wall.is_into(i),
+                        Link::Moving(_) => false,
+                    });
+                    if plane && wall.layer(domain, 4).is_some() {
+                        let mut column = (0..5).filter_map(|layer| wall.layer(domain, layer));
+                        let blocked =
+                            column.any(|cell| blocks.get(cell).is_some_and(|block| *block));
+                        walls.push((wall, blocked));
+                    }
+                }
+            }
+        }
+        walls
+    }
+
+    /// Least eddy viscosity of each cell: κ y u_τ, tapered over four cells, of the nearest wall.
+    /// `blocks` says which cells a block was in; it may be empty.
+    pub fn viscosity(&self, domain: &Domain, nu: f64, u: &[[f64; 3]], blocks: &[bool]) -> Vec<f64> {
+        let mut found = vec![0.0; domain.cell_count()];
+        let mut taken = HashSet::new();
+        let mut growing = Self::walls(domain, blocks);
+        for (layer, taper) in [1.0, 0.75, 0.4, 0.15].into_iter().enumerate() {
+            growing.retain(|(wall, blocked)| {
+                let cell = wall.layer(domain, layer).expect("five cells are fluid");
+                let own = taken.insert(cell);
+                if own {
+                    let y = layer as f64 + 0.5;
+                    let friction = self
+                        .stress(wall, domain, norm(wall.along(u[cell])), y, nu)
+                        .sqrt();
+                    let part = if *blocked { 0.0 } else { share(friction, nu) };
+                    found[cell] = taper * 0.4 * y * friction * part;
+                }
+                own
+            });
+        }
+        found
+    }
+
+    /// What has arrived at walls without slip, with the stress of the law in the place of theirs: of the momentum P into the wall
+    /// 2P would be lost, and 2P − m/3 is with f_ī = f_i* − 6 w_i c_i·m.
+    pub fn hand_over(
+        &self,
+        domain: &Domain,
+        nu: f64,
+        u: &[[f64; 3]],
+        blocks: &[bool],
+        f: &mut [[f64; Q]],
+    ) {
+        for (wall, blocked) in Self::walls(domain, blocks) {
+            let sample = wall.layer(domain, 3).expect("five cells are fluid");
+            let along = wall.along(u[sample]);
+            let speed = norm(along);
+            let stress = self.stress(&wall, domain, speed, 3.5, nu);
+            let part = share(stress.sqrt(), nu);
+            if part == 0.0 || blocked {
+                continue;
+            }
+            let own = &mut f[wall.cell];
+            let into = || (1..Q).filter(|&i| wall.is_into(i));
+            let arriving = [0, 1, 2].map(|a| {
+                into()
+                    .map(|i| own[OPPOSITE[i]] * f64::from(C[i][a]))
+                    .sum::<f64>()
+            });
+            let arriving = wall.along(arriving);
+            let full = [0, 1, 2].map(|a| 3.0 * (2.0 * arriving[a] - stress * along[a] / speed));
+            let bound = (2.0 * speed / norm(full)).min(1.0);
+            for i in into() {
+                let c_m: f64 = (0..3).map(|a| f64::from(C[i][a]) * full[a]).sum();
+                own[OPPOSITE[i]] -= 6.0 * W[i] * part * bound * c_m;
+            }
+        }
+    }
+}
+
+/// The part of the model: 0 up to y⁺ = 3 of the first cell, 1 from 6 on.
+fn share(friction: f64, nu: f64) -> f64 {
+    let s = ((0.5 * friction / nu - 3.0) / 3.0).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
+}

@@ -1,0 +1,116 @@
+// Asmuth, Janssen, Olivares-Espinosa & Ivanell 2021, Phys. Fluids 33:105111: the stress of a law of the wall, handed over through the
+// velocity of the wall in half-way bounce-back. P, the tangential momentum that arrives at the wall, returns against 6 w c.m with
+// m = 3 (2 P - stress), so that the fluid loses the stress exactly. The law reads the velocity of the step before in the fourth
+// cell; where a flow is laminar, m goes to 0 and the wall is one without slip, to the bit.
+// needs wall_cells, scalars, link, cell_velocities, $wall_law, $wall_blocks
+
+struct WallStress {
+    // Tangential, on the wall, along the lower and the upper axis of the face.
+    stress: vec2<f32>,
+    // Friction velocity of the law, and the part of the stress that is the law's: 0 without slip, 1 all.
+    friction: f32,
+    share: f32,
+}
+
+// Into the wall, nine for each cell: link j of all cells before link j + 1. The tangential direction of link j is j % 3 - 1 along the
+// lower and j / 3 - 1 along the upper axis of the face.
+@group(0) @binding(41) var<storage, read> wall_links: array<Link>;
+@group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<f32>;
+@group(0) @binding(43) var<storage, read_write> wall_stress: array<WallStress>;
+
+const KARMAN = 0.4;
+// The cell, counted from 0, whose velocity the law reads.
+const SAMPLE = 3u;
+// Least y+ of the first cell at which the model acts, and where it acts fully.
+const NO_SLIP_UP_TO = 3.0;
+const FULL_FROM = 6.0;
+
+// Over the density, of a wall that may be rough: the log law of Nikuradse 1933 where it has the larger stress.
+fn law_of_the_wall(u: f32, y: f32, roughness: f32) -> f32 {
+    let smooth_wall = smooth_wall_stress(u, y);
+    let friction = KARMAN * u / log(max(30.0 * y / max(roughness, 1e-6), 2.0));
+    return select(smooth_wall, max(smooth_wall, friction * friction), roughness > 0.0);
+}
+
+// The part of the model at a friction velocity.
+fn model_share(friction: f32) -> f32 {
+    let s = clamp((0.5 * friction / VISCOSITY - NO_SLIP_UP_TO) / (FULL_FROM - NO_SLIP_UP_TO), 0.0, 1.0);
+    return s * s * (3.0 - 2.0 * s);
+}
+
+// Prandtl's mixing length, tapered towards the last of four cells.
+fn taper(layer: u32) -> f32 {
+    return select(select(select(0.15, 0.4, layer == 2u), 0.75, layer == 1u), 1.0, layer == 0u);
+}
+
+// The eddy viscosity of the cells beside the wall.
+fn set_near_wall(here: WallCell, blocked: bool) {
+    for (var layer = 0u; layer < 4u; layer++) { // unroll
+        if (layer < here.layers) {
+            let at = scalar_of(layer_cell(here, layer));
+            let speed = length(along_wall(at, here.face / 2u));
+            let friction = sqrt(law_of_the_wall(speed, f32(layer) + 0.5, here.roughness));
+            near_wall_viscosity[at] = taper(layer) * KARMAN * (f32(layer) + 0.5) * friction * select(model_share(friction), 0.0, blocked);
+        }
+    }
+}
+
+// That alone: of a state that is complete, at the start or after a restart.
+@compute @workgroup_size(64)
+fn near_wall(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n < arrayLength(&wall_cells)) {
+        set_near_wall(wall_cells[n], false);
+    }
+}
+
+@compute @workgroup_size(64)
+fn wall_model(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    let count = arrayLength(&wall_cells);
+    if (n >= count) {
+        return;
+    }
+    let here = wall_cells[n];
+    let blocked = has_block(n);
+    set_near_wall(here, blocked);
+    let axis = here.face / 2u;
+    let u = along_wall(scalar_of(layer_cell(here, SAMPLE)), axis);
+    let speed = length(u);
+    let law = law_of_the_wall(speed, f32(SAMPLE) + 0.5, here.roughness);
+    let friction = sqrt(law);
+    let share = select(model_share(friction), 0.0, blocked);
+    var f: array<f32, 9>;
+    var arriving = vec2(0.0);
+    for (var j = 0u; j < 9u; j++) { // unroll
+        f[j] = read_arrived(wall_links[j * count + n]);
+        arriving += f[j] * vec2(f32(j % 3u) - 1.0, f32(j / 3u) - 1.0);
+    }
+    let wanted = law / max(speed, 1e-30) * u;
+    let full = 3.0 * (2.0 * arriving - wanted);
+    // No more than twice the velocity that the law has read.
+    let most = 2.0 * speed;
+    let momentum = share * full * min(1.0, most / max(length(full), 1e-30));
+    for (var j = 0u; j < 9u; j++) { // unroll
+        let a = j % 3u;
+        let b = j / 3u;
+        let corner = select(select(1.0 / 54.0, 2.0 / 27.0, a == 1u && b == 1u), 1.0 / 216.0, a != 1u && b != 1u);
+        let back = 6.0 * corner * dot(vec2(f32(a) - 1.0, f32(b) - 1.0), momentum);
+        write_returned(wall_links[j * count + n], f[j] - back);
+    }
+    wall_stress[n] = WallStress(2.0 * arriving - momentum / 3.0, friction, share);
+}
+
+// The velocity along the lower and the upper axis of a face normal to an axis.
+fn along_wall(at: u32, axis: u32) -> vec2<f32> {
+    let u = vec3(read_velocity(0u, at), read_velocity(1u, at), read_velocity(2u, at));
+    return select(select(u.xy, u.xz, axis == 1u), u.yz, axis == 0u);
+}

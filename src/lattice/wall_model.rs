@@ -1,0 +1,299 @@
+//! Walls whose friction a law of the wall gives: which cells they are, and what they receive.
+
+use super::{
+    Grid, Lattice, Link, Setup,
+    boundary::cell_pass,
+    cell_kernels::CellDispatch,
+    fluid::{Dispatch, in_plane, result_buffer, storage},
+    geometry::{Beyond, C, Survey, opposite},
+};
+use crate::{Result, gpu::kernel::largest_binding, gpu::readback::Readback};
+use bytemuck::{Pod, Zeroable};
+use std::collections::HashSet;
+
+/// Directions into a plane wall.
+const LINKS: usize = 9;
+/// Cells from the wall on that are fluid where the model acts.
+const DEPTH: u32 = 5;
+/// Of them those on whose eddy viscosity follows from the wall.
+const LAYERS: u32 = 4;
+
+/// A cell at such a wall, as `kernels/lattice/wall_model.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct WallCell {
+    /// Index in the padded grid.
+    pub cell: u32,
+    /// The face of the cell that is the wall: x−, x+, y−, y+, z−, z+.
+    pub face: u32,
+    /// Cells from the wall on whose eddy viscosity follows from it, up to 4: fewer where another wall is nearer.
+    pub layers: u32,
+    /// Equivalent sand roughness, cells; 0 for a smooth wall.
+    pub roughness: f32,
+}
+
+/// What a wall cell of the model received in a step, as `kernels/lattice/wall_model.wgsl` writes it; lattice units.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct WallStress {
+    /// Tangential stress on the wall, along the lower and the upper axis of its face.
+    pub stress: [f32; 2],
+    /// Friction velocity by the law of the wall.
+    pub friction: f32,
+    /// The part of the stress that is the law's: 0 for a wall without slip, 1 for all of it.
+    pub share: f32,
+}
+
+/// The walls of the model.
+#[derive(Debug, Default)]
+pub struct Walls {
+    /// Cells at plane walls at rest, by the face and the order of memory.
+    pub cells: Vec<WallCell>,
+    /// Faces of fluid cells that are walls at rest, those of the model and all others.
+    pub area: u64,
+    /// Of each cell those into the wall, by the tangential direction.
+    links: Vec<[Link; LINKS]>,
+    /// Elements with a cell whose eddy viscosity follows from a wall.
+    elements: HashSet<u32>,
+}
+
+impl Walls {
+    /// Adds a cell whose face is a plane wall.
+    pub(super) fn push(&mut self, survey: &Survey<'_>, cell: [u32; 3], face: usize) {
+        let (axis, side) = (face / 2, face % 2);
+        let setup = survey.setup;
+        let at_end = cell[axis] == [0, survey.grid.cells[axis] - 1][side];
+        let roughness = if at_end && !setup.periodic_axes()[axis] {
+            setup.wall_roughness[axis][side] as f32
+        } else if setup.solid_roughness.is_empty() {
+            0.0
+        } else {
+            let mut out = [0; 3];
+            out[axis] = [-1, 1][side];
+            setup.solid_roughness[survey.grid.index(survey.grid.neighbour(cell, out))]
+        };
+        self.cells.push(WallCell {
+            cell: survey.padded_index(cell),
+            face: face as u32,
+            layers: 0,
+            roughness,
+        });
+        let (a, b) = in_plane(axis);
+        self.links.push(std::array::from_fn(|j| {
+            let mut c = [0; 3];
+            c[axis] = [-1, 1][side];
+            (c[a], c[b]) = (j as i32 % 3 - 1, j as i32 / 3 - 1);
+            let into = C.iter().position(|other| *other == c).unwrap_or_default();
+            survey.link(cell, into, cell, opposite(into))
+        }));
+    }
+
+    /// Sorts the cells, and gives each cell of the fluid that is near a wall to the nearest one.
+    pub(super) fn own_layers(&mut self, grid: &Grid) {
+        let place = |n: &usize| {
+            let cell = &self.cells[*n];
+            (cell.face, grid.scalar_of(grid.padded_cell(cell.cell)))
+        };
+        let mut order: Vec<usize> = (0..self.cells.len()).collect();
+        order.sort_unstable_by_key(place);
+        self.cells = order.iter().map(|&n| self.cells[n]).collect();
+        self.links = order.iter().map(|&n| self.links[n]).collect();
+        let mut taken = HashSet::new();
+        for layer in 0..LAYERS {
+            for wall in &mut self.cells {
+                let mut inward = [0; 3];
+                inward[wall.face as usize / 2] =
+                    [layer as i32, -(layer as i32)][wall.face as usize % 2];
+                let cell = grid.neighbour(grid.padded_cell(wall.cell), inward);
+                if wall.layers == layer && taken.insert(cell) {
+                    wall.layers += 1;
+                    self.elements.insert(grid.element_of(cell).0);
+                }
+            }
+        }
+    }
+
+    /// Whether the eddy viscosity of a cell of an element follows from a wall.
+    pub(super) fn reach(&self, element: u32) -> bool {
+        !self.elements.is_empty() && self.elements.contains(&element)
+    }
+}
+
+impl Survey<'_> {
+    /// The face of a cell where the model acts: the nine directions through it lead to walls at rest, and no other one does,
+    /// or through an open or moving face, and five cells of fluid lie before it.
+    pub(super) fn plain_wall(&self, cell: [u32; 3], beyond: &[Beyond; 27]) -> Option<usize> {
+        self.setup.wall_model?;
+        let through = |face: usize| {
+            let (axis, out) = (face / 2, [-1, 1][face % 2]);
+            (1..27).all(|q| match beyond[q] {
+                Beyond::Wall => C[q][axis] == out,
+                Beyond::Fluid | Beyond::Slip(_) => C[q][axis] != out,
+                Beyond::Moving(_) | Beyond::Open(..) => false,
+            })
+        };
+        let face = (0..6).find(|&face| through(face))?;
+        let mut inward = [0; 3];
+        inward[face / 2] = [1, -1][face % 2];
+        let q = C.iter().position(|c| *c == inward)?;
+        let mut at = cell;
+        for _ in 1..DEPTH {
+            if self.beyond(at, q) != Beyond::Fluid {
+                return None;
+            }
+            at = self.grid.neighbour(at, inward);
+        }
+        Some(face)
+    }
+}
+
+/// The walls that one dispatch treats.
+#[derive(Debug)]
+pub(super) struct WallPart {
+    cells: wgpu::Buffer,
+    links: wgpu::Buffer,
+    /// What they received in the last step.
+    stress: wgpu::Buffer,
+    /// Which of them had a block near them in the last step, where there are blocks.
+    blocks: Option<wgpu::Buffer>,
+    count: u32,
+}
+
+impl WallPart {
+    /// Those of a geometry.
+    pub fn all(device: &wgpu::Device, setup: &Setup, walls: &Walls) -> Vec<Self> {
+        let most = largest_binding(&device.limits()) as usize / size_of::<[Link; LINKS]>();
+        let parts = walls
+            .cells
+            .chunks(most.max(1))
+            .zip(walls.links.chunks(most.max(1)));
+        let part = |(cells, own): (&[WallCell], &[[Link; LINKS]])| {
+            let links: Vec<Link> = (0..LINKS)
+                .flat_map(|j| own.iter().map(move |links| links[j]))
+                .collect();
+            let result = |label, bytes| result_buffer(device, label, bytes * cells.len() as u64);
+            Self {
+                cells: storage(device, "wall cells", bytemuck::cast_slice(cells)),
+                links: storage(device, "wall links", bytemuck::cast_slice(&links)),
+                stress: result("wall stress", size_of::<WallStress>() as u64),
+                blocks: setup.solid_operator.map(|_| result("walls with blocks", 4)),
+                count: cells.len() as u32,
+            }
+        };
+        parts.map(part).collect()
+    }
+
+    /// Bytes of its buffers.
+    pub fn bytes(&self) -> u64 {
+        let kept = [&self.cells, &self.links, &self.stress];
+        kept.into_iter()
+            .chain(&self.blocks)
+            .map(wgpu::Buffer::size)
+            .sum()
+    }
+}
+
+impl Lattice {
+    /// The walls of the model, of a step of the given parity.
+    pub(super) fn wall_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
+        self.passes_of_walls(device, "wall_model", odd)
+    }
+
+    /// Sets the eddy viscosity beside walls of a state that is complete: each step has it from its boundary passes.
+    pub(super) fn set_near_wall(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+        let passes = self.passes_of_walls(device, "near_wall", self.parity() as u32)?;
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            for dispatch in &passes {
+                dispatch.record(&mut pass);
+            }
+        }
+        queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    fn passes_of_walls(
+        &self,
+        device: &wgpu::Device,
+        entry: &'static str,
+        odd: u32,
+    ) -> Result<Vec<Dispatch>> {
+        let program = self.cell_program("wall_model");
+        let mut passes = Vec::new();
+        for part in &self.buffers.walls {
+            let mut buffers = vec![
+                ("wall_cells", &part.cells),
+                ("wall_links", &part.links),
+                ("wall_stress", &part.stress),
+            ];
+            buffers.extend(part.blocks.as_ref().map(|blocks| ("wall_blocks", blocks)));
+            for half in self.halves() {
+                let dispatch = CellDispatch {
+                    program: &program,
+                    entry,
+                    pass: cell_pass(odd, half, &(0..part.count as usize)),
+                    buffers: &buffers,
+                    constants: &[],
+                    invocations: part.count,
+                };
+                passes.push(self.cell_dispatch(device, &dispatch)?);
+            }
+        }
+        Ok(passes)
+    }
+
+    /// The dispatches that find the walls with blocks near them, which the next step reads.
+    pub(super) fn mark_passes(&self, device: &wgpu::Device) -> Result<Vec<Dispatch>> {
+        let program = self.cell_program("mark_blocks");
+        let mark = |part: &WallPart| {
+            let mut buffers = vec![("wall_cells", &part.cells)];
+            buffers.extend(part.blocks.as_ref().map(|blocks| ("wall_blocks", blocks)));
+            buffers.extend(self.psm_planes());
+            let dispatch = CellDispatch {
+                program: &program,
+                entry: "mark_blocks",
+                pass: cell_pass(0, 0, &(0..part.count as usize)),
+                buffers: &buffers,
+                constants: &[],
+                invocations: part.count,
+            };
+            self.cell_dispatch(device, &dispatch)
+        };
+        match self.setup.solid_operator {
+            Some(_) => self.buffers.walls.iter().map(mark).collect(),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    /// The buffer in which each brick has its place among those that blocks reach, from 1.
+    pub(super) fn write_psm_slots(&self, queue: &wgpu::Queue, bricks: &[u32]) {
+        if let Some(buffer) = &self.buffers.psm_slots {
+            let mut slots = vec![0u32; buffer.size() as usize / 4];
+            for (slot, brick) in (1..).zip(bricks) {
+                slots[*brick as usize] = slot;
+            }
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&slots));
+        }
+    }
+
+    /// What each cell of [`Walls::cells`] received in the last step.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub async fn wall_stresses(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Vec<WallStress>> {
+        let mut all = Vec::new();
+        let mut readback = Readback::default();
+        for part in &self.buffers.walls {
+            let own: Vec<WallStress> = readback
+                .read(device, queue, &part.stress, part.count as usize)
+                .await?;
+            all.extend(own);
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,135 @@
+//! Friction of walls by a law of the wall: against its f64 twin, without slip in laminar flow, and exact in momentum.
+
+use crate::kernels::assert_equal_to_twin;
+use kit::{
+    Rig, assert_near,
+    twin::of_setup::{layouts, noise},
+};
+use riprap::lattice::{Face, Force, Setup, State, WallModel};
+
+const WALL: Face = Face::Wall([0.0; 3]);
+
+/// A channel normal to an axis, with both walls rough or smooth, and a bar on one of them that has edges.
+fn channel(normal: usize, nu: f64) -> Setup {
+    let mut cells = [8, 8, 8];
+    cells[normal] = 11;
+    let mut setup = Setup::periodic(cells, nu);
+    setup.wale = Some(0.5);
+    setup.wall_model = Some(WallModel::WernerWengle);
+    setup.faces[normal] = [WALL, WALL];
+    setup
+}
+
+#[test]
+fn kernel_and_twin() {
+    for (n, (storage, lanes, axis)) in layouts().into_iter().enumerate() {
+        for normal in 0..3 {
+            // No slip, between, and the model in full: at random velocities of 0.003 y+ of the first cell is near 0.3, 4 and 80.
+            let nu = [3e-3, 3e-5, 1e-6][(n + normal) % 3];
+            let mut setup = channel(normal, nu);
+            (setup.storage, setup.lanes, setup.lane_axis) = (storage, lanes, axis);
+            if n % 2 == 1 {
+                setup.wall_model = Some(WallModel::Reichardt);
+                setup.wall_roughness[normal] = [0.0, 0.7];
+            }
+            let name = format!("{storage:?} {lanes} along {axis}, normal {normal}, nu {nu}");
+            assert_equal_to_twin(&name, &setup);
+        }
+    }
+}
+
+#[test]
+fn edges_corners_gaps_and_other_faces() {
+    for (storage, lanes, axis) in layouts() {
+        let mut setup = Setup::periodic([16, 9, 12], 1e-5);
+        (setup.storage, setup.lanes, setup.lane_axis) = (storage, lanes, axis);
+        setup.wale = Some(0.5);
+        setup.wall_model = Some(WallModel::WernerWengle);
+        setup.solid_roughness = (0..16 * 9 * 12).map(|n| 0.1 * (n % 16) as f32).collect();
+        setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+        let inlet = (0..9 * 12).map(|n| [0.02, 0.005 * noise(n) as f32, 0.0]);
+        setup.faces = [
+            [Face::Velocity(inlet.collect()), Face::FreeSlip],
+            [WALL, Face::FreeSlip],
+            [WALL, Face::Wall([0.01, 0.0, 0.0])],
+        ];
+        // A step on the bed, and a lid four cells above it.
+        setup.solid = (0..16 * 9 * 12)
+            .map(|n| [n % 16, (n / 16) % 9, n / 144])
+            .map(|[x, _, z]| (5..11).contains(&x) && (z < 4 || (x > 7 && (8..10).contains(&z))))
+            .collect();
+        let name = format!("{storage:?} {lanes} along {axis}");
+        assert_equal_to_twin(&name, &setup);
+    }
+}
+
+/// A wave along the walls, and noise.
+fn waves(cells: [u32; 3], speed: f64) -> State {
+    let count = cells.iter().product::<u32>() as usize;
+    let mut state = State::rest(count);
+    for n in 0..count {
+        let z = n / (cells[0] * cells[1]) as usize;
+        let shape = (std::f64::consts::PI * (z as f64 + 0.5) / f64::from(cells[2])).sin();
+        for a in 0..3 {
+            let mean = if a == 0 { shape.sqrt() } else { 0.0 };
+            state.velocity[a][n] = (speed * (mean + 0.1 * noise(3 * n + a))) as f32;
+        }
+    }
+    state
+}
+
+#[test]
+fn laminar_walls_have_no_slip_to_the_bit() {
+    let rig = Rig::new();
+    // y+ of the first cell up to 2.
+    let setup = channel(2, 5e-3);
+    let mut plain = setup.clone();
+    plain.wall_model = None;
+    let [with, without] = [setup, plain].map(|setup| {
+        let mut lattice = rig.start(setup, &waves([8, 8, 11], 0.03), true);
+        rig.run(&mut lattice, 200);
+        let walls = rig
+            .wait(lattice.wall_stresses(&rig.device, &rig.queue))
+            .unwrap();
+        assert!(walls.iter().all(|wall| wall.share == 0.0));
+        rig.populations(&mut lattice).values
+    });
+    let bits = |values: Vec<f32>| values.into_iter().map(f32::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(with), bits(without));
+}
+
+#[test]
+fn the_fluid_loses_what_the_walls_receive() {
+    let rig = Rig::new();
+    let mut setup = channel(2, 1e-5);
+    let force = 2e-5;
+    setup.force = Force::Constant([force, 0.0, 0.0]);
+    let cells = 8.0 * 8.0 * 11.0;
+    let mut lattice = rig.start(setup, &waves([8, 8, 11], 0.03), true);
+    // Momentum along x of the populations that are complete before a step.
+    let mut before: Option<f64> = None;
+    for _ in 0..20 {
+        rig.run(&mut lattice, 1);
+        let populations = rig.populations(&mut lattice);
+        let own = (0..27).map(|q| {
+            let c = f64::from(riprap::lattice::C[q][0]);
+            let values = &populations.values[q * 704..(q + 1) * 704];
+            c * values.iter().map(|f| f64::from(*f)).sum::<f64>()
+        });
+        let momentum: f64 = own.sum();
+        let walls = rig
+            .wait(lattice.wall_stresses(&rig.device, &rig.queue))
+            .unwrap();
+        assert_eq!(walls.len(), 2 * 8 * 8);
+        assert!(walls.iter().all(|wall| wall.share == 1.0));
+        let received: f64 = walls.iter().map(|wall| f64::from(wall.stress[0])).sum();
+        if let Some(before) = before {
+            assert_near(
+                momentum - before,
+                force * cells - received,
+                1e-7 * cells * 0.03,
+            );
+        }
+        before = Some(momentum);
+    }
+}

@@ -77,6 +77,11 @@ impl Units {
         self.density * SOUND_SPEED_SQUARED * (rho - 1.0) * self.velocity().powi(2)
     }
 
+    /// Lattice → Pa, of a stress: ρ₀ Δx²/Δt².
+    pub fn stress_from_lattice(&self, stress: f64) -> f64 {
+        self.density * stress * self.velocity().powi(2)
+    }
+
     /// kg/m³ → lattice.
     pub fn density_to_lattice(&self, density: f64) -> f64 {
         density / self.density

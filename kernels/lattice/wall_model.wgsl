@@ -1,6 +1,6 @@
 // Asmuth, Janssen, Olivares-Espinosa & Ivanell 2021, Phys. Fluids 33:105111: the stress of a law of the wall, handed over through the
 // velocity of the wall in half-way bounce-back. P, the tangential momentum that arrives at the wall, returns against 6 w c.m with
-// m = 3 (2 P - stress), so that the fluid loses the stress exactly. The law reads the velocity of the step before in the fourth
+// m = 3 (2 P - stress), so that the fluid loses the stress exactly. The law reads the velocity of the step before in the fifth
 // cell; where a flow is laminar, m goes to 0 and the wall is one without slip, to the bit.
 // needs wall_cells, scalars, link, cell_velocities, $wall_law, $wall_blocks
 
@@ -20,7 +20,7 @@ struct WallStress {
 
 const KARMAN = 0.4;
 // The cell, counted from 0, whose velocity the law reads.
-const SAMPLE = 3u;
+const SAMPLE = 4u;
 // Least y+ of the first cell at which the model acts, and where it acts fully.
 const NO_SLIP_UP_TO = 3.0;
 const FULL_FROM = 6.0;
@@ -43,14 +43,31 @@ fn taper(layer: u32) -> f32 {
     return select(select(select(0.15, 0.4, layer == 2u), 0.75, layer == 1u), 1.0, layer == 0u);
 }
 
+// What the law of the wall says of a wall cell.
+struct Friction {
+    // Tangential velocity that it reads, its size, and the stress over the density.
+    velocity: vec2<f32>,
+    speed: f32,
+    stress: f32,
+    // Friction velocity, and the part of the model there.
+    friction: f32,
+    share: f32,
+}
+
+fn friction_of(here: WallCell, blocked: bool) -> Friction {
+    let u = along_wall(scalar_of(layer_cell(here, SAMPLE)), here.face / 2u);
+    let speed = length(u);
+    let stress = law_of_the_wall(speed, f32(SAMPLE) + 0.5, here.roughness);
+    let friction = sqrt(stress);
+    return Friction(u, speed, stress, friction, select(model_share(friction), 0.0, blocked));
+}
+
 // The eddy viscosity of the cells beside the wall.
-fn set_near_wall(here: WallCell, blocked: bool) {
+fn set_near_wall(here: WallCell, law: Friction) {
     for (var layer = 0u; layer < 4u; layer++) { // unroll
         if (layer < here.layers) {
-            let at = scalar_of(layer_cell(here, layer));
-            let speed = length(along_wall(at, here.face / 2u));
-            let friction = sqrt(law_of_the_wall(speed, f32(layer) + 0.5, here.roughness));
-            near_wall_viscosity[at] = taper(layer) * KARMAN * (f32(layer) + 0.5) * friction * select(model_share(friction), 0.0, blocked);
+            near_wall_viscosity[scalar_of(layer_cell(here, layer))] =
+                taper(layer) * KARMAN * (f32(layer) + 0.5) * law.friction * law.share;
         }
     }
 }
@@ -64,7 +81,7 @@ fn near_wall(
 ) {
     let n = invocation(group, groups, local);
     if (n < arrayLength(&wall_cells)) {
-        set_near_wall(wall_cells[n], false);
+        set_near_wall(wall_cells[n], friction_of(wall_cells[n], false));
     }
 }
 
@@ -80,25 +97,17 @@ fn wall_model(
         return;
     }
     let here = wall_cells[n];
-    let blocked = has_block(n);
-    set_near_wall(here, blocked);
-    let axis = here.face / 2u;
-    let u = along_wall(scalar_of(layer_cell(here, SAMPLE)), axis);
-    let speed = length(u);
-    let law = law_of_the_wall(speed, f32(SAMPLE) + 0.5, here.roughness);
-    let friction = sqrt(law);
-    let share = select(model_share(friction), 0.0, blocked);
+    let law = friction_of(here, has_block(n));
+    set_near_wall(here, law);
     var f: array<f32, 9>;
     var arriving = vec2(0.0);
     for (var j = 0u; j < 9u; j++) { // unroll
         f[j] = read_arrived(wall_links[j * count + n]);
         arriving += f[j] * vec2(f32(j % 3u) - 1.0, f32(j / 3u) - 1.0);
     }
-    let wanted = law / max(speed, 1e-30) * u;
-    let full = 3.0 * (2.0 * arriving - wanted);
+    let full = 3.0 * (2.0 * arriving - law.stress / max(law.speed, 1e-30) * law.velocity);
     // No more than twice the velocity that the law has read.
-    let most = 2.0 * speed;
-    let momentum = share * full * min(1.0, most / max(length(full), 1e-30));
+    let momentum = law.share * full * min(1.0, 2.0 * law.speed / max(length(full), 1e-30));
     for (var j = 0u; j < 9u; j++) { // unroll
         let a = j % 3u;
         let b = j / 3u;
@@ -106,7 +115,7 @@ fn wall_model(
         let back = 6.0 * corner * dot(vec2(f32(a) - 1.0, f32(b) - 1.0), momentum);
         write_returned(wall_links[j * count + n], f[j] - back);
     }
-    wall_stress[n] = WallStress(2.0 * arriving - momentum / 3.0, friction, share);
+    wall_stress[n] = WallStress(2.0 * arriving - momentum / 3.0, law.friction, law.share);
 }
 
 // The velocity along the lower and the upper axis of a face normal to an axis.

@@ -275,9 +275,8 @@ impl Geometry {
             for k in range(z, grid.brick[2], nz) {
                 for j in range(y, grid.brick[1], ny) {
                     for i in range(x, grid.brick[0], nx) {
-                        let element = i + nx * (j + ny * k);
-                        let word = self.flags[element as usize] & used;
-                        flagged |= word != 0 || self.walls.reach(element);
+                        let word = self.flags[(i + nx * (j + ny * k)) as usize] & used;
+                        flagged |= word != 0;
                         solid &= word & all_solid == all_solid;
                     }
                 }

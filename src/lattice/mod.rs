@@ -77,4 +77,4 @@ pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;
 pub use start::State;
 pub use traffic::{bytes_a_cell, bytes_a_step};
-pub use wall_model::{WallCell, WallStress};
+pub use wall_model::{WallCell, WallStress, Walls};

@@ -112,7 +112,7 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
         .slot(
             "near_wall",
             either(
-                setup.wall_model.is_some() && flagged,
+                setup.wall_model.is_some(),
                 "near_wall_viscosity",
                 "near_wall_none",
             ),

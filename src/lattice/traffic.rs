@@ -4,7 +4,7 @@
 //! of the grid gives them for nothing.
 
 use super::{
-    Force, Geometry, Grid, Setup, bytes_a_population,
+    Force, Geometry, Grid, Setup, WallCell, WallStress, bytes_a_population,
     geometry::{FaceCell, Link, MovingCell},
     populations::Q,
 };
@@ -13,7 +13,8 @@ use super::{
 const VECTOR: u64 = 12;
 
 /// Bytes that a step moves for a fluid cell away from walls: its populations in and out (216 in
-/// f32, 108 in 16 bits), the velocity in and out for WALE (24), the force field in (12).
+/// f32, 108 in 16 bits), the velocity in and out for WALE (24), the force field in (12), and the least eddy viscosity of a wall
+/// model in (4).
 pub fn bytes_a_cell(setup: &Setup) -> u64 {
     let populations = 2 * u64::from(Q) * bytes_a_population(setup.storage);
     let velocity = setup.wale.map_or(0, |_| 2 * VECTOR);
@@ -21,7 +22,7 @@ pub fn bytes_a_cell(setup: &Setup) -> u64 {
         Force::Field(_) => VECTOR,
         Force::None | Force::Constant(_) => 0,
     };
-    populations + velocity + force
+    populations + velocity + force + setup.wall_model.map_or(0, |_| 4)
 }
 
 /// Bytes that a step moves over the whole grid: those of its fluid cells, the flags and the list of
@@ -34,6 +35,12 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
     let flags = 4 * brick * count(geometry.mixed.len());
     let lists = 4 * count(geometry.mixed.len() + geometry.plain.len());
     let links = count(geometry.links.len()) * (count(size_of::<Link>()) + 2 * word);
+    // The velocity that the law reads, what the wall received, and the eddy viscosity of four cells.
+    let wall = 9 * (count(size_of::<Link>()) + 2 * word)
+        + count(size_of::<WallCell>() + size_of::<WallStress>())
+        + VECTOR
+        + 16;
+    let walls = count(geometry.walls.cells.len()) * wall;
     let moving = |cell: &MovingCell| {
         let reflected: u32 = cell.through.iter().map(|bits| bits.count_ones()).sum();
         // All populations give the density; those through the faces are written.
@@ -44,7 +51,7 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
         u64::from(Q + cell.entering.count_ones()) * word + count(size_of::<FaceCell>())
     };
     let open: u64 = geometry.open.iter().flat_map(|(_, _, c)| c).map(open).sum();
-    geometry.fluid_cells * bytes_a_cell(setup) + flags + lists + links + moving + open
+    geometry.fluid_cells * bytes_a_cell(setup) + flags + lists + links + walls + moving + open
 }
 
 #[cfg(test)]

@@ -53,8 +53,6 @@ pub struct Walls {
     pub area: u64,
     /// Of each cell those into the wall, by the tangential direction.
     links: Vec<[Link; LINKS]>,
-    /// Elements with a cell whose eddy viscosity follows from a wall.
-    elements: HashSet<u32>,
 }
 
 impl Walls {
@@ -107,15 +105,9 @@ impl Walls {
                 let cell = grid.neighbour(grid.padded_cell(wall.cell), inward);
                 if wall.layers == layer && taken.insert(cell) {
                     wall.layers += 1;
-                    self.elements.insert(grid.element_of(cell).0);
                 }
             }
         }
-    }
-
-    /// Whether the eddy viscosity of a cell of an element follows from a wall.
-    pub(super) fn reach(&self, element: u32) -> bool {
-        !self.elements.is_empty() && self.elements.contains(&element)
     }
 }
 

@@ -147,7 +147,7 @@ pub enum WallModel {
     /// None: no slip.
     #[default]
     None,
-    /// Two powers (Werner & Wengle 1991), for y⁺ of the third cell up to 2500.
+    /// Two powers (Werner & Wengle 1991), for y⁺ of the fifth cell up to 2500.
     WernerWengle,
     /// Reichardt (1951), for any y⁺.
     Reichardt,

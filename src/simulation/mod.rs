@@ -45,6 +45,7 @@ mod needs;
 pub mod probe;
 mod sensors;
 mod sph_fluid;
+mod wall_friction;
 mod wall_units;
 
 pub use crate::gpu::timer::Phase;
@@ -54,6 +55,7 @@ pub use fields::{Totals, point_cloud};
 pub use needs::{LatticeNeeds, Needs};
 pub use sensors::Reading;
 pub use sph_fluid::WaterLedger;
+pub use wall_friction::{WallFriction, WallFrictions, wall_surface};
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{

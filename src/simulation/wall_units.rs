@@ -1,7 +1,7 @@
 //! How well the grid resolves the shear at walls and blocks.
 //!
-//! Walls and blocks hold the fluid (no slip), and there is no wall model: the shear stress that they feel
-//! is what the cells next to them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
+//! Walls and blocks hold the fluid (no slip): where no [wall model](crate::lattice::WallModel) acts, the shear stress that they
+//! feel is what the cells next to them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
 //! units y⁺ = u_τ y/ν with the friction velocity u_τ = √(τ_w/ρ). Here τ_w follows from the linear profile of
 //! the viscous sublayer, u⁺ = y⁺ (Pope 2000, section 7.1.4), with the velocity u along the wall at the
 //! first centre: u_τ = √(ν u/y).
@@ -14,6 +14,7 @@
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{Result, coupling::Coupled, lattice::Face, scene::Field};
 use glam::DVec3;
+use std::collections::HashSet;
 
 /// Above this y⁺ the viscous sublayer lies within the first cell.
 pub const SUBLAYER: f64 = 5.0;
@@ -31,7 +32,7 @@ pub struct FirstCell {
     pub block: Option<usize>,
 }
 
-/// The cells with the largest y⁺ next to walls and solids, and next to blocks.
+/// The cells with the largest y⁺ next to walls and solids without a wall model, and next to blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WallUnits {
     /// Beside walls and solids; none where there are none.
@@ -119,6 +120,11 @@ impl LatticeFluid {
         let setup = self.lattice.setup();
         let counts = setup.cells.map(|n| n as usize);
         let solid = |at: usize| setup.solid.get(at).is_some_and(|solid| *solid);
+        let grid = self.lattice.grid();
+        let walls = self.lattice.geometry().walls.cells.iter();
+        let modelled: HashSet<usize> = walls
+            .map(|wall| grid.index(grid.padded_cell(wall.cell)))
+            .collect();
         let mut all = Vec::new();
         let mut stride = 1;
         for axis in 0..3 {
@@ -130,7 +136,7 @@ impl LatticeFluid {
                 let end = if side == 0 { 0 } else { n - 1 };
                 for at in 0..counts.iter().product() {
                     let at_end = at / stride % n == end;
-                    if solid(at) || (!at_end && setup.solid.is_empty()) {
+                    if solid(at) || modelled.contains(&at) || (!at_end && setup.solid.is_empty()) {
                         continue;
                     }
                     let next = match (side, at_end) {

@@ -161,6 +161,20 @@ fn a_wall_model_beside_blocks() {
                 "{storage:?}, {lanes} lanes: {error:e}"
             );
         }
+        // A restart has the same bits: which walls have blocks near them is of the step before.
+        let state = subject.rig.populations(&mut subject.lattice);
+        let mut again = Subject::new(&setup);
+        again.fill(&bricks);
+        let (device, queue) = (&again.rig.device, &again.rig.queue);
+        again
+            .lattice
+            .set_populations(device, queue, &state)
+            .unwrap();
+        let ends = [&mut subject, &mut again].map(|subject| {
+            subject.rig.run(&mut subject.lattice, 3);
+            subject.rig.populations(&mut subject.lattice)
+        });
+        assert!(ends[0] == ends[1], "{storage:?}, {lanes} lanes");
         let (device, queue) = (&subject.rig.device, &subject.rig.queue);
         let walls = subject
             .rig

@@ -8,7 +8,7 @@ use anyhow::Result;
 use riprap::{
     output::{Pvd, write_surface, write_vti, write_vtp, write_vtu},
     scene::{Field, ProbePlace},
-    simulation::{Kind, block_polyhedra, contact_cloud, face_surface, point_cloud},
+    simulation::{Kind, block_polyhedra, contact_cloud, face_surface, point_cloud, wall_surface},
 };
 use std::path::Path;
 
@@ -24,6 +24,8 @@ enum Content {
     Contacts,
     /// Faces whose loads a probe asks for.
     Faces,
+    /// Walls with a wall model.
+    Walls,
 }
 
 /// The collections that a run writes: begun, or resumed after a restart.
@@ -43,6 +45,9 @@ pub fn recorders(run: &SceneRun, folder: &Path, last: u64) -> riprap::Result<Rec
                 fields.push(Field::Solid);
             }
             contents.push(Content::Fields(fields));
+            if !simulation.wall_places().is_empty() {
+                contents.push(Content::Walls);
+            }
         }
         Kind::Particles => contents.push(Content::Water),
     }
@@ -88,6 +93,7 @@ impl Content {
             Self::Blocks => "blocks",
             Self::Contacts => "contacts",
             Self::Faces => "faces",
+            Self::Walls => "walls",
         }
     }
 
@@ -95,7 +101,7 @@ impl Content {
         match self {
             Self::Fields(_) => "vti",
             Self::Blocks => "vtu",
-            Self::Water | Self::Contacts | Self::Faces => "vtp",
+            Self::Water | Self::Contacts | Self::Faces | Self::Walls => "vtp",
         }
     }
 
@@ -107,6 +113,7 @@ impl Content {
                 let water = run.water()?;
                 write_vtp(path, &point_cloud(&water, &run.scene().output.fields))?;
             }
+            Self::Walls => write_surface(path, &wall_surface(&run.wall_friction()?))?,
             Self::Blocks | Self::Contacts | Self::Faces => {
                 let Some(rock) = run.rock() else {
                     return Ok(false);

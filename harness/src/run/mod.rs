@@ -23,6 +23,7 @@ mod table;
 mod throughput;
 mod views;
 mod wall_units;
+mod walls;
 mod water;
 
 pub(crate) use scene_run::SceneRun;

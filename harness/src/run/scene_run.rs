@@ -11,6 +11,7 @@ use super::{
     table::TimeTable,
     throughput::Throughput,
     views::{Views, solid_blocks},
+    walls,
     water::{Energies, WaterSummary},
 };
 use crate::{bench::copy_bandwidth, gpu, search};
@@ -21,8 +22,8 @@ use riprap::{
     rock::{Block, EnergyLedger},
     scene::{Field, Probe, ProbePlace, Scene, build::block_setup},
     simulation::{
-        Kind, Needs, Simulation, Totals, WallUnits, WaterLedger, checkpoint::Checkpoint,
-        probe::Gauge,
+        Kind, Needs, Simulation, Totals, WallFrictions, WallUnits, WaterLedger,
+        checkpoint::Checkpoint, probe::Gauge,
     },
     sph::{self, Water},
     units::Units,
@@ -285,6 +286,15 @@ impl SceneRun {
         drive(self.device.as_ref(), "reading cells beside walls", found)
     }
 
+    /// The friction on walls with a wall model.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::wall_friction`].
+    pub fn wall_friction(&mut self) -> Result<WallFrictions> {
+        let found = self.simulation.wall_friction();
+        drive(self.device.as_ref(), "reading the friction of walls", found)
+    }
+
     /// The present state of free water.
     ///
     /// # Errors
@@ -326,6 +336,7 @@ impl SceneRun {
         let scene = self.scene();
         let kind = self.simulation.kind();
         let mut recorders = Recorders::new();
+        recorders.extend(walls::recorder(self, folder, last)?);
         for probe in &scene.probes {
             recorders.extend(self.probe(folder, last, probe)?);
         }
@@ -474,6 +485,7 @@ impl SceneRun {
                 summary.lattice = lattice.map(|l| l.finished(self, log, throughput));
                 summary.coupling = Coupling::of(&self.simulation, throughput.whole().steps);
                 self.report_wall_units(summary);
+                self.report_wall_model(summary);
             }
             Kind::Particles => {
                 if let Some(pool) = WaterSummary::of(self) {

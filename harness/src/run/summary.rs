@@ -7,6 +7,7 @@ use super::{
     progress::clock,
     recorder::RunLog,
     rock::{Rocks, Safety},
+    walls::WallModelSummary,
     water::{Energies, WaterSummary},
 };
 use riprap::output::replace;
@@ -59,6 +60,9 @@ pub struct Summary {
     /// Largest y⁺ half a cell from a block at the end, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_plus_blocks: Option<f64>,
+    /// What a wall model did, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_model: Option<WallModelSummary>,
     /// How blocks and fluid met, where there are both.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
@@ -161,6 +165,9 @@ impl fmt::Display for Summary {
             if let Some(y_plus) = y_plus {
                 writeln!(f, "  largest y⁺ half a cell from {what}: {y_plus:.2}")?;
             }
+        }
+        if let Some(walls) = &self.wall_model {
+            writeln!(f, "{walls}")?;
         }
         if let Some(pool) = &self.pool {
             writeln!(f, "{pool}")?;

@@ -39,7 +39,7 @@ impl SceneRun {
         let finer = self.scene().domain.cell * SUBLAYER / cell.y_plus;
         format!(
             "y⁺ is at least {:.1} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \
-             shear is not resolved there and there is no wall model, so that friction comes out too small; \
+             shear is not resolved there and no wall model acts, so that friction comes out too small; \
              pressure and the drag of edged bodies suffer less. Cells of {finer:.2e} m would resolve it",
             cell.y_plus
         )

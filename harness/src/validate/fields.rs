@@ -98,11 +98,10 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
     above / below
 }
 
-/// A channel along x between walls normal to y, of a friction velocity and with Re_τ: the mean profile of Reichardt 1951 with
+/// A channel along x, from a wall normal to y on h deep, of a friction velocity and with Re_τ: the mean profile of Reichardt 1951 with
 /// rolls along the stream and waves across it, strong enough to break up.
-pub fn turbulent_channel(cells: [u32; 3], friction: f64, reynolds: f64) -> State {
-    let [nx, ny, nz] = cells.map(f64::from);
-    let h = ny / 2.0;
+pub fn turbulent_channel(cells: [u32; 3], h: f64, friction: f64, reynolds: f64) -> State {
+    let [nx, _, nz] = cells.map(f64::from);
     state(cells, |[x, y, z]| {
         let wall = (h - (y - h).abs()) / h * reynolds;
         let mean = (1.0 + 0.4 * wall).ln() / 0.4

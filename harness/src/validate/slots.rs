@@ -100,7 +100,7 @@ fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let optional = [
         (wale, "velocity_before_0"),
         (wale, "velocity_after_0"),
-        (flagged && setup.wall_model.is_some(), "near_wall_viscosity"),
+        (setup.wall_model.is_some(), "near_wall_viscosity"),
         (matches!(setup.force, Force::Field(_)), "force_field_0"),
         (setup.max_speed > 0.0, "guard_state"),
         (kind != BrickKind::All, "bricks"),

@@ -146,7 +146,7 @@ pub fn turbulent_channel(stand: &Stand) -> Outcome {
     setup.wale = Some(CONSTANT);
     let mut flow = stand.flow(
         setup,
-        &fields::turbulent_channel(CHANNEL, FRICTION, REYNOLDS),
+        &fields::turbulent_channel(CHANNEL, h, FRICTION, REYNOLDS),
         true,
     )?;
     let turn = h / FRICTION;

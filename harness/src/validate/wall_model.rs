@@ -3,124 +3,199 @@
 use super::{Outcome, Record, Stand, fields};
 use riprap::lattice::{Face, Force, WallModel};
 
-/// Streamwise, between the walls, spanwise.
-const CELLS: [u32; 3] = [48, 24, 24];
 /// Mean velocity of the start.
 const BULK: f64 = 0.04;
-const WALLS: [Face; 2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
-/// Times h/u_τ until the flow has forgotten its start, and over which means are taken.
-const SETTLE: f64 = 6.0;
-const AVERAGE: f64 = 8.0;
+const WALL: Face = Face::Wall([0.0; 3]);
+/// States that are averaged.
 const SAMPLES: u64 = 100;
 /// Of the mean velocity over the friction velocity.
 const LIMIT: f64 = 0.05;
 /// Re_τ and the mean velocity over the friction velocity (Lee & Moser 2015).
 const CHANNELS: [(f64, f64); 2] = [(1000.0, 19.99), (5200.0, 24.1)];
 
-/// What a channel has on average.
+/// A channel of a length and width of 4 and 2 depths, between walls or from a wall to a face without friction.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    /// Cells of the depth: from a wall to the middle or to the other face.
+    depth: u32,
+    /// Whether the other face is a wall too.
+    closed: bool,
+    reynolds: f64,
+    /// Equivalent sand roughness, cells.
+    roughness: f64,
+    /// Mean velocity over the friction velocity.
+    expected: f64,
+    model: Option<WallModel>,
+}
+
+/// What it has on average.
 struct Means {
     /// Mean velocity over the friction velocity, from the momentum that the fluid loses.
     bulk: f64,
     /// Mean of the stresses that the walls report, over the momentum that the fluid loses.
     reported: f64,
-    /// Mean velocity of each layer from a wall to the middle, over the friction velocity.
-    profile: Vec<f64>,
-    /// Least increase from one layer to the next.
-    steepest: f64,
+    /// Mean velocity of the cells beside the walls, over the friction velocity.
+    first: f64,
+    /// Least increase of that from one layer to the next.
+    least_increase: f64,
 }
 
-/// Mean velocity and profile of channels with and without the model.
+/// Mean velocity and profile of channels with the model; in the long form on other grids too, and without the model.
 pub fn channel(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (reynolds, expected) in CHANNELS {
-        for model in [Some(WallModel::WernerWengle), None] {
-            records.extend(run(stand, reynolds, expected, model)?);
+        let usual = Channel {
+            depth: 12,
+            closed: true,
+            reynolds,
+            roughness: 0.0,
+            expected,
+            model: Some(WallModel::WernerWengle),
+        };
+        let others = [
+            Channel { depth: 8, ..usual },
+            Channel { depth: 16, ..usual },
+            Channel {
+                model: Some(WallModel::Reichardt),
+                ..usual
+            },
+            Channel {
+                model: None,
+                ..usual
+            },
+        ];
+        let others = others.into_iter().filter(|_| stand.full);
+        for channel in std::iter::once(usual).chain(others) {
+            records.extend(channel.judge(stand)?);
         }
     }
     Ok(records)
 }
 
-fn run(
-    stand: &Stand,
-    reynolds: f64,
-    expected: f64,
-    model: Option<WallModel>,
-) -> anyhow::Result<Vec<Record>> {
-    let h = f64::from(CELLS[1]) / 2.0;
-    let friction = BULK / expected;
-    let drive = friction * friction / h;
-    let mut setup = stand.setup(CELLS, friction * h / reynolds);
-    setup.faces[1] = WALLS;
-    setup.force = Force::Constant([drive, 0.0, 0.0]);
-    setup.wale = Some(0.5);
-    setup.wall_model = model;
-    let start = fields::turbulent_channel(CELLS, friction, reynolds);
-    let mut flow = stand.flow(setup, &start, true)?;
-    let turn = h / friction;
-    flow.advance((SETTLE * turn) as u64)?;
-    let each = (AVERAGE * turn) as u64 / SAMPLES;
-    let mut layers = vec![0.0; CELLS[1] as usize];
-    let mut bulk = Vec::new();
-    let mut reported = 0.0;
-    for _ in 0..=SAMPLES {
-        flow.advance(each | 1)?;
-        let state = flow.state()?;
-        let mut mean = 0.0;
-        for (n, &u) in state.velocity[0].iter().enumerate() {
-            layers[(n / CELLS[0] as usize) % CELLS[1] as usize] += f64::from(u);
-            mean += f64::from(u) / state.velocity[0].len() as f64;
-        }
-        bulk.push(mean);
-        if model.is_some() {
-            let walls = flow.wall_stresses()?;
-            let sum: f64 = walls.iter().map(|wall| f64::from(wall.stress[0])).sum();
-            reported += sum / walls.len() as f64 / (SAMPLES + 1) as f64;
-        }
+/// Water over a rough bed: U_b/u_τ = 2.5 ln(h/k_s) + 6.0 (Keulegan 1938), the mean of the log law of a rough wall over the depth.
+pub fn rough_channel(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    for roughness in [0.1, 1.0] {
+        let depth: u32 = 12;
+        let channel = Channel {
+            depth,
+            closed: false,
+            reynolds: 2e4,
+            roughness,
+            expected: 2.5 * (f64::from(depth) / roughness).ln() + 6.0,
+            model: Some(WallModel::WernerWengle),
+        };
+        records.extend(channel.judge(stand)?);
     }
-    // The fluid loses what the force gives it and it does not keep.
-    let steps = (SAMPLES * (each | 1)) as f64;
-    let change = (bulk[bulk.len() - 1] - bulk[0]) / steps;
-    let stress = h * (drive - change);
-    let scale = 1.0 / ((SAMPLES + 1) * u64::from(CELLS[0] * CELLS[2])) as f64 / stress.sqrt();
-    let half = CELLS[1] as usize / 2;
-    let profile: Vec<f64> = (0..half)
-        .map(|y| scale * (layers[y] + layers[2 * half - 1 - y]) / 2.0)
-        .collect();
-    let steps = profile.windows(2).map(|pair| pair[1] - pair[0]);
-    let means = Means {
-        bulk: bulk.iter().sum::<f64>() / bulk.len() as f64 / stress.sqrt(),
-        reported: reported / stress,
-        steepest: steps.fold(f64::INFINITY, f64::min),
-        profile,
-    };
-    println!("{:?} {:?}", means.bulk, means.profile);
-    let trial = flow.trial();
-    let name = format!("Re_τ {reynolds:.0}");
-    Ok(match model {
-        None => vec![trial.relative(
-            format!("{name}, no model: U_b⁺"),
-            means.bulk,
-            expected,
-            None,
-        )],
-        Some(_) => vec![
-            trial.relative(format!("{name}: U_b⁺"), means.bulk, expected, LIMIT),
-            trial.at_least(
-                format!("{name}: U⁺ of the first cell"),
-                means.profile[0],
-                0.0,
-            ),
-            trial.at_least(
-                format!("{name}: least increase of U⁺ from cell to cell"),
-                means.steepest,
-                0.0,
-            ),
-            trial.relative(
-                format!("{name}: reported stress over momentum lost"),
-                means.reported,
-                1.0,
-                1e-2,
-            ),
-        ],
-    })
+    Ok(records)
+}
+
+impl Channel {
+    /// Cells across.
+    fn layers(&self) -> u32 {
+        self.depth * if self.closed { 2 } else { 1 }
+    }
+
+    fn judge(&self, stand: &Stand) -> anyhow::Result<Vec<Record>> {
+        let h = f64::from(self.depth);
+        let friction = BULK / self.expected;
+        let cells = [4 * self.depth, self.layers(), 2 * self.depth];
+        let mut setup = stand.setup(cells, friction * h / self.reynolds);
+        let other = if self.closed { WALL } else { Face::FreeSlip };
+        setup.faces[1] = [WALL, other];
+        setup.force = Force::Constant([friction * friction / h, 0.0, 0.0]);
+        setup.wale = Some(0.5);
+        setup.wall_model = self.model;
+        setup.wall_roughness[1] = [self.roughness; 2];
+        let mut start = fields::turbulent_channel(cells, h, friction, self.reynolds);
+        // A rough wall shifts the profile.
+        let u = &mut start.velocity[0];
+        let mean = u.iter().map(|u| f64::from(*u)).sum::<f64>() / u.len() as f64;
+        u.iter_mut().for_each(|u| *u += (BULK - mean) as f32);
+        let mut flow = stand.flow(setup, &start, true)?;
+        // Times h/u_τ until the flow has forgotten its start, and over which means are taken.
+        let (settle, average) = if stand.full { (8.0, 16.0) } else { (4.0, 4.0) };
+        flow.advance((settle * h / friction) as u64)?;
+        // Odd, so that populations that alternate at walls take part in both states.
+        let each = ((average * h / friction) as u64 / SAMPLES) | 1;
+        let means = self.average(&mut flow, friction * friction / h, each)?;
+        let trial = flow.trial();
+        let mut name = match self.roughness {
+            0.0 => format!("Re_τ {:.0}, {} cells", self.reynolds, self.layers()),
+            rough => format!("h/k_s {:.0}", h / rough),
+        };
+        name += match self.model {
+            Some(WallModel::WernerWengle) => "",
+            Some(WallModel::Reichardt) => ", Reichardt",
+            None => ", no model",
+        };
+        let limit = self.model.map(|_| LIMIT);
+        let bulk = trial.relative(format!("{name}: U_b⁺"), means.bulk, self.expected, limit);
+        let first = format!("{name}: U⁺ of the first cell");
+        let increase = format!("{name}: least increase of U⁺ from cell to cell");
+        Ok(match self.model {
+            None => vec![
+                bulk,
+                trial.report(first, means.first),
+                trial.report(increase, means.least_increase),
+            ],
+            Some(_) => vec![
+                bulk,
+                trial.at_least(first, means.first, 0.0),
+                trial.at_least(increase, means.least_increase, 0.0),
+                trial.relative(
+                    format!("{name}: stress that the walls report over that lost"),
+                    means.reported,
+                    1.0,
+                    1e-2,
+                ),
+            ],
+        })
+    }
+
+    /// Means over states that lie `each` steps apart, in a flow that a force per volume drives.
+    fn average(&self, flow: &mut super::Flow<'_>, force: f64, each: u64) -> anyhow::Result<Means> {
+        let (h, layers) = (f64::from(self.depth), self.layers() as usize);
+        let length = 4 * self.depth as usize;
+        let mut rows = 0;
+        let mut profile = vec![0.0; layers];
+        let mut bulk = Vec::new();
+        let mut reported = 0.0;
+        for _ in 0..=SAMPLES {
+            flow.advance(each)?;
+            let state = flow.state()?;
+            let u = &state.velocity[0];
+            rows = u.len() / length / layers;
+            let mut mean = 0.0;
+            for (row, values) in u.chunks(length).enumerate() {
+                let sum: f64 = values.iter().map(|u| f64::from(*u)).sum();
+                profile[row % layers] += sum;
+                mean += sum / u.len() as f64;
+            }
+            bulk.push(mean);
+            if self.model.is_some() {
+                let walls = flow.wall_stresses()?;
+                let sum: f64 = walls.iter().map(|wall| f64::from(wall.stress[0])).sum();
+                reported += sum / walls.len() as f64 / (SAMPLES + 1) as f64;
+            }
+        }
+        // The fluid loses what the force gives it and it does not keep.
+        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
+        let stress = h * (force - change);
+        let cells = (SAMPLES + 1) as f64 * (length * rows) as f64;
+        let mean = |y: usize| {
+            let both = match self.closed {
+                true => (profile[y] + profile[layers - 1 - y]) / 2.0,
+                false => profile[y],
+            };
+            both / cells / stress.sqrt()
+        };
+        let increases = (1..self.depth as usize).map(|y| mean(y) - mean(y - 1));
+        Ok(Means {
+            bulk: bulk.iter().sum::<f64>() / bulk.len() as f64 / stress.sqrt(),
+            reported: reported / stress,
+            first: mean(0),
+            least_increase: increases.fold(f64::INFINITY, f64::min),
+        })
+    }
 }

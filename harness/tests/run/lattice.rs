@@ -302,3 +302,42 @@ fn multiples_of_an_interval_do_not_drift_and_the_last_step_counts() {
     let dense = Schedule::new(Some(0.1), TIME_STEP, 11);
     assert!((0..=11).all(|step| dense.due(step)));
 }
+
+/// A law of the wall on the bed and on the step: its table, its surface and its line in the summary, over a restart too.
+#[test]
+fn walls_with_a_wall_model() {
+    let folder = folder("lattice_wall_model");
+    let text = STEP
+        .replace("viscosity = 1e-4", "viscosity = 1e-6")
+        .replace("wale\"", "wale\"\n    wall_model = \"reichardt\"")
+        .replace(
+            "y_min = { kind = \"wall\" }",
+            "y_min = { kind = \"wall\", roughness = 0.002 }",
+        )
+        .replace("name = \"step\"", "name = \"step\"\n    roughness = 0.001");
+    let summary = restarted(
+        &folder,
+        &text,
+        13,
+        &["walls.csv", "walls_000024.vtp", "fields_000024.vti"],
+    );
+    let walls = summary.wall_model.expect("the scene has a wall model");
+    // On the bed 22 × 4 faces lie off inlet and outlet, 6 of these rows beside the step or in it; two columns of the step's top
+    // have no edge, and its sides are too low.
+    assert!(walls.area_share > 0.5 && walls.area_share < 0.9, "{walls}");
+    assert!(
+        walls.y_plus_max > 50.0 && walls.stress_mean > 0.0,
+        "{walls}"
+    );
+    assert_contains(&summary, &["wall model on "]);
+    let table = folder.join("whole/walls.csv");
+    assert!(header(&table).starts_with("step,time,y_min_area,y_min_stress_x"));
+    let (bed, step) = (
+        column(&table, "y_min_stress_x"),
+        column(&table, "solids_stress_x"),
+    );
+    assert!(
+        bed.last() > Some(&0.0) && step.last() > Some(&0.0),
+        "{bed:?} {step:?}"
+    );
+}

@@ -148,6 +148,20 @@ impl WallModel {
         walls
     }
 
+    /// What the law says of a wall: the tangential velocity that it reads, the stress over the density, and the part of the model.
+    fn friction(
+        &self,
+        wall: &Wall,
+        domain: &Domain,
+        nu: f64,
+        u: &[[f64; 3]],
+    ) -> ([f64; 3], f64, f64) {
+        let sample = wall.layer(domain, 4).expect("five cells are fluid");
+        let along = wall.along(u[sample]);
+        let stress = self.stress(wall, domain, norm(along), 4.5, nu);
+        (along, stress, share(stress.sqrt(), nu))
+    }
+
     /// Least eddy viscosity of each cell: κ y u_τ, tapered over four cells, of the nearest wall.
     /// `blocks` says which cells a block was in; it may be empty.
     pub fn viscosity(&self, domain: &Domain, nu: f64, u: &[[f64; 3]], blocks: &[bool]) -> Vec<f64> {
@@ -158,13 +172,9 @@ impl WallModel {
             growing.retain(|(wall, blocked)| {
                 let cell = wall.layer(domain, layer).expect("five cells are fluid");
                 let own = taken.insert(cell);
-                if own {
-                    let y = layer as f64 + 0.5;
-                    let friction = self
-                        .stress(wall, domain, norm(wall.along(u[cell])), y, nu)
-                        .sqrt();
-                    let part = if *blocked { 0.0 } else { share(friction, nu) };
-                    found[cell] = taper * 0.4 * y * friction * part;
+                if own && !blocked {
+                    let (_, stress, part) = self.friction(wall, domain, nu, u);
+                    found[cell] = taper * 0.4 * (layer as f64 + 0.5) * stress.sqrt() * part;
                 }
                 own
             });
@@ -183,14 +193,11 @@ impl WallModel {
         f: &mut [[f64; Q]],
     ) {
         for (wall, blocked) in Self::walls(domain, blocks) {
-            let sample = wall.layer(domain, 3).expect("five cells are fluid");
-            let along = wall.along(u[sample]);
-            let speed = norm(along);
-            let stress = self.stress(&wall, domain, speed, 3.5, nu);
-            let part = share(stress.sqrt(), nu);
+            let (along, stress, part) = self.friction(&wall, domain, nu, u);
             if part == 0.0 || blocked {
                 continue;
             }
+            let speed = norm(along);
             let own = &mut f[wall.cell];
             let into = || (1..Q).filter(|&i| wall.is_into(i));
             let arriving = [0, 1, 2].map(|a| {

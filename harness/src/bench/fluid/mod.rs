@@ -163,10 +163,16 @@ fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Option<Target>> {
         ]
     };
     let guard = longer("mrt, guard");
+    let model = longer(variant::WALL_MODEL).zip(longer(variant::TWO_WALLS));
     all.extend([
         Target::at_most("MRT ≤ 1.1 BGK", longer("bgk").map(f64::recip), 1.1),
         Target::at_most("WALE ≤ 1.6 of the plain step", longer("mrt, WALE"), 1.6),
         Target::at_most("guard ≤ 1.01 of the plain step", guard, 1.01),
+        Target::at_most(
+            "wall model ≤ 1.08 of the step with walls on two sides",
+            model.map(|(model, walls)| model / walls),
+            1.08,
+        ),
     ]);
     all
 }

@@ -1,12 +1,18 @@
 //! The forms of the kernel that are measured, and which of them run side by side.
 
 use riprap::{
-    lattice::{Collision, Equilibrium, Face, Force, Grid, Memory, Setup, Storage, memory},
+    lattice::{
+        Collision, Equilibrium, Face, Force, Grid, Memory, Setup, Storage, WallModel, memory,
+    },
     wgpu,
 };
 
 /// The plain step, with which the others are compared: f32, Hermite MRT, nothing else.
 pub const PLAIN: &str = "mrt";
+/// Walls on two sides, without slip and with a wall model.
+pub const TWO_WALLS: &str = "mrt, WALE, two walls";
+/// See [`TWO_WALLS`].
+pub const WALL_MODEL: &str = "mrt, WALE, wall model";
 /// Streaming without collision.
 pub const STREAM_ONLY: &str = "stream only";
 
@@ -32,7 +38,7 @@ pub struct Group {
 type Change = fn(&mut Setup);
 
 /// What changes the plain step.
-const MAIN: [(&str, Change); 6] = [
+const MAIN: [(&str, Change); 8] = [
     ("bgk", |s| s.collision = Collision::Bgk),
     ("mrt, force", |s| s.force = FORCE),
     ("mrt, WALE", |s| s.wale = Some(0.5)),
@@ -40,6 +46,13 @@ const MAIN: [(&str, Change); 6] = [
     ("mrt, walls", |s| s.faces = walls()),
     ("all of these", |s| {
         (s.force, s.wale, s.max_speed, s.faces) = (FORCE, Some(0.5), 0.3, walls());
+    }),
+    (TWO_WALLS, |s| {
+        (s.wale, s.faces[2]) = (Some(0.5), walls()[2].clone());
+    }),
+    (WALL_MODEL, |s| {
+        (s.wale, s.faces[2]) = (Some(0.5), walls()[2].clone());
+        s.wall_model = Some(WallModel::WernerWengle);
     }),
 ];
 

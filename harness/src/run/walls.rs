@@ -1,0 +1,144 @@
+//! The friction of walls with a wall model over time: `walls.csv`, one row a time.
+
+use super::{recorder::Recorder, scene_run::SceneRun, summary::Summary, table::TimeTable};
+use crate::picture::Track;
+use riprap::{
+    scene::Face,
+    simulation::{WallFriction, WallFrictions},
+};
+use serde::Serialize;
+use std::{fmt, path::Path};
+
+/// What a wall model did, for the summary.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct WallModelSummary {
+    /// Part of the area of walls and solids at rest on which it acts.
+    pub area_share: f64,
+    /// Mean y⁺ of the first cell there at the end.
+    pub y_plus_mean: f64,
+    /// Largest.
+    pub y_plus_max: f64,
+    /// Mean magnitude of the stress, Pa, where the law gives all of it.
+    pub stress_mean: f64,
+}
+
+impl WallModelSummary {
+    /// Of the frictions at the end; none without a model.
+    pub fn of(frictions: &WallFrictions) -> Option<Self> {
+        let walls = &frictions.walls;
+        if walls.is_empty() {
+            return None;
+        }
+        let modelled = || walls.iter().filter(|wall| wall.share == 1.0);
+        let size = |wall: &WallFriction| wall.stress.iter().map(|s| s * s).sum::<f64>().sqrt();
+        Some(Self {
+            area_share: frictions.area_share,
+            y_plus_mean: mean(walls.iter().map(|wall| wall.y_plus)),
+            y_plus_max: walls.iter().map(|wall| wall.y_plus).fold(0.0, f64::max),
+            stress_mean: mean(modelled().map(size)),
+        })
+    }
+}
+
+impl fmt::Display for WallModelSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "  wall model on {:.1} % of the area of walls: y⁺ half a cell from them {:.1} on average, {:.1} at most, \
+             stress {:.3e} Pa; the others have no slip (corners, edges, gaps under five cells, open and moving faces)",
+            100.0 * self.area_share,
+            self.y_plus_mean,
+            self.y_plus_max,
+            self.stress_mean
+        )
+    }
+}
+
+/// 0 of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for value in values {
+        sum += value;
+        count += 1.0;
+    }
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// A row of the table: of each face of the domain that has the model, and of the solids, the columns of [`columns`].
+fn row(frictions: &WallFrictions, places: &[Option<Face>]) -> Vec<f64> {
+    let of = |place: &Option<Face>| {
+        let own = || {
+            frictions
+                .walls
+                .iter()
+                .filter(move |wall| wall.face == *place)
+        };
+        let [x, y, z] = [0, 1, 2].map(|axis| mean(own().map(|wall| wall.stress[axis])));
+        let u = mean(own().map(|wall| wall.friction_velocity));
+        let y_plus = mean(own().map(|wall| wall.y_plus));
+        let largest = own().map(|wall| wall.y_plus).fold(0.0, f64::max);
+        let area = own().count() as f64 * frictions.cell * frictions.cell;
+        [area, x, y, z, u, y_plus, largest]
+    };
+    places.iter().flat_map(of).collect()
+}
+
+fn columns(places: &[Option<Face>]) -> Vec<String> {
+    let names = [
+        "area",
+        "stress_x",
+        "stress_y",
+        "stress_z",
+        "friction_velocity",
+        "y_plus",
+        "y_plus_max",
+    ];
+    let of = |place: &Option<Face>| {
+        let place = place.map_or("solids", Face::name);
+        names.map(|name| format!("{place}_{name}"))
+    };
+    places.iter().flat_map(of).collect()
+}
+
+/// What writes the table; none without a model.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn recorder(
+    run: &SceneRun,
+    folder: &Path,
+    last: u64,
+) -> riprap::Result<Option<Box<dyn Recorder>>> {
+    let places = run.simulation.wall_places();
+    if places.is_empty() {
+        return Ok(None);
+    }
+    let columns = columns(&places);
+    let stresses: Vec<_> = columns
+        .iter()
+        .filter(|name| name.contains("_stress_"))
+        .collect();
+    let stresses: Vec<_> = stresses.into_iter().map(String::as_str).collect();
+    let table = TimeTable {
+        name: "walls".into(),
+        every: run.scene().output.every,
+        tracks: vec![Track::new("mean stress", "Pa", &stresses)],
+        title: format!("{}: friction of walls", run.scene().title),
+        columns: columns.clone(),
+    };
+    let rows = move |run: &mut SceneRun, _: &mut _| Ok(vec![row(&run.wall_friction()?, &places)]);
+    Ok(Some(table.recorder(run, folder, last, rows)?))
+}
+
+impl SceneRun {
+    /// Adds what the wall model did to the summary.
+    pub(super) fn report_wall_model(&mut self, summary: &mut Summary) {
+        match self.wall_friction() {
+            Ok(found) => summary.wall_model = WallModelSummary::of(&found),
+            Err(error) => {
+                let message = format!("the friction of walls is not known: {error}");
+                summary.warnings.push(message);
+            }
+        }
+    }
+}

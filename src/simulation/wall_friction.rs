@@ -1,0 +1,143 @@
+//! What walls with a wall model received, in SI.
+
+use super::{Simulation, lattice_fluid::LatticeFluid};
+use crate::{
+    Result,
+    lattice::{WallCell, WallStress, in_plane},
+    output::{Array, Surface},
+    scene::{Axis, Face},
+};
+use std::collections::HashSet;
+
+/// Friction on a wall beside a cell, in the last step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallFriction {
+    /// Centre of the face of the cell that is the wall, m.
+    pub position: [f64; 3],
+    /// Unit normal into the fluid.
+    pub normal: [f64; 3],
+    /// The face of the domain that is this wall; none: a solid.
+    pub face: Option<Face>,
+    /// Stress along the wall, Pa. Where there is no slip it alternates from step to step at low viscosity.
+    pub stress: [f64; 3],
+    /// Friction velocity u_τ by the law of the wall, m/s.
+    pub friction_velocity: f64,
+    /// u_τ y/ν at the centre of the cell.
+    pub y_plus: f64,
+    /// The part of the stress that is the law's: 0 without slip, 1 all of it.
+    pub share: f64,
+}
+
+/// The wall model of a scene: what it acts on, and the friction there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WallFrictions {
+    /// Each wall beside a cell; the edge of a cell squared is its area.
+    pub walls: Vec<WallFriction>,
+    /// Edge of a cell, m.
+    pub cell: f64,
+    /// Part of the area of walls and solids at rest that these are; corners, edges, gaps under five cells and cells at open or
+    /// moving faces have no slip.
+    pub area_share: f64,
+}
+
+impl Simulation {
+    /// The friction on walls with a wall model; empty without one, and before the second step.
+    ///
+    /// # Errors
+    /// If the scene has no fluid on a lattice, or the device is lost.
+    pub async fn wall_friction(&mut self) -> Result<WallFrictions> {
+        let fluid = self.lattice_fluid()?;
+        let stresses = fluid
+            .lattice
+            .wall_stresses(&fluid.device, &fluid.queue)
+            .await?;
+        let walls = &fluid.lattice.geometry().walls;
+        let each = walls.cells.iter().zip(&stresses);
+        Ok(WallFrictions {
+            walls: each
+                .map(|(wall, stress)| fluid.wall_friction(wall, stress))
+                .collect(),
+            cell: fluid.units.cell,
+            area_share: walls.cells.len() as f64 / (walls.area.max(1)) as f64,
+        })
+    }
+}
+
+impl Simulation {
+    /// The faces of the domain that have a wall model somewhere, and none for solids; empty without one.
+    pub fn wall_places(&self) -> Vec<Option<Face>> {
+        let Ok(fluid) = self.lattice_fluid() else {
+            return Vec::new();
+        };
+        let walls = &fluid.lattice.geometry().walls.cells;
+        let place = |wall: &WallCell| fluid.wall_friction(wall, &WallStress::default()).face;
+        let found: HashSet<_> = walls.iter().map(place).collect();
+        let faces = Face::ALL.into_iter().map(Some).chain([None]);
+        faces.filter(|place| found.contains(place)).collect()
+    }
+}
+
+impl LatticeFluid {
+    fn wall_friction(&self, wall: &WallCell, received: &WallStress) -> WallFriction {
+        let (units, grid) = (&self.units, self.lattice.grid());
+        let (axis, side) = (wall.face as usize / 2, wall.face as usize % 2);
+        let cell = grid.padded_cell(wall.cell);
+        let mut normal = [0.0; 3];
+        normal[axis] = [1.0, -1.0][side];
+        let mut position = self.scene.centre(cell);
+        position[axis] -= 0.5 * units.cell * normal[axis];
+        let mut stress = [0.0; 3];
+        let (a, b) = in_plane(axis);
+        for (axis, value) in [a, b].into_iter().zip(received.stress) {
+            stress[axis] = units.stress_from_lattice(f64::from(value));
+        }
+        let friction_velocity = units.velocity_from_lattice(f64::from(received.friction));
+        let at_end = cell[axis] == [0, grid.cells[axis] - 1][side];
+        let faces = self.scene.boundaries.iter();
+        let mut own = faces.filter(|(face, _)| {
+            face.axis() == Axis::ALL[axis] && usize::from(face.is_max()) == side
+        });
+        WallFriction {
+            position,
+            normal,
+            face: own
+                .next()
+                .filter(|_| at_end && !self.lattice.setup().periodic_axes()[axis])
+                .map(|(face, _)| face),
+            stress,
+            friction_velocity,
+            y_plus: friction_velocity * 0.5 * units.cell / self.scene.fluid.viscosity,
+            share: received.share.into(),
+        }
+    }
+}
+
+/// The walls as squares with the vector of the stress (Pa), u_τ (m/s), y⁺ and the part of the model.
+pub fn wall_surface(frictions: &WallFrictions) -> Surface {
+    let half = 0.5 * frictions.cell;
+    let walls = &frictions.walls;
+    let square = |wall: &WallFriction| {
+        let axis = wall.normal.iter().position(|n| *n != 0.0).unwrap_or(2);
+        let (a, b) = in_plane(axis);
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[i, j]| {
+                let mut corner = wall.position;
+                corner[a] += i * half;
+                corner[b] += j * half;
+                corner
+            })
+            .to_vec()
+    };
+    Surface {
+        polygons: walls.iter().map(square).collect(),
+        arrays: vec![
+            Array::vectors("stress", walls.iter().map(|wall| wall.stress.into())),
+            Array::scalars(
+                "friction_velocity",
+                walls.iter().map(|wall| wall.friction_velocity),
+            ),
+            Array::scalars("y_plus", walls.iter().map(|wall| wall.y_plus)),
+            Array::scalars("model_share", walls.iter().map(|wall| wall.share)),
+        ],
+    }
+}

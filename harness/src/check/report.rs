@@ -66,6 +66,10 @@ pub struct Cells {
     pub moving: u64,
     /// Cells at pressure faces.
     pub open: u64,
+    /// Faces of fluid cells that are walls or solids at rest.
+    pub wall_faces: u64,
+    /// Those with a wall model.
+    pub modelled_faces: u64,
 }
 
 /// Bytes on the device.
@@ -203,6 +207,8 @@ impl Cells {
             links: geometry.links.len() as u64,
             moving: geometry.moving.len() as u64,
             open: open.sum(),
+            wall_faces: geometry.walls.area,
+            modelled_faces: geometry.walls.cells.len() as u64,
         }
     }
 }
@@ -334,6 +340,16 @@ impl Report {
                 cells.links, cells.moving, cells.open
             ),
         );
+        if cells.modelled_faces > 0 {
+            let share = 100.0 * cells.modelled_faces as f64 / cells.wall_faces as f64;
+            lines.add(
+                "wall model",
+                format_args!(
+                    "on {share:.1} % of the area of walls at rest; no slip at edges, in corners, in gaps under five cells, \
+                     and beside open and moving faces"
+                ),
+            );
+        }
     }
 
     fn memory(&self, lines: &mut Lines) {

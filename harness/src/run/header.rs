@@ -95,13 +95,17 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
         (None, None) => "published odd rates everywhere".into(),
     };
     eprintln!(
-        "  kernel    {:?}, {:?}, {:?} storage, {} lanes, {odd}{}",
+        "  kernel    {:?}, {:?}, {:?} storage, {} lanes, {odd}{}{}",
         setup.collision,
         setup.equilibrium,
         setup.storage,
         setup.lanes,
         match setup.wale {
             Some(constant) => format!(", WALE {constant}"),
+            None => String::new(),
+        },
+        match setup.wall_model {
+            Some(model) => format!(", walls by {model:?}"),
             None => String::new(),
         }
     );

@@ -164,6 +164,9 @@ pub fn describe(setup: &Setup) -> String {
     if let Some(constant) = setup.wale {
         text += &format!(" wale {constant}");
     }
+    if let Some(model) = setup.wall_model {
+        text += &format!(" walls {model:?}");
+    }
     if let Some(lambda) = setup.lambda {
         text += &format!(" Λ {lambda}");
     }

@@ -303,7 +303,7 @@ impl Geometry {
 }
 
 impl Survey<'_> {
-    pub(super) fn is_solid(&self, cell: [u32; 3]) -> bool {
+    fn is_solid(&self, cell: [u32; 3]) -> bool {
         let solid = &self.setup.solid;
         !solid.is_empty() && solid[self.grid.index(cell)]
     }

@@ -172,7 +172,7 @@ mod tests {
         };
         // Another version stays refused however old the file.
         for (bytes, version) in [
-            (changed(MAGIC.len(), 7), "version 7"),
+            (changed(MAGIC.len(), 8), "version 8"),
             (b"riprap state  4\nrest".to_vec(), "version 4"),
             (b"riprap rocks  2\n".to_vec(), "version 2"),
             (b"riprap water  5\n".to_vec(), "version 5"),

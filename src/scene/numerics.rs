@@ -6,7 +6,6 @@ use serde::Deserialize;
 use super::Scene;
 use super::rules::{positive, refuse};
 use crate::error::Result;
-use crate::lattice::MAX_ROUGHNESS;
 
 /// Collision, precision and time step.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -237,17 +236,7 @@ impl Scene {
                 "walls without a wall model are smooth; set numerics.wall_model, or remove `roughness`",
             );
         }
-        let largest = MAX_ROUGHNESS * self.domain.cell;
-        if !(0.0..=largest).contains(&roughness) {
-            return refuse(
-                key,
-                format!(
-                    "is {roughness} m; the log law of rough walls holds from 0 to {MAX_ROUGHNESS} cells, {largest:.3e} m here: \
-                     larger roughness is a shape that the grid resolves"
-                ),
-            );
-        }
-        Ok(())
+        positive(key, roughness, "m")
     }
 
     fn check_lanes(&self) -> Result<()> {

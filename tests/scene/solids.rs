@@ -4,8 +4,10 @@ use std::fs::{self, File};
 use std::path::PathBuf;
 
 use glam::DVec3;
+use kit::assert_near;
 use riprap::Result;
-use riprap::scene::Scene;
+use riprap::scene::{Scene, build::lattice_setup};
+use riprap::units::Units;
 use riprap::{
     geometry::{TriangleMesh, WindingTree},
     scene::static_solids::Mask,
@@ -399,4 +401,46 @@ fn a_mask_has_no_cells_outside_of_its_grid() {
     assert!(mask.is_solid([1, 2, 3]));
     let told = Mask::new([u32::MAX; 3]).unwrap_err().to_string();
     assert!(told.contains("domain.cell"), "{told}");
+}
+
+/// The log law of rough walls needs them lower than some cells.
+#[test]
+fn roughness_of_walls_and_solids_has_a_bound() {
+    let setup = |face: f64, solid: f64| {
+        let scene = channel(&format!(
+            "
+            [numerics]
+            eddy_viscosity = \"wale\"
+            wall_model = \"reichardt\"
+            velocity_scale = 1
+            [boundaries]
+            y_min = {{ kind = \"wall\", roughness = {face} }}
+            y_max = {{ kind = \"wall\" }}
+            [[solids]]
+            kind = \"box\"
+            min = [0, 0, 0]
+            max = [2e-3, 2e-3, 2e-3]
+            roughness = {solid}
+            "
+        ))
+        .unwrap();
+        let units = Units::of(&scene).unwrap();
+        (lattice_setup(&scene, &units, None), units.cell)
+    };
+    let (made, cell) = setup(2e-4, 1e-4);
+    let made = made.unwrap();
+    assert_near(made.wall_roughness[1][0], 2e-4 / cell, 1e-12);
+    assert_eq!(made.wall_roughness[1][1], 0.0);
+    let rough = made.solid_roughness.iter().filter(|k| **k > 0.0).count();
+    assert_eq!(rough, made.solid.iter().filter(|solid| **solid).count());
+    for (face, solid, key) in [
+        (1.0, 0.0, "boundaries.y_min.roughness"),
+        (0.0, 1.0, "solids[0].roughness"),
+    ] {
+        let refused = setup(face, solid).0.unwrap_err().to_string();
+        assert!(
+            refused.contains(key) && refused.contains("5 cells"),
+            "{refused}"
+        );
+    }
 }

@@ -4,7 +4,8 @@ use crate::{
     Error, Result,
     gpu::Processor,
     lattice::{
-        Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
+        Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
+        Storage, WallModel,
     },
     scene::{self, BodyForce, Boundary, Numerics, Scene},
     units::{SOUND_SPEED_SQUARED, Units},
@@ -106,7 +107,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
                 velocity,
                 roughness,
             } => {
-                setup.wall_roughness[face.axis().index()][side] = roughness / units.cell;
+                let key = || format!("boundaries.{}", face.name());
+                setup.wall_roughness[face.axis().index()][side] =
+                    roughness_to_lattice(*roughness, units, key)?;
                 Face::Wall(velocity.map(|v| units.velocity_to_lattice(v)))
             }
             Boundary::FreeSlip => Face::FreeSlip,
@@ -138,6 +141,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         let mask = scene.solid_mask()?;
         if mask.solid_count() > 0 {
             setup.solid = mask.as_slice().iter().map(|&s| s != 0).collect();
+            for (index, solid) in scene.solids.iter().enumerate() {
+                roughness_to_lattice(solid.roughness, units, || format!("solids[{index}]"))?;
+            }
             let roughness = scene.solid_roughness()?.into_iter();
             setup.solid_roughness = roughness.map(|k| (k / units.cell) as f32).collect();
         }
@@ -152,6 +158,22 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         setup.lanes = preferred[1];
     }
     Ok(setup)
+}
+
+/// Roughness of a wall, m → cells; refused where the law of a rough wall does not hold.
+fn roughness_to_lattice(roughness: f64, units: &Units, key: impl Fn() -> String) -> Result<f64> {
+    let cells = roughness / units.cell;
+    if cells <= MAX_ROUGHNESS {
+        return Ok(cells);
+    }
+    Err(Error::scene(
+        format!("{}.roughness", key()),
+        format!(
+            "is {roughness} m; the log law of rough walls holds up to {MAX_ROUGHNESS} cells, {:.3e} m here: larger roughness is \
+             a shape that the grid resolves",
+            MAX_ROUGHNESS * units.cell
+        ),
+    ))
 }
 
 /// Velocity of a face at the time `t` (s), lattice units.

@@ -53,7 +53,7 @@ pub struct Summary {
     pub checkpoint: Option<PathBuf>,
     /// Its step.
     pub checkpoint_step: Option<u64>,
-    /// Largest y⁺ half a cell from a wall or solid at the end, if there is one: see
+    /// Largest y⁺ half a cell from a wall or solid without a wall model at the end, if there is one: see
     /// [`riprap::simulation::WallUnits`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_plus_walls: Option<f64>,
@@ -161,7 +161,11 @@ impl fmt::Display for Summary {
         if let Some(lattice) = &self.lattice {
             writeln!(f, "{lattice}")?;
         }
-        for (what, y_plus) in [("walls", self.y_plus_walls), ("blocks", self.y_plus_blocks)] {
+        let walls = match self.wall_model {
+            Some(_) => "walls without the wall model",
+            None => "walls",
+        };
+        for (what, y_plus) in [(walls, self.y_plus_walls), ("blocks", self.y_plus_blocks)] {
             if let Some(y_plus) = y_plus {
                 writeln!(f, "  largest y⁺ half a cell from {what}: {y_plus:.2}")?;
             }

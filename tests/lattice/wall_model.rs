@@ -3,7 +3,10 @@
 use crate::kernels::assert_equal_to_twin;
 use kit::{
     Rig, assert_near,
-    twin::of_setup::{layouts, noise},
+    twin::{
+        WallLaw,
+        of_setup::{layouts, noise},
+    },
 };
 use riprap::lattice::{Face, Force, Setup, State, WallModel};
 
@@ -132,4 +135,16 @@ fn the_fluid_loses_what_the_walls_receive() {
         }
         before = Some(momentum);
     }
+}
+
+/// Of both laws to u⁺ = ln(y⁺)/0.384 + 4.27.
+#[test]
+fn laws_are_near_the_log_law() {
+    let farthest = |law: WallLaw, from: f64, to: f64| {
+        let heights = (0..=200).map(|n| from * (to / from).powf(f64::from(n) / 200.0));
+        let error = |y: f64| (law.speed(y) / (y.ln() / 0.384 + 4.27) - 1.0).abs();
+        heights.map(error).fold(0.0, f64::max)
+    };
+    assert!(farthest(WallLaw::WernerWengle, 30.0, 2500.0) < 0.03);
+    assert!(farthest(WallLaw::Reichardt, 100.0, 1e8) < 0.01);
 }

@@ -114,11 +114,8 @@ pub fn recorder(
         return Ok(None);
     }
     let columns = columns(&places);
-    let stresses: Vec<_> = columns
-        .iter()
-        .filter(|name| name.contains("_stress_"))
-        .collect();
-    let stresses: Vec<_> = stresses.into_iter().map(String::as_str).collect();
+    let names = columns.iter().map(String::as_str);
+    let stresses: Vec<_> = names.filter(|name| name.contains("_stress_")).collect();
     let table = TimeTable {
         name: "walls".into(),
         every: run.scene().output.every,

@@ -59,7 +59,7 @@ fn norm(u: [f64; 3]) -> f64 {
 
 impl WallLaw {
     /// u⁺ at y⁺.
-    fn speed(self, y: f64) -> f64 {
+    pub fn speed(self, y: f64) -> f64 {
         let k: f64 = 0.384;
         match self {
             Self::WernerWengle if y <= 11.81 => y,

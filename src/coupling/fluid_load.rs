@@ -126,6 +126,11 @@ impl LoadAverage {
         self.last = Some((step, loads));
     }
 
+    /// Keeps the loads of a step for the mean with those of the next one.
+    pub fn store(&mut self, step: u64, loads: Vec<Load>) {
+        self.last = Some((step, loads));
+    }
+
     /// The mean since the last call, and starts a new one; the last loads if no mean has been added.
     pub fn take(&mut self) -> Option<Vec<Load>> {
         if self.steps == 0 {

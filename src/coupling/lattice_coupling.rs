@@ -163,19 +163,25 @@ impl LatticeCoupling {
         self.load_readback.record(device, encoder, sums, step);
     }
 
-    /// Waits for the recorded loads and adds them to the average since the last exchange.
+    /// Waits for the recorded loads and adds them to the average since the last exchange: all of them where a block is `moving`, else
+    /// those of the last step alone, so that what is written does not depend on where the steps before it were divided.
     ///
     /// # Errors
     /// If the device is lost.
-    pub async fn read_loads(&mut self) -> Result<()> {
-        for (step, sums) in self.load_readback.finish().await? {
+    pub async fn read_loads(&mut self, moving: bool) -> Result<()> {
+        let recorded = self.load_readback.finish().await?;
+        let last = recorded.last().map_or(0, |(step, _)| *step);
+        for (step, sums) in recorded {
             let poses = self.placed.iter().flatten();
             let flow = |(load, pose): (Load, &Pose)| {
                 add_loads(load, self.ambient.entrained_weight(&load, pose.centre))
             };
             let loads = self.cells.loads(&sums)?.into_iter().zip(poses);
-            self.load_average
-                .add(step, loads.map(flow).collect(), self.average);
+            let loads = loads.map(flow).collect();
+            match moving || step == last {
+                true => self.load_average.add(step, loads, self.average),
+                false => self.load_average.store(step, loads),
+            }
         }
         self.read_faces().await
     }
@@ -233,7 +239,7 @@ impl LatticeCoupling {
     /// # Errors
     /// If the device is lost.
     pub async fn state(&mut self) -> Result<CouplingState> {
-        self.read_loads().await?;
+        self.read_loads(true).await?;
         Ok(CouplingState {
             load_average: self.load_average.clone(),
             tiled: self.cells.tiled(),

@@ -81,9 +81,9 @@ impl Image {
         let count = self.cell_count();
         self.arrays.iter().find_map(|array| {
             let wants = count * array.components;
-            if array.components != 1 && array.components != 3 {
+            if ![1, 3, 6].contains(&array.components) {
                 Some(format!(
-                    "array {} has {} components; give 1 for a scalar or 3 for a vector",
+                    "array {} has {} components; give 1 for a scalar, 3 for a vector or 6 for a symmetric tensor",
                     array.name, array.components
                 ))
             } else if array.values.len() != wants {

@@ -23,10 +23,12 @@
 
 mod csv;
 mod image;
+mod series;
 mod vtk;
 
 pub use csv::{Csv, Table};
 pub use image::{Array, Image, VelocityQuantities};
+pub use series::Series;
 pub use vtk::{Cloud, Polyhedra, Pvd, Surface, write_surface, write_vti, write_vtp, write_vtu};
 
 use crate::{Error, Result};

@@ -54,6 +54,7 @@ mod run;
 mod sample;
 mod solids;
 pub mod static_solids;
+mod statistics;
 mod suspicious_keys;
 mod tagged;
 mod views;
@@ -89,6 +90,7 @@ pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::{Kernels, Run};
 pub use sample::{BodyForce, InitialFields, StartPressure};
 pub use solids::{Shape, Solid};
+pub use statistics::Statistics;
 pub use views::{View, ViewSlice};
 
 /// A fluid, blocks of rock, or both, in SI units.
@@ -151,6 +153,9 @@ pub struct Scene {
     /// Measurements. Default none.
     #[serde(default)]
     pub probes: Vec<Probe>,
+    /// Means and fluctuations over time. Default none.
+    #[serde(default)]
+    pub statistics: Option<Statistics>,
     /// Pictures in space, of the blocks and of the fluid. Default none.
     #[serde(default)]
     pub views: Vec<View>,
@@ -248,6 +253,7 @@ impl Scene {
         self.check_solids()?;
         self.check_initial()?;
         self.check_run()?;
+        self.check_statistics()?;
         self.check_output()?;
         self.check_probes()?;
         self.check_rock()?;

@@ -57,6 +57,16 @@ pub enum Field {
     Vorticity,
     /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
     Solid,
+    /// Mean of the velocity over time, m/s; this and those below need `statistics`, and are NaN before its first sample.
+    MeanVelocity,
+    /// Mean of the pressure over time, Pa.
+    MeanPressure,
+    /// Root mean square of the fluctuations of the pressure, Pa.
+    PressureRms,
+    /// Mean products of the fluctuations of the velocity, xx, yy, zz, xy, yz and xz, m²/s².
+    ReynoldsStress,
+    /// Half the trace of these, m²/s².
+    TurbulentKineticEnergy,
 }
 
 impl Field {
@@ -70,25 +80,48 @@ impl Field {
             Self::QCriterion => "q_criterion",
             Self::Vorticity => "vorticity",
             Self::Solid => "solid",
+            Self::MeanVelocity => "mean_velocity",
+            Self::MeanPressure => "mean_pressure",
+            Self::PressureRms => "pressure_rms",
+            Self::ReynoldsStress => "reynolds_stress",
+            Self::TurbulentKineticEnergy => "turbulent_kinetic_energy",
         }
     }
 
-    /// 1 for a scalar, 3 for a vector.
+    /// 1 for a scalar, 3 for a vector, 6 for a symmetric tensor.
     pub fn components(self) -> usize {
         match self {
-            Self::Velocity | Self::Vorticity => 3,
+            Self::Velocity | Self::Vorticity | Self::MeanVelocity => 3,
+            Self::ReynoldsStress => 6,
             _ => 1,
         }
     }
 
-    /// Its columns in a table: the name, for a vector with `_x`, `_y`, `_z`.
+    /// Its columns in a table: the name, for a vector with `_x`, `_y`, `_z`, for a tensor with `_xx` to `_xz`.
     pub fn columns(self) -> Vec<String> {
+        let with = |parts: &[&str]| {
+            parts
+                .iter()
+                .map(|part| format!("{}_{part}", self.name()))
+                .collect()
+        };
         match self.components() {
             1 => vec![self.name().into()],
-            _ => Axis::ALL
-                .map(|axis| format!("{}_{}", self.name(), axis.name()))
-                .into(),
+            3 => with(&["x", "y", "z"]),
+            _ => with(&["xx", "yy", "zz", "xy", "yz", "xz"]),
         }
+    }
+
+    /// Whether it is over time.
+    pub fn is_statistical(self) -> bool {
+        matches!(
+            self,
+            Self::MeanVelocity
+                | Self::MeanPressure
+                | Self::PressureRms
+                | Self::ReynoldsStress
+                | Self::TurbulentKineticEnergy
+        )
     }
 }
 
@@ -108,6 +141,32 @@ pub enum SliceField {
     QCriterion,
     /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
     Solid,
+    /// Magnitude of the mean velocity, m/s; this and those below need `statistics`.
+    MeanSpeed,
+    /// Mean of the pressure, Pa.
+    MeanPressure,
+    /// Root mean square of the fluctuations of the pressure, Pa.
+    PressureRms,
+    /// Half the mean square of the fluctuations of the velocity, m²/s².
+    TurbulentKineticEnergy,
+}
+
+impl SliceField {
+    /// The field that it is taken from.
+    pub fn field(self) -> Field {
+        match self {
+            Self::Speed => Field::Velocity,
+            Self::Pressure => Field::Pressure,
+            Self::Density => Field::Density,
+            Self::EddyViscosity => Field::EddyViscosity,
+            Self::QCriterion => Field::QCriterion,
+            Self::Solid => Field::Solid,
+            Self::MeanSpeed => Field::MeanVelocity,
+            Self::MeanPressure => Field::MeanPressure,
+            Self::PressureRms => Field::PressureRms,
+            Self::TurbulentKineticEnergy => Field::TurbulentKineticEnergy,
+        }
+    }
 }
 
 /// A PNG picture of a plane of the domain.
@@ -288,6 +347,7 @@ impl Scene {
             "output.fields",
             output.fields.contains(&Field::EddyViscosity),
         )?;
+        self.check_statistical("output.fields", &output.fields)?;
         let named = output.slices.iter().map(|slice| slice.name.as_str());
         names("output.slices", named.enumerate())?;
         for (index, slice) in output.slices.iter().enumerate() {
@@ -326,6 +386,7 @@ impl Scene {
         range: Option<[f64; 2]>,
     ) -> Result<()> {
         self.check_eddy(&format!("{key}.field"), field == SliceField::EddyViscosity)?;
+        self.check_statistical(&format!("{key}.field"), &[field.field()])?;
         if let Some(range) = range {
             finite(format!("{key}.range"), &range)?;
             if range[0] >= range[1] {

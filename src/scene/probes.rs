@@ -26,7 +26,7 @@ pub struct Probe {
     #[serde(default = "usual_fields")]
     #[schemars(default = "Vec::<Field>::new")]
     pub fields: Vec<Field>,
-    /// Time between measurements, s. Default: only at the end of the run.
+    /// Time between measurements, s. Default: only at the end of the run. With `statistics`, these are its samples.
     #[serde(default)]
     pub every: Option<f64>,
 }
@@ -208,20 +208,35 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             self.check_probe(&format!("probes[{index}]"), probe)?;
         }
-        let asks = |probe: &&Probe| matches!(probe.place, ProbePlace::Block { faces: true, .. });
-        for asking in self.probes.iter().filter(asks) {
-            let faces = format!("{}_faces", asking.name);
-            if let Some(index) = self.probes.iter().position(|probe| probe.name == faces) {
+        for (index, probe) in self.probes.iter().enumerate() {
+            let owner = |other: &&Probe| self.tables_of(other).contains(&probe.name);
+            if let Some(owner) = self.probes.iter().find(owner) {
                 return refuse(
                     format!("probes[{index}].name"),
                     format!(
-                        "`{faces}` is the table of the faces of `{}`; give it another name",
-                        asking.name
+                        "`{}` is a further table of `{}`; give it another name",
+                        probe.name, owner.name
                     ),
                 );
             }
         }
         Ok(())
+    }
+
+    /// The names of the tables that a probe has beside its own.
+    fn tables_of(&self, probe: &Probe) -> Vec<String> {
+        let mut tables = Vec::new();
+        if matches!(probe.place, ProbePlace::Block { faces: true, .. }) {
+            tables.push(format!("{}_faces", probe.name));
+        }
+        if self.statistics.is_some() && probe.every.is_some() {
+            let with = |name: &String| format!("{name}_statistics");
+            let of_faces: Vec<_> = tables.iter().map(with).collect();
+            tables.extend(of_faces);
+            let further = ["statistics", "spectrum", "correlation"];
+            tables.extend(further.map(|table| format!("{}_{table}", probe.name)));
+        }
+        tables
     }
 
     fn check_probe(&self, key: &str, probe: &Probe) -> Result<()> {
@@ -231,6 +246,7 @@ impl Scene {
             &format!("{key}.fields"),
             probe.fields.contains(&Field::EddyViscosity),
         )?;
+        self.check_statistical(&format!("{key}.fields"), &probe.fields)?;
         let within = |part: &str, point| inside(format!("{key}.{part}"), &self.domain, point);
         match &probe.place {
             ProbePlace::Point { at } => within("at", *at),

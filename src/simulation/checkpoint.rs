@@ -10,7 +10,7 @@ use crate::{
     geometry::Load,
     lattice::{Inside, Populations},
     scene::Scene,
-    simulation::Reading,
+    simulation::{Reading, SamplingState},
     sph::{Particle, SphState},
 };
 use glam::DVec3;
@@ -86,6 +86,8 @@ pub struct LatticeState {
     pub inside: Inside,
     /// The coupling to blocks, if there are any.
     pub coupling: Option<CouplingState>,
+    /// The statistics of fields, if the scene shows some.
+    pub sampling: Option<SamplingState>,
 }
 
 /// The state of free water.

@@ -109,7 +109,9 @@ impl LatticeFluid {
             let rate = units.rate_from_lattice(1.0) as f32;
             let values = match field {
                 Field::Velocity => state.as_ref().map_or_else(Vec::new, |state| {
-                    interleave(&state.velocity, units.velocity_from_lattice(1.0) as f32)
+                    let speed = units.velocity_from_lattice(1.0) as f32;
+                    let scaled = |values: &Vec<f32>| values.iter().map(|u| u * speed).collect();
+                    side_by_side(&state.velocity.each_ref().map(scaled))
                 }),
                 Field::Pressure => {
                     // p is linear in ρ − 1; going through ρ in f32 would lose three digits.
@@ -132,9 +134,16 @@ impl LatticeFluid {
                     for (axis, part) in (0..).zip(&mut parts) {
                         *part = self.derived(Derived::Vorticity(axis), rate, cells).await?;
                     }
-                    interleave(&parts, 1.0)
+                    side_by_side(&parts)
                 }
                 Field::Solid => self.solid_values(self.coupled(rock), cells),
+                Field::MeanVelocity
+                | Field::MeanPressure
+                | Field::PressureRms
+                | Field::ReynoldsStress
+                | Field::TurbulentKineticEnergy => {
+                    side_by_side(&self.statistic(field, cells).await?)
+                }
             };
             arrays.push(Array {
                 name: field.name().into(),
@@ -176,10 +185,11 @@ impl LatticeFluid {
     }
 }
 
-/// Three components, side by side for each cell.
-fn interleave([x, y, z]: &[Vec<f32>; 3], scale: f32) -> Vec<f32> {
-    let each = x.iter().zip(y).zip(z);
-    each.flat_map(|((x, y), z)| [x * scale, y * scale, z * scale])
+/// Components, side by side for each cell.
+fn side_by_side(components: &[Vec<f32>]) -> Vec<f32> {
+    let cells = 0..components.first().map_or(0, Vec::len);
+    cells
+        .flat_map(|cell| components.iter().map(move |values| values[cell]))
         .collect()
 }
 

@@ -1,6 +1,9 @@
 //! A fluid on a lattice, with the cells of the blocks that are in it.
 
-use super::checkpoint::{LatticeState, differ, other_scene};
+use super::{
+    checkpoint::{LatticeState, differ, other_scene},
+    statistics::Sampling,
+};
 use crate::{
     Error, Result,
     coupling::{
@@ -32,6 +35,8 @@ pub(super) struct LatticeFluid {
     time_dependent_faces: Vec<Face>,
     /// The coupling to the blocks in it, if there are any.
     coupling: Option<LatticeCoupling>,
+    /// Statistics of fields over time, if the scene shows some.
+    pub sampling: Option<Sampling>,
     /// Times of the phases of a step, if requested.
     pub phases: Option<Phases>,
 }
@@ -56,6 +61,7 @@ impl LatticeFluid {
             let mut lattice =
                 Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
             let observer = Observer::new(device, &lattice)?;
+            let sampling = Sampling::new(device, (scene, units.time_step), &lattice, &observer)?;
             let mut advice = Advice::new();
             let mut blocks = None;
             if scene.has_blocks() {
@@ -71,10 +77,10 @@ impl LatticeFluid {
             lattice
                 .start(device, queue, &start, true)
                 .map_err(|error| error.at_key(lattice_key))?;
-            Ok((lattice, observer, blocks, advice))
+            Ok((lattice, observer, sampling, blocks, advice))
         };
         let (made, refused) = refused(device, make).await;
-        let (lattice, observer, blocks, advice) = made?;
+        let (lattice, observer, sampling, blocks, advice) = made?;
         if let Some(error) = refused {
             let bytes: u64 = lattice.bytes().iter().map(|(_, bytes)| bytes).sum();
             return Err(Error::Device(format!(
@@ -93,6 +99,7 @@ impl LatticeFluid {
             lattice,
             observer,
             coupling,
+            sampling,
             phases: None,
         };
         Ok((fluid, rock, advice))
@@ -196,6 +203,7 @@ impl LatticeFluid {
     async fn exchange(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
+        interval: ExchangeInterval,
         faces: bool,
     ) -> Result<Option<Vec<FluidLoad>>> {
         let step = self.lattice.step() + 1;
@@ -217,13 +225,15 @@ impl LatticeFluid {
             return Ok(None);
         };
         let start = self.phases.is_some().then(Instant::now);
-        coupling.read_loads().await?;
+        let moving = matches!(interval, ExchangeInterval::Awake { .. });
+        coupling.read_loads(moving).await?;
         if let (Some(phases), Some(start)) = (&mut self.phases, start) {
             phases.add("readback wait", start.elapsed().as_secs_f64());
             phases.collect(&self.device, &self.queue).await?;
         }
         let loads = coupling.exchange();
         self.set_faces()?;
+        self.sample()?;
         Ok(Some(loads))
     }
 
@@ -264,9 +274,11 @@ impl LatticeFluid {
             Some(coupling) => Some(coupling.state().await?),
             None => None,
         };
+        let sampling = self.sampling_state().await?;
         let (device, queue, lattice) = (&self.device, &self.queue, &mut self.lattice);
         Ok(LatticeState {
             cell: self.units.cell,
+            sampling,
             inside: self.observer.inside(device, queue, lattice).await?,
             populations: lattice.populations(device, queue).await?,
             coupling,
@@ -284,6 +296,9 @@ impl LatticeFluid {
         }
         self.lattice.check_populations(&state.populations)?;
         state.inside.check(self.lattice.grid())?;
+        if let (Some(sampling), Some(state)) = (&self.sampling, &state.sampling) {
+            sampling.check(state)?;
+        }
         match (&self.coupling, &state.coupling) {
             (Some(coupling), Some(state)) => coupling.check(state),
             (None, None) => Ok(()),
@@ -305,6 +320,9 @@ impl LatticeFluid {
             .set_populations(device, queue, &state.populations)?;
         self.observer
             .keep_inside(device, &self.lattice, &state.inside)?;
+        if let Some(sampling) = &mut self.sampling {
+            sampling.restore(queue, state.sampling.as_ref())?;
+        }
         self.set_faces()
     }
 }
@@ -342,7 +360,7 @@ impl Fluid for LatticeFluid {
                 .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
             {
                 let faces = LatticeCoupling::may_be_last(interval, next, last);
-                return self.exchange(encoder, faces).await;
+                return self.exchange(encoder, interval, faces).await;
             }
             self.record_psm(&mut encoder);
             if let Some(coupling) = self
@@ -356,11 +374,12 @@ impl Fluid for LatticeFluid {
             self.record_rest(&mut encoder);
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
-            if self.lattice.step() == last || !goes_on {
+            if self.lattice.step() == last || !goes_on || self.sample_due() {
                 // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
                 // written between two submissions.
                 self.submit(encoder).await?;
                 self.set_faces()?;
+                self.sample()?;
                 return Ok(None);
             }
         }

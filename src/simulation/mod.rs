@@ -45,6 +45,7 @@ mod needs;
 pub mod probe;
 mod sensors;
 mod sph_fluid;
+mod statistics;
 mod wall_friction;
 mod wall_units;
 
@@ -55,6 +56,7 @@ pub use fields::{Totals, point_cloud};
 pub use needs::{LatticeNeeds, Needs};
 pub use sensors::Reading;
 pub use sph_fluid::WaterLedger;
+pub use statistics::SamplingState;
 pub use wall_friction::{WallFriction, WallFrictions, wall_surface};
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
@@ -360,6 +362,11 @@ impl Simulation {
     /// The blocks in a lattice, if there are both.
     pub fn coupled(&self) -> Option<Coupled<'_>> {
         self.lattice_fluid().ok()?.coupled(self.rock())
+    }
+
+    /// Samples so far of statistics of fields ([`Statistics`](crate::scene::Statistics)); 0 of a scene that shows none.
+    pub fn samples(&self) -> u64 {
+        self.lattice_fluid().map_or(0, LatticeFluid::samples)
     }
 
     /// The solver of free water, if there is any.

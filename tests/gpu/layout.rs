@@ -7,8 +7,8 @@ use riprap::{
         link::{Linked, Program, source},
     },
     lattice::{
-        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, WallCell, WallStress,
-        collide_stream, single_cells,
+        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, StatisticsPass,
+        WallCell, WallStress, collide_stream, single_cells,
     },
 };
 use std::mem::offset_of;
@@ -71,6 +71,14 @@ fn structures_of_the_lattice() {
         check::<CellPass>(&module, "CellPass", &pass).unwrap();
         check::<OpenFace>(&module, "OpenFace", &face).unwrap();
     }
+    let statistics = [
+        ("plane", offset_of!(StatisticsPass, plane)),
+        ("samples", offset_of!(StatisticsPass, samples)),
+        ("weight", offset_of!(StatisticsPass, weight)),
+        ("pad", offset_of!(StatisticsPass, pad)),
+    ];
+    let module = linked("statistics").module;
+    check::<StatisticsPass>(&module, "StatisticsPass", &statistics).unwrap();
     // The host reads four words: steps after an even one, after an odd one, first bad step and cell.
     let setup = Setup::periodic([4; 3], 0.1);
     let step = collide_stream(&setup, 1, BrickKind::All).link().unwrap();

@@ -4,5 +4,6 @@ mod divergence_guard;
 mod kernels;
 mod limits;
 mod reproducibility;
+mod statistics;
 mod twin;
 mod wall_model;

@@ -124,6 +124,7 @@ fn checkpoint(populations: Populations) -> Checkpoint {
                 velocity: vec![0.1, -0.2, 0.3, -0.4, 0.5, -0.6],
             },
             coupling: None,
+            sampling: None,
         })),
     }
 }

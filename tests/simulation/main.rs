@@ -3,3 +3,4 @@
 mod pressure_sensors;
 mod probes;
 mod sph_restart;
+mod statistics;

@@ -65,6 +65,14 @@ impl Track {
             columns: columns.iter().map(|column| (*column).into()).collect(),
         }
     }
+
+    /// The same on a logarithmic scale.
+    pub fn logarithmic(quantity: &str, unit: &str, columns: &[&str]) -> Self {
+        Self {
+            y: Measure::logarithmic(quantity, unit),
+            ..Self::new(quantity, unit, columns)
+        }
+    }
 }
 
 impl Measure {
@@ -112,6 +120,19 @@ impl Chart {
     /// # Errors
     /// If the table lacks a column.
     pub fn history(title: &str, table: &Table, tracks: &[Track]) -> Result<Self> {
+        Self::tracks(title, table, ("time", Measure::linear("time", "s")), tracks)
+    }
+
+    /// The same over another column, which measures `x`.
+    ///
+    /// # Errors
+    /// If the table lacks a column.
+    pub fn tracks(
+        title: &str,
+        table: &Table,
+        (shared, x): (&str, Measure),
+        tracks: &[Track],
+    ) -> Result<Self> {
         let column = |name: &str| {
             table.column(name).with_context(|| {
                 let names = table.columns.iter().map(|(name, _)| name.as_str());
@@ -119,12 +140,12 @@ impl Chart {
                 format!("the table has no column `{name}`; it has {names}")
             })
         };
-        let time = column("time")?;
+        let places = column(shared)?;
         let curve = |name: &String| {
-            let values = time.iter().zip(column(name)?);
+            let values = places.iter().zip(column(name)?);
             Ok(Curve {
                 name: name.replace('_', " "),
-                points: values.map(|(&time, &value)| [time, value]).collect(),
+                points: values.map(|(&place, &value)| [place, value]).collect(),
                 mark: Mark::Line,
             })
         };
@@ -136,7 +157,7 @@ impl Chart {
         });
         Ok(Self {
             title: title.to_owned(),
-            x: Measure::linear("time", "s"),
+            x,
             panels: panels.collect::<Result<_>>()?,
             width: 1400,
             panel_height: 230,

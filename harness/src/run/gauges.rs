@@ -27,6 +27,10 @@ pub fn recorder(
         name: probe.name.clone(),
         every: probe.every,
         columns: columns(probe),
+        coordinates: Some(match probe.place {
+            ProbePlace::Line { .. } => 4,
+            _ => 0,
+        }),
         tracks: tracks(&probe.place, plane),
         title: format!("{}: {}", scene.title, probe.name),
     };

@@ -40,6 +40,7 @@ pub fn recorder(
         name: name(number),
         every: history.every.or(Some(usual)),
         columns: quantities.iter().map(|q| q.name().into()).collect(),
+        coordinates: None,
         tracks: quantities.iter().map(track).collect(),
         title: scene.title.clone(),
     };

@@ -18,6 +18,7 @@ mod rock;
 mod runner;
 mod scene_run;
 mod slices;
+mod statistics;
 mod summary;
 mod table;
 mod throughput;
@@ -34,6 +35,7 @@ pub use lattice::{Coupling, LatticeSummary};
 pub use left_out::LeftOut;
 pub use recorder::Schedule;
 pub use rock::{Factors, Rocks, Safety};
+pub use statistics::UntilError;
 pub use summary::{Summary, Unfinished};
 pub use water::WaterSummary;
 
@@ -69,6 +71,18 @@ pub struct Args {
     /// eighth of the cells or particles, a sixteenth of the time; of dry rock, steps twice as long
     #[arg(long)]
     pub error_estimate: bool,
+    /// End the run early, once the statistical error of the means of all probes with statistics is so small a part of their
+    /// root mean squares: `2%` or `0.02`
+    #[arg(long, value_name = "ERROR")]
+    pub until_error: Option<UntilError>,
+    /// Of these probes, or quantities of them such as `point.velocity`, alone
+    #[arg(
+        long,
+        value_name = "NAME",
+        requires = "until_error",
+        value_delimiter = ','
+    )]
+    pub error_of: Vec<String>,
     /// Print the times of the phases of steps at the end: passes on the device where it has timestamps, and the host
     #[arg(long)]
     pub timings: bool,
@@ -122,6 +136,9 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     let restart = args.restart.as_deref();
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
+    if let Some(until) = args.until_error {
+        runner.stop_at_error(until, &args.error_of)?;
+    }
     runner.summary.scene = args.scene.display().to_string();
     runner.print_header(&run);
     if let Some(warning) = restart.and_then(|path| checkpoints::other_scene(path, &text)) {

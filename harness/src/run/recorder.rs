@@ -1,6 +1,6 @@
 //! What a run writes, one thing a type, and when.
 
-use super::{rock::Safety, scene_run::SceneRun};
+use super::{rock::Safety, scene_run::SceneRun, statistics::TableStatistics};
 use anyhow::Result;
 use std::path::PathBuf;
 
@@ -17,6 +17,11 @@ pub trait Recorder {
 
     /// Waits for what is still being written, and says which files.
     fn settle(&mut self, _log: &mut RunLog) {}
+
+    /// Statistics of the table that it writes, if it has some.
+    fn statistics(&self) -> Option<&TableStatistics> {
+        None
+    }
 
     /// Writes what only the end of the run can show.
     fn finish(&mut self, _run: &SceneRun, _log: &mut RunLog) -> Result<()> {

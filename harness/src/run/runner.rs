@@ -7,6 +7,7 @@ use super::{
     progress::Progress,
     recorder::{Recorders, RunLog},
     scene_run::SceneRun,
+    statistics::{Convergence, TableStatistics, UntilError},
     summary::{Summary, Unfinished},
     throughput::{Batch, Throughput, Timed},
 };
@@ -25,6 +26,8 @@ pub struct Runner {
     recorders: Recorders,
     log: RunLog,
     throughput: Throughput,
+    /// What ends it before its last step.
+    convergence: Option<Convergence>,
     pub summary: Summary,
 }
 
@@ -65,8 +68,36 @@ impl Runner {
             recorders,
             log,
             throughput: Throughput::default(),
+            convergence: None,
             summary: run.summary()?,
         })
+    }
+
+    /// Stops when the statistical errors of the quantities `of` are `until` at most.
+    ///
+    /// # Errors
+    /// If there are no such statistics.
+    pub fn stop_at_error(&mut self, until: UntilError, of: &[String]) -> Result<()> {
+        self.convergence = Some(Convergence::new(until, of, &self.statistics())?);
+        Ok(())
+    }
+
+    fn statistics(&self) -> Vec<&TableStatistics> {
+        let recorders = self.recorders.iter();
+        recorders
+            .filter_map(|recorder| recorder.statistics())
+            .collect()
+    }
+
+    /// Whether the means are known well enough.
+    fn has_converged(&mut self) -> bool {
+        let convergence = self.convergence.as_ref();
+        let now = convergence.map(|convergence| convergence.of(&self.statistics()));
+        self.summary.statistics = now;
+        self.summary
+            .statistics
+            .as_ref()
+            .is_some_and(|now| now.reached)
     }
 
     /// Prints what will run on what to standard error.
@@ -93,7 +124,7 @@ impl Runner {
                 }
                 _ => return Err(error).context(self.unfinished(step)),
             },
-            Ok(()) => self.summary.complete = step == self.last,
+            Ok(()) => self.summary.complete = step == self.last || self.has_converged(),
         }
         let mut recorders = self.recorders.iter_mut();
         let finished = recorders.try_for_each(|recorder| recorder.finish(run, &mut self.log));
@@ -123,7 +154,7 @@ impl Runner {
             if step >= self.last {
                 return Ok(());
             }
-            if stop.load(Ordering::Relaxed) {
+            if stop.load(Ordering::Relaxed) || self.has_converged() {
                 return self.record(run, true);
             }
             let next = self.recorders.iter().map(|r| r.schedule().next(step)).min();

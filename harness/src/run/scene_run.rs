@@ -384,6 +384,7 @@ impl SceneRun {
                     name: probe.name.clone(),
                     every: probe.every,
                     columns: gauge.columns().to_vec(),
+                    coordinates: Some(gauge.coordinates()),
                     tracks: Vec::new(),
                     title: String::new(),
                 };

@@ -43,6 +43,9 @@ pub fn recorder(
     let schedule = Schedule::new(slice.every.or(scene.output.every), run.time_step(), last);
     let (folder, slice) = (folder.to_owned(), slice.clone());
     let record = move |run: &mut SceneRun, log: &mut RunLog| {
+        if shown.field.is_statistical() && run.simulation.samples() == 0 {
+            return Ok(());
+        }
         let image = Image {
             arrays: run.read(&fields, layer.cells())?,
             ..layer.frame()
@@ -83,21 +86,29 @@ pub struct SliceQuantity {
 impl SliceQuantity {
     /// How `field` is shown.
     pub fn of(field: SliceField) -> Self {
-        let (field, label, unit) = match field {
-            SliceField::Speed => (Field::Velocity, "speed", "m/s"),
-            SliceField::Pressure => (Field::Pressure, "pressure", "Pa"),
-            SliceField::Density => (Field::Density, "density", "kg/m³"),
-            SliceField::EddyViscosity => (Field::EddyViscosity, "eddy viscosity", "m²/s"),
-            SliceField::QCriterion => (Field::QCriterion, "Q", "s⁻²"),
-            SliceField::Solid => (Field::Solid, "solid", ""),
+        let (label, unit) = match field {
+            SliceField::Speed => ("speed", "m/s"),
+            SliceField::Pressure => ("pressure", "Pa"),
+            SliceField::Density => ("density", "kg/m³"),
+            SliceField::EddyViscosity => ("eddy viscosity", "m²/s"),
+            SliceField::QCriterion => ("Q", "s⁻²"),
+            SliceField::Solid => ("solid", ""),
+            SliceField::MeanSpeed => ("mean speed", "m/s"),
+            SliceField::MeanPressure => ("mean pressure", "Pa"),
+            SliceField::PressureRms => ("RMS of pressure", "Pa"),
+            SliceField::TurbulentKineticEnergy => ("turbulent kinetic energy", "m²/s²"),
         };
-        Self { field, label, unit }
+        Self {
+            field: field.field(),
+            label,
+            unit,
+        }
     }
 
     /// What is shown of the array of its field.
     pub fn quantity(&self) -> Quantity<'static> {
-        match self.field {
-            Field::Velocity => Quantity::Magnitude(self.field.name()),
+        match self.field.components() {
+            3 => Quantity::Magnitude(self.field.name()),
             _ => Quantity::Scalar(self.field.name()),
         }
     }

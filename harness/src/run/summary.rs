@@ -7,6 +7,7 @@ use super::{
     progress::clock,
     recorder::RunLog,
     rock::{Rocks, Safety},
+    statistics::Converged,
     walls::WallModelSummary,
     water::{Energies, WaterSummary},
 };
@@ -81,6 +82,9 @@ pub struct Summary {
     /// How safely blocks stand whose probes ask.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
+    /// How well means over time are known, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statistics: Option<Converged>,
     /// How far headline numbers are from those at half the resolution, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<Estimate>,
@@ -184,6 +188,9 @@ impl fmt::Display for Summary {
         }
         if let Some(rocks) = &self.rocks {
             writeln!(f, "{rocks}")?;
+        }
+        if let Some(statistics) = &self.statistics {
+            writeln!(f, "{statistics}")?;
         }
         for safety in &self.safety {
             writeln!(f, "  {safety}")?;

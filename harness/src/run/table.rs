@@ -3,6 +3,7 @@
 use super::{
     recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
+    statistics::TableStatistics,
 };
 use crate::picture::{Chart, Track};
 use anyhow::{Result, anyhow};
@@ -17,6 +18,8 @@ pub struct TimeTable {
     pub every: Option<f64>,
     /// Columns beside step and time.
     pub columns: Vec<String>,
+    /// How many of these, the first ones, say where a row was measured; none in a table that has no statistics.
+    pub coordinates: Option<usize>,
     /// Curves that are drawn at the end, if there are any.
     pub tracks: Vec<Track>,
     /// Title above them.
@@ -39,12 +42,25 @@ impl TimeTable {
         rows: impl FnMut(&mut SceneRun, &mut RunLog) -> Result<Vec<Vec<f64>>> + 'static,
     ) -> riprap::Result<Box<dyn Recorder>> {
         let path = folder.join(format!("{}.csv", self.name));
+        let table = match run.step() {
+            0 => Csv::create(&path, &self.columns)?,
+            step => Csv::resume(&path, &self.columns, step)?,
+        };
+        let requested = run.scene().statistics.as_ref();
+        let requested = requested
+            .filter(|_| self.every.is_some())
+            .zip(self.coordinates);
+        let mut statistics = requested.map(|(requested, coordinates)| {
+            let title = format!("{}: {}", run.scene().title, self.name);
+            TableStatistics::new(&path, &title, requested.from, &self.columns, coordinates)
+        });
+        if let Some(statistics) = &mut statistics {
+            statistics.replay()?;
+        }
         Ok(Box::new(TableRecorder {
             schedule: Schedule::new(self.every, run.time_step(), last),
-            table: match run.step() {
-                0 => Csv::create(&path, &self.columns)?,
-                step => Csv::resume(&path, &self.columns, step)?,
-            },
+            table,
+            statistics,
             about: self,
             path,
             rows: Box::new(rows),
@@ -57,6 +73,7 @@ struct TableRecorder {
     schedule: Schedule,
     path: PathBuf,
     table: Csv,
+    statistics: Option<TableStatistics>,
     rows: Rows,
 }
 
@@ -66,15 +83,26 @@ impl Recorder for TableRecorder {
     }
 
     fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()> {
-        for row in (self.rows)(run, log)? {
-            self.table.append(run.step(), run.time(), &row)?;
+        let rows = (self.rows)(run, log)?;
+        for row in &rows {
+            self.table.append(run.step(), run.time(), row)?;
+        }
+        if let Some(statistics) = &mut self.statistics {
+            statistics.push(run.time(), &rows);
         }
         log.file(self.path.clone());
         Ok(())
     }
 
-    /// Draws the tracks; nothing where the table has fewer than two moments, or no number in them.
+    fn statistics(&self) -> Option<&TableStatistics> {
+        self.statistics.as_ref()
+    }
+
+    /// Writes the statistics, and draws the tracks; nothing where the table has fewer than two moments, or no number in them.
     fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
+        if let Some(statistics) = &self.statistics {
+            statistics.write(log, run.step(), run.time())?;
+        }
         let TimeTable {
             name,
             tracks,

@@ -122,6 +122,7 @@ pub fn recorder(
         tracks: vec![Track::new("mean stress", "Pa", &stresses)],
         title: format!("{}: friction of walls", run.scene().title),
         columns: columns.clone(),
+        coordinates: Some(0),
     };
     let rows = move |run: &mut SceneRun, _: &mut _| Ok(vec![row(&run.wall_friction()?, &places)]);
     Ok(Some(table.recorder(run, folder, last, rows)?))

@@ -11,5 +11,6 @@ mod fixture;
 mod interrupted;
 mod lattice;
 mod sph;
+mod statistics;
 mod threshold;
 mod views;

@@ -42,6 +42,7 @@ use points::{Face, Points, box_rows};
 #[derive(Clone, Debug)]
 pub struct Gauge {
     columns: Vec<String>,
+    coordinates: usize,
     fields: Vec<Field>,
     cells: Vec<u32>,
     place: Place,
@@ -121,6 +122,10 @@ impl Gauge {
             Place::Face(_) => vec![Field::Pressure],
             _ => probe.fields.clone(),
         };
+        let count = match place {
+            Place::Points(_) => coordinates.len(),
+            Place::Box | Place::Face(_) => 0,
+        };
         let mut columns: Vec<String> = coordinates.into_iter().map(Into::into).collect();
         for field in &fields {
             match &place {
@@ -133,6 +138,7 @@ impl Gauge {
         }
         Ok(Self {
             columns,
+            coordinates: count,
             fields,
             cells: chosen,
             place,
@@ -142,6 +148,11 @@ impl Gauge {
     /// Names of the columns after `step` and `time`.
     pub fn columns(&self) -> &[String] {
         &self.columns
+    }
+
+    /// How many of these, the first ones, say where a row is measured.
+    pub fn coordinates(&self) -> usize {
+        self.coordinates
     }
 
     /// The fields that it needs.

@@ -100,6 +100,25 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
+        "statistics",
+        &[
+            "begin_statistics",
+            "add_sample",
+            "merge_block",
+            "write_statistic",
+        ],
+        &[
+            "cell_pass",
+            "density",
+            "velocity_x",
+            "velocity_y",
+            "velocity_z",
+            "statistics",
+            "statistics_pass",
+            "derived",
+        ],
+    ),
+    (
         "derive",
         &["derive"],
         &["velocity_x", "velocity_y", "velocity_z", "derived"],

@@ -15,6 +15,7 @@ pub mod noise;
 pub mod of_setup;
 pub mod rates;
 pub mod solid;
+pub mod statistics;
 pub mod wale;
 pub mod wall_model;
 

@@ -137,7 +137,7 @@ fn last_mean(table: &Table, values: &[f64]) -> Option<f64> {
 }
 
 /// The unit of what a probe measures.
-fn unit(quantity: &str) -> &'static str {
+pub fn unit(quantity: &str) -> &'static str {
     match quantity {
         "velocity" => "m/s",
         "pressure" | "joint_pressure" | "von_mises" => "Pa",

@@ -7,6 +7,7 @@ mod coarse;
 mod headline;
 
 pub use headline::Headline;
+pub(super) use headline::unit;
 
 use super::{Args, Summary, computed, folder};
 use crate::print::percent;

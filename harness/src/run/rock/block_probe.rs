@@ -103,6 +103,7 @@ pub fn recorders(
         name: probe.name.clone(),
         every: probe.every,
         columns: row(&rock, now.as_ref()).columns(),
+        coordinates: Some(0),
         tracks,
         title: format!("{}: {name}", run.scene().title),
     };
@@ -134,6 +135,8 @@ fn face_table(
         name: format!("{}_faces", probe.name),
         every: probe.every,
         columns: face_row(&FaceLoad::default(), false, None).columns(),
+        // Its part and its face.
+        coordinates: Some(2),
         tracks: Vec::new(),
         title: String::new(),
     };

@@ -58,7 +58,12 @@ impl Fluid {
 
     /// The present planes through the fluid among blocks at `poses`.
     pub fn planes(&self, run: &mut SceneRun, poses: &[Pose]) -> Result<Vec<FluidPlane>> {
-        let slices = self.slices.iter();
+        let sampled = run.simulation.samples() > 0;
+        let is_known = |field: SliceField| sampled || !field.field().is_statistical();
+        let slices = self
+            .slices
+            .iter()
+            .filter(|(slice, _)| is_known(slice.field));
         slices
             .map(|(slice, layer)| {
                 let shown = SliceQuantity::of(slice.field);

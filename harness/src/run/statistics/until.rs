@@ -1,0 +1,160 @@
+//! When the statistical errors of means are small enough to stop.
+
+use super::{TableStatistics, groups};
+use anyhow::{Result, bail};
+use riprap::Error;
+use serde::Serialize;
+use std::{fmt, str::FromStr};
+
+/// The relative statistical error of the mean of each quantity of a table: the largest over its places, over the largest root
+/// mean square; none where too few samples tell.
+pub fn relative_errors(table: &TableStatistics) -> Vec<Option<f64>> {
+    let mut first = 0;
+    let of_group = |(_, members): (String, Vec<String>)| {
+        let columns = first..first + members.len();
+        first = columns.end;
+        let (mut scale, mut error) = (0.0_f64, Some(0.0_f64));
+        for station in &table.stations {
+            let series = || {
+                station.series[columns.clone()]
+                    .iter()
+                    .filter(|s| s.count() > 0)
+            };
+            let square = series()
+                .map(|s| s.mean().powi(2) + s.variance())
+                .sum::<f64>();
+            scale = scale.max(square.sqrt());
+            let squares: Option<f64> = series().map(|s| s.error().map(|e| e * e)).sum();
+            error = error.zip(squares).map(|(most, own)| most.max(own.sqrt()));
+        }
+        error.map(|error| if error > 0.0 { error / scale } else { 0.0 })
+    };
+    groups(&table.columns).into_iter().map(of_group).collect()
+}
+
+/// The error at which a run may stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UntilError(pub f64);
+
+impl FromStr for UntilError {
+    type Err = String;
+
+    /// `2%` or `0.02`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (number, scale) = match text.trim().strip_suffix('%') {
+            Some(number) => (number, 0.01),
+            None => (text, 1.0),
+        };
+        match number.trim().parse::<f64>() {
+            Ok(value) if value > 0.0 && value * scale < 1.0 => Ok(Self(value * scale)),
+            _ => Err(format!(
+                "`{text}` is no error; give a part such as 2% or 0.02, above 0 and below 1"
+            )),
+        }
+    }
+}
+
+/// What a run waits for.
+#[derive(Clone, Debug)]
+pub struct Convergence {
+    /// Relative error at which it stops.
+    until: f64,
+    /// Tables, or quantities of tables as `table.quantity`, that count; all if there are none.
+    of: Vec<String>,
+}
+
+/// How far the means are, for the summary.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Converged {
+    /// Relative error at which the run stops.
+    pub until: f64,
+    /// The largest one at its end; none where too few samples tell.
+    pub error: Option<f64>,
+    /// Of what, `table.quantity`.
+    pub of: String,
+    /// Whether all are small enough.
+    pub reached: bool,
+}
+
+impl Convergence {
+    /// Stops at `until`, of the tables and quantities `of`, in a run with these tables.
+    ///
+    /// # Errors
+    /// If there is none, or not one that is requested.
+    pub fn new(until: UntilError, of: &[String], tables: &[&TableStatistics]) -> Result<Self> {
+        let mut names = Vec::new();
+        for table in tables {
+            names.push(table.name());
+            let stems = groups(&table.columns).into_iter().map(|(stem, _)| stem);
+            names.extend(stems.map(|stem| format!("{}.{stem}", table.name())));
+        }
+        if names.is_empty() {
+            let message = "no table of this scene has statistics; add [statistics] with `from`, and a probe with `every`";
+            bail!(Error::argument("--until-error", message));
+        }
+        if let Some(unknown) = of.iter().find(|requested| !names.contains(requested)) {
+            let message = format!(
+                "there are no statistics of `{unknown}`; there are those of {}",
+                names.join(", ")
+            );
+            bail!(Error::argument("--error-of", message));
+        }
+        Ok(Self {
+            until: until.0,
+            of: of.to_vec(),
+        })
+    }
+
+    fn counts(&self, table: &str, name: &str) -> bool {
+        self.of.is_empty() || self.of.iter().any(|of| of == table || of == name)
+    }
+
+    /// How far the means of the tables are.
+    pub fn of(&self, tables: &[&TableStatistics]) -> Converged {
+        let mut errors = Vec::new();
+        for table in tables {
+            let own = table.name();
+            for (number, (stem, _)) in groups(&table.columns).into_iter().enumerate() {
+                let name = format!("{own}.{stem}");
+                if self.counts(&own, &name) {
+                    errors.push((name, table.error().and_then(|errors| errors[number])));
+                }
+            }
+        }
+        // One that is not known is the worst.
+        let size = |(_, error): &&(String, Option<f64>)| error.unwrap_or(f64::INFINITY);
+        let worst = errors.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+        let (of, error) = worst.cloned().unwrap_or_default();
+        Converged {
+            until: self.until,
+            reached: error.is_some_and(|error| error <= self.until),
+            error,
+            of,
+        }
+    }
+}
+
+impl fmt::Display for Converged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let until = 100.0 * self.until;
+        match self.error {
+            Some(error) if self.reached => write!(
+                f,
+                "  statistical error of means: {:.2} % at most ({}), below {until} %",
+                100.0 * error,
+                self.of
+            ),
+            Some(error) => write!(
+                f,
+                "  statistical error of means: {:.2} % at most ({}); {until} % would take about {:.1} times as many samples",
+                100.0 * error,
+                self.of,
+                (error / self.until).powi(2)
+            ),
+            None => write!(
+                f,
+                "  statistical error of means: not known yet, for want of samples; run longer, or let probes measure more often"
+            ),
+        }
+    }
+}

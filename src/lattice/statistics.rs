@@ -1,0 +1,375 @@
+//! Means and covariances over time of density and velocity, on the device.
+
+use super::{
+    CellPass, Lattice, Observer,
+    cell_kernels::{CellDispatch, uniform},
+    fluid::{Dispatch, result_buffer},
+    gather::Gather,
+};
+use crate::{
+    Error, Result,
+    gpu::{kernel::largest_binding, readback::Readback},
+};
+use bytemuck::{Pod, Zeroable};
+use std::ops::Range;
+
+/// Samples of a block.
+const BLOCK: u64 = 256;
+/// Numbers of a cell: 4 means, 7 covariances, and as many sums of the open block.
+const PLANES: usize = 22;
+
+/// A mean or a covariance over time, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statistic {
+    /// Mean of ρ − 1.
+    Excess,
+    /// Mean of a component of the velocity, 0 to 2.
+    Velocity(u32),
+    /// Mean square of the fluctuations of ρ.
+    ExcessVariance,
+    /// Mean product of the fluctuations of two components of the velocity: xx, yy, zz, xy, yz, xz, 0 to 5.
+    ReynoldsStress(u32),
+}
+
+impl Statistic {
+    /// Its plane among the numbers of a cell.
+    fn plane(self) -> Result<u32> {
+        match self {
+            Self::Excess => Ok(0),
+            Self::Velocity(axis @ 0..3) => Ok(1 + axis),
+            Self::ExcessVariance => Ok(4),
+            Self::ReynoldsStress(pair @ 0..6) => Ok(5 + pair),
+            _ => {
+                let message = format!(
+                    "there is no {self:?}; a velocity has the components 0 to 2, a stress 0 to 5"
+                );
+                Err(Error::argument("statistic", message))
+            }
+        }
+    }
+}
+
+/// What the dispatches on a block differ in, as it lies in `kernels/lattice/statistics.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct StatisticsPass {
+    /// The number of a cell that is written out.
+    pub plane: u32,
+    /// Samples of the open block.
+    pub samples: f32,
+    /// Their share of all samples.
+    pub weight: f32,
+    /// Not used.
+    pub pad: u32,
+}
+
+/// The numbers of all cells between two samples.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct StatisticsState {
+    /// Samples in whole blocks.
+    pub merged: u64,
+    /// Samples of the open block.
+    pub open: u64,
+    /// Means, covariances, sums and sums of products, each on all cells, x fastest; empty without samples.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
+    pub values: Vec<f32>,
+}
+
+/// Cells whose numbers one buffer holds.
+#[derive(Debug)]
+struct Part {
+    cells: Range<u32>,
+    buffer: wgpu::Buffer,
+    begin: Dispatch,
+    add: Dispatch,
+}
+
+/// Statistics over time of what an [`Observer`] shows: 88 bytes a cell.
+///
+/// Sums run over blocks of 256 samples, shifted by the mean so far, and each block is then merged with those before it, so
+/// that in f32 neither means nor covariances drift: 3·10⁵ samples leave an error of 10⁻⁵.
+///
+/// ```
+/// use riprap::{lattice::{Lattice, Observer, Setup, State, Statistics}, wgpu};
+///
+/// # fn main() -> riprap::Result<()> {
+/// // Any device; this one does nothing, so that the example runs everywhere.
+/// let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+/// let mut lattice = Lattice::new(&device, Setup::periodic([16, 16, 16], 0.01))?;
+/// lattice.start(&device, &queue, &State::rest(16 * 16 * 16), true)?;
+/// let observer = Observer::new(&device, &lattice)?;
+/// let mut statistics = Statistics::new(&device, &lattice, &observer)?;
+///
+/// let mut encoder = device.create_command_encoder(&Default::default());
+/// {
+///     let mut pass = encoder.begin_compute_pass(&Default::default());
+///     // An odd number of steps between samples: what alternates from step to step then averages out.
+///     for _ in 0..5 {
+///         lattice.record(&mut pass);
+///     }
+///     observer.record(&mut lattice, &mut pass)?;
+///     statistics.record(&device, &lattice, &mut pass)?;
+/// }
+/// queue.submit([encoder.finish()]);
+/// assert_eq!(statistics.samples(), 1);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Statistics {
+    parts: Vec<Part>,
+    cells: usize,
+    merged: u64,
+    open: u64,
+    /// Made when first read.
+    field: Option<wgpu::Buffer>,
+    gather: Gather,
+    readback: Readback,
+}
+
+impl Statistics {
+    /// Makes the buffers for the statistics of what `observer` shows of `lattice`.
+    ///
+    /// # Errors
+    /// If the device does not hold them.
+    pub fn new(device: &wgpu::Device, lattice: &Lattice, observer: &Observer) -> Result<Self> {
+        let cells = lattice.grid().cell_count();
+        let bytes = 4 * PLANES as u64;
+        let most = (largest_binding(&device.limits()) / bytes).max(1) as usize;
+        let program = lattice.cell_program("statistics");
+        let make = |first: usize| {
+            let cells = first as u32..cells.min(first + most) as u32;
+            let buffer = result_buffer(
+                device,
+                "statistics",
+                bytes * u64::from(cells.end - cells.start),
+            );
+            let [x, y, z] = observer.velocity();
+            let buffers = [
+                ("statistics", &buffer),
+                ("density", observer.density()),
+                ("velocity_x", x),
+                ("velocity_y", y),
+                ("velocity_z", z),
+            ];
+            let dispatch = |entry| {
+                let dispatch = CellDispatch {
+                    program: &program,
+                    entry,
+                    pass: pass_over(&cells),
+                    buffers: &buffers,
+                    constants: &[],
+                    invocations: cells.end - cells.start,
+                };
+                lattice.cell_dispatch(device, &dispatch)
+            };
+            let (begin, add) = (dispatch("begin_statistics")?, dispatch("add_sample")?);
+            Ok(Part {
+                cells,
+                buffer,
+                begin,
+                add,
+            })
+        };
+        Ok(Self {
+            parts: (0..cells).step_by(most).map(make).collect::<Result<_>>()?,
+            cells,
+            merged: 0,
+            open: 0,
+            field: None,
+            gather: Gather::new(device, lattice)?,
+            readback: Readback::default(),
+        })
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> u64 {
+        self.merged + self.open
+    }
+
+    /// Bytes of the buffers.
+    pub fn bytes(&self) -> u64 {
+        self.parts.iter().map(|part| part.buffer.size()).sum()
+    }
+
+    /// Records that what [`Observer::record`] has written just before is a sample.
+    ///
+    /// # Errors
+    /// If the device does not compile the kernel that merges a block.
+    pub fn record(
+        &mut self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        pass: &mut wgpu::ComputePass<'_>,
+    ) -> Result<()> {
+        for part in &self.parts {
+            match self.samples() {
+                0 => part.begin.record(pass),
+                _ => part.add.record(pass),
+            }
+        }
+        self.open += 1;
+        if self.open == BLOCK {
+            for part in &self.parts {
+                self.dispatch(device, lattice, part, ("merge_block", 0), &[])?
+                    .record(pass);
+            }
+            self.merged += BLOCK;
+            self.open = 0;
+        }
+        Ok(())
+    }
+
+    /// An entry of the kernel on the open block.
+    fn dispatch(
+        &self,
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        part: &Part,
+        (entry, plane): (&'static str, u32),
+        others: &[(&str, &wgpu::Buffer)],
+    ) -> Result<Dispatch> {
+        let content = StatisticsPass {
+            plane,
+            samples: self.open as f32,
+            weight: (self.open as f64 / self.samples() as f64) as f32,
+            pad: 0,
+        };
+        let of_block = uniform(device, "statistics pass", &content);
+        let mut buffers = vec![("statistics", &part.buffer), ("statistics_pass", &of_block)];
+        buffers.extend(others);
+        let dispatch = CellDispatch {
+            program: &lattice.cell_program("statistics"),
+            entry,
+            pass: pass_over(&part.cells),
+            buffers: &buffers,
+            constants: &[],
+            invocations: part.cells.end - part.cells.start,
+        };
+        lattice.cell_dispatch(device, &dispatch)
+    }
+
+    /// Reads a statistic of the samples so far on the given cells (places, x fastest), or on all, lattice units; not a number
+    /// before the first sample.
+    ///
+    /// # Errors
+    /// If there is no such component or cell, or the device is lost or does not hold the field.
+    pub async fn read(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lattice: &Lattice,
+        statistic: Statistic,
+        on: Option<&[u32]>,
+    ) -> Result<Vec<f32>> {
+        let plane = statistic.plane()?;
+        if self.samples() == 0 {
+            return Ok(vec![f32::NAN; on.map_or(self.cells, <[u32]>::len)]);
+        }
+        let field = match self.field.take() {
+            Some(field) => field,
+            None => result_buffer(device, "statistic", 4 * self.cells as u64),
+        };
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            for part in &self.parts {
+                let entry = ("write_statistic", plane);
+                self.dispatch(device, lattice, part, entry, &[("derived", &field)])?
+                    .record(&mut pass);
+            }
+        }
+        queue.submit([encoder.finish()]);
+        let readback = &mut self.readback;
+        let values = match on {
+            None => readback.read(device, queue, &field, self.cells).await,
+            Some(on) => {
+                let gather = &self.gather;
+                gather.read(device, queue, readback, &field, on).await
+            }
+        };
+        self.field = Some(field);
+        values
+    }
+
+    /// Reads all numbers, for a later [`Statistics::restore`].
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub async fn state(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<StatisticsState> {
+        let mut state = StatisticsState {
+            merged: self.merged,
+            open: self.open,
+            values: Vec::new(),
+        };
+        if self.samples() == 0 {
+            return Ok(state);
+        }
+        state.values.resize(PLANES * self.cells, 0.0);
+        for part in &self.parts {
+            let (first, count) = (part.cells.start as usize, part.cells.len());
+            let read: Vec<f32> = self
+                .readback
+                .read(device, queue, &part.buffer, PLANES * count)
+                .await?;
+            for (plane, values) in read.chunks(count).enumerate() {
+                state.values[plane * self.cells + first..][..count].copy_from_slice(values);
+            }
+        }
+        Ok(state)
+    }
+
+    /// Whether [`Statistics::restore`] takes a state.
+    ///
+    /// # Errors
+    /// If it is of another grid.
+    pub fn check(&self, state: &StatisticsState) -> Result<()> {
+        let count = match state.merged + state.open {
+            0 => 0,
+            _ => PLANES * self.cells,
+        };
+        match state.values.len() == count && state.open < BLOCK {
+            true => Ok(()),
+            false => {
+                let message = "the saved statistics are of another grid, or damaged";
+                Err(Error::argument("restart", message))
+            }
+        }
+    }
+
+    /// Goes on from a state.
+    ///
+    /// # Errors
+    /// If it is of another grid.
+    pub fn restore(&mut self, queue: &wgpu::Queue, state: &StatisticsState) -> Result<()> {
+        self.check(state)?;
+        (self.merged, self.open) = (state.merged, state.open);
+        if state.values.is_empty() {
+            return Ok(());
+        }
+        for part in &self.parts {
+            let (first, count) = (part.cells.start as usize, part.cells.len());
+            let planes = state.values.chunks(self.cells);
+            let own: Vec<f32> = planes
+                .flat_map(|plane| &plane[first..first + count])
+                .copied()
+                .collect();
+            queue.write_buffer(&part.buffer, 0, bytemuck::cast_slice(&own));
+        }
+        Ok(())
+    }
+}
+
+/// The pass over cells one after the other.
+fn pass_over(cells: &Range<u32>) -> CellPass {
+    CellPass {
+        first: cells.start,
+        end: cells.end,
+        ..CellPass::default()
+    }
+}

@@ -1,0 +1,169 @@
+//! Statistics over time of the fields of a fluid on a lattice.
+
+use super::lattice_fluid::LatticeFluid;
+use crate::{
+    Result,
+    lattice::{Lattice, Observer, Statistic, Statistics, StatisticsState},
+    scene::{Field, Scene},
+};
+
+/// Statistics, and which steps are samples of them.
+#[derive(Debug)]
+pub(super) struct Sampling {
+    first: u64,
+    stride: u64,
+    statistics: Statistics,
+}
+
+/// The numbers of a [`Sampling`] between two steps.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
+pub struct SamplingState {
+    /// First step that may be a sample.
+    pub first: u64,
+    /// Steps from one sample to the next.
+    pub stride: u64,
+    /// The samples so far.
+    pub statistics: StatisticsState,
+}
+
+impl Sampling {
+    /// Those that the scene shows, if it does.
+    ///
+    /// # Errors
+    /// If the device does not hold them.
+    pub fn new(
+        device: &wgpu::Device,
+        (scene, time_step): (&Scene, f64),
+        lattice: &Lattice,
+        observer: &Observer,
+    ) -> Result<Option<Self>> {
+        let Some(requested) = scene
+            .statistics
+            .as_ref()
+            .filter(|_| scene.shows_statistics())
+        else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            first: requested.first_step(time_step).max(1),
+            stride: requested.stride(time_step),
+            statistics: Statistics::new(device, lattice, observer)?,
+        }))
+    }
+
+    /// Whether the state after `step` is a sample.
+    pub fn due(&self, step: u64) -> bool {
+        let since = step.checked_sub(self.first);
+        since.is_some_and(|since| since.is_multiple_of(self.stride))
+    }
+
+    pub fn check(&self, state: &SamplingState) -> Result<()> {
+        self.statistics.check(&state.statistics)
+    }
+
+    /// Goes on from a state of the same samples; others are forgotten.
+    pub fn restore(&mut self, queue: &wgpu::Queue, state: Option<&SamplingState>) -> Result<()> {
+        let same =
+            |state: &&SamplingState| [state.first, state.stride] == [self.first, self.stride];
+        let none = StatisticsState::default();
+        let state = state.filter(same).map_or(&none, |state| &state.statistics);
+        self.statistics.restore(queue, state)
+    }
+}
+
+impl LatticeFluid {
+    /// Whether the present state is a sample.
+    pub(super) fn sample_due(&self) -> bool {
+        let step = self.lattice.step();
+        self.sampling
+            .as_ref()
+            .is_some_and(|sampling| sampling.due(step))
+    }
+
+    /// Adds the present state to the statistics if it is a sample.
+    pub(super) fn sample(&mut self) -> Result<()> {
+        if !self.sample_due() {
+            return Ok(());
+        }
+        let Some(sampling) = &mut self.sampling else {
+            return Ok(());
+        };
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            self.observer.record(&mut self.lattice, &mut pass)?;
+            sampling
+                .statistics
+                .record(&self.device, &self.lattice, &mut pass)?;
+        }
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    pub(super) async fn sampling_state(&mut self) -> Result<Option<SamplingState>> {
+        let Some(sampling) = &mut self.sampling else {
+            return Ok(None);
+        };
+        Ok(Some(SamplingState {
+            first: sampling.first,
+            stride: sampling.stride,
+            statistics: sampling.statistics.state(&self.device, &self.queue).await?,
+        }))
+    }
+
+    /// Number of samples so far.
+    pub(super) fn samples(&self) -> u64 {
+        self.sampling
+            .as_ref()
+            .map_or(0, |sampling| sampling.statistics.samples())
+    }
+
+    /// A field over time on the given cells or on all, component by component, SI; empty for one that is not.
+    pub(super) async fn statistic(
+        &mut self,
+        field: Field,
+        cells: Option<&[u32]>,
+    ) -> Result<Vec<Vec<f32>>> {
+        let units = self.units;
+        let speed = units.velocity_from_lattice(1.0);
+        // p is linear in ρ − 1.
+        let pressure = units.pressure_from_lattice(2.0);
+        let stress = (0..6).map(Statistic::ReynoldsStress);
+        let (components, scale): (Vec<Statistic>, f64) = match field {
+            Field::MeanVelocity => ((0..3).map(Statistic::Velocity).collect(), speed),
+            Field::MeanPressure => (vec![Statistic::Excess], pressure),
+            Field::PressureRms => (vec![Statistic::ExcessVariance], pressure * pressure),
+            Field::ReynoldsStress => (stress.collect(), speed * speed),
+            Field::TurbulentKineticEnergy => (stress.take(3).collect(), speed * speed),
+            _ => return Ok(Vec::new()),
+        };
+        let Some(sampling) = &mut self.sampling else {
+            return Ok(Vec::new());
+        };
+        let mut values = Vec::with_capacity(components.len());
+        for component in components {
+            let mut read = sampling
+                .statistics
+                .read(&self.device, &self.queue, &self.lattice, component, cells)
+                .await?;
+            read.iter_mut()
+                .for_each(|value| *value = (f64::from(*value) * scale) as f32);
+            values.push(read);
+        }
+        if field == Field::PressureRms {
+            let variances = values.iter_mut().flatten();
+            variances.for_each(|variance| *variance = variance.max(0.0).sqrt());
+        }
+        if field == Field::TurbulentKineticEnergy {
+            let [xx, yy, zz] = [0, 1, 2].map(|k| std::mem::take(&mut values[k]));
+            let traces = xx
+                .iter()
+                .zip(&yy)
+                .zip(&zz)
+                .map(|((x, y), z)| 0.5 * (x + y + z));
+            values = vec![traces.collect()];
+        }
+        Ok(values)
+    }
+}

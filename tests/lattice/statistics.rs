@@ -1,0 +1,192 @@
+//! Statistics over time against sums in f64.
+
+use kit::{Random, Rig, twin::statistics::moments};
+use riprap::{
+    lattice::{Lattice, Observer, Setup, State, Statistic, Statistics, StatisticsState},
+    wgpu,
+};
+
+/// What is sampled: the buffers of an observer, filled by the test.
+struct Signal {
+    rig: Rig,
+    lattice: Lattice,
+    observer: Observer,
+    cells: usize,
+}
+
+impl Signal {
+    fn new(cells: [u32; 3], limits: Option<wgpu::Limits>) -> Self {
+        let rig = limits.map_or_else(Rig::new, Rig::with_limits);
+        let count = cells.iter().product::<u32>() as usize;
+        let lattice = rig.start(Setup::periodic(cells, 0.02), &State::rest(count), true);
+        let observer = Observer::new(&rig.device, &lattice).unwrap();
+        Self {
+            rig,
+            lattice,
+            observer,
+            cells: count,
+        }
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics::new(&self.rig.device, &self.lattice, &self.observer).unwrap()
+    }
+
+    /// Adds a sample of each cell.
+    fn add(&mut self, statistics: &mut Statistics, sample: &[[f32; 4]]) {
+        let [x, y, z] = self.observer.velocity();
+        for (k, buffer) in [self.observer.density(), x, y, z].into_iter().enumerate() {
+            let values: Vec<f32> = sample.iter().map(|values| values[k]).collect();
+            let bytes = bytemuck::cast_slice(&values);
+            self.rig.queue.write_buffer(buffer, 0, bytes);
+        }
+        let mut encoder = self.rig.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            statistics
+                .record(&self.rig.device, &self.lattice, &mut pass)
+                .unwrap();
+        }
+        self.rig.queue.submit([encoder.finish()]);
+    }
+
+    fn read(&self, statistics: &mut Statistics, of: Statistic, on: Option<&[u32]>) -> Vec<f32> {
+        let (device, queue) = (&self.rig.device, &self.rig.queue);
+        let read = statistics.read(device, queue, &self.lattice, of, on);
+        self.rig.wait(read).unwrap()
+    }
+
+    fn state(&self, statistics: &mut Statistics) -> StatisticsState {
+        let state = statistics.state(&self.rig.device, &self.rig.queue);
+        self.rig.wait(state).unwrap()
+    }
+}
+
+const ALL: [Statistic; 11] = [
+    Statistic::Excess,
+    Statistic::Velocity(0),
+    Statistic::Velocity(1),
+    Statistic::Velocity(2),
+    Statistic::ExcessVariance,
+    Statistic::ReynoldsStress(0),
+    Statistic::ReynoldsStress(1),
+    Statistic::ReynoldsStress(2),
+    Statistic::ReynoldsStress(3),
+    Statistic::ReynoldsStress(4),
+    Statistic::ReynoldsStress(5),
+];
+
+/// Correlated fluctuations about means that are ten times as large.
+fn sample(random: &mut Random, cells: usize) -> Vec<[f32; 4]> {
+    let mut one = || {
+        let [a, b, c, d] = [(); 4].map(|()| random.between(-1.0, 1.0));
+        let values = [
+            1e-3 + 1e-4 * a,
+            0.05 + 5e-3 * (b + 0.3 * a),
+            2e-3 * (c + b),
+            0.01 + 1e-3 * (d - c),
+        ];
+        values.map(|value| value as f32)
+    };
+    (0..cells).map(|_| one()).collect()
+}
+
+#[test]
+fn means_and_covariances_are_those_of_all_samples() {
+    // Odd sizes, one cell; before, at and after the end of a block; one buffer and several.
+    let small = {
+        let all = kit::gpu::selected().unwrap().limits();
+        wgpu::Limits {
+            max_storage_buffer_binding_size: 4 * 22 * 40,
+            ..all
+        }
+    };
+    for (cells, limits) in [
+        ([7, 5, 3], None),
+        ([1, 1, 1], None),
+        ([5, 3, 3], Some(small)),
+    ] {
+        let mut signal = Signal::new(cells, limits);
+        let mut statistics = signal.statistics();
+        let first = signal.read(&mut statistics, Statistic::Excess, None);
+        assert!(
+            first.iter().all(|value| value.is_nan()),
+            "before any sample"
+        );
+        let mut random = Random(7);
+        let mut samples = Vec::new();
+        for count in 1..=600 {
+            let sample = sample(&mut random, signal.cells);
+            signal.add(&mut statistics, &sample);
+            samples.push(sample);
+            if ![1, 2, 255, 256, 257, 600].contains(&count) {
+                continue;
+            }
+            assert_eq!(statistics.samples(), count);
+            let found = ALL.map(|of| signal.read(&mut statistics, of, None));
+            for cell in 0..signal.cells {
+                let own: Vec<[f32; 4]> = samples.iter().map(|sample| sample[cell]).collect();
+                let (mean, product) = moments(&own);
+                for k in 0..4 {
+                    let error = (f64::from(found[k][cell]) - mean[k]).abs();
+                    let scale = mean[k].abs() + product[k].sqrt();
+                    assert!(
+                        error < 2e-6 * scale,
+                        "{cells:?} {count} {k}: {error} of {scale}"
+                    );
+                }
+                // Of stresses by the scale of their components.
+                let scale = |k: usize| match k {
+                    0..=3 => product[k],
+                    _ => (product[k - 3] * product[k % 3 + 1]).sqrt(),
+                };
+                for k in 0..7 {
+                    let error = (f64::from(found[4 + k][cell]) - product[k]).abs();
+                    assert!(
+                        error <= 1e-5 * scale(k),
+                        "{cells:?} {count} {k}: {error} of {}",
+                        product[k]
+                    );
+                }
+            }
+            let some: Vec<u32> = (0..signal.cells as u32).rev().step_by(2).collect();
+            let listed = signal.read(&mut statistics, ALL[6], Some(&some));
+            let expected: Vec<f32> = some.iter().map(|cell| found[6][*cell as usize]).collect();
+            assert_eq!(listed, expected);
+        }
+    }
+}
+
+#[test]
+fn a_restored_state_goes_on_with_the_same_bits() {
+    let mut signal = Signal::new([3, 4, 5], None);
+    let cells = signal.cells;
+    let mut random = Random(3);
+    let mut whole = signal.statistics();
+    for cut in [0, 3, 300] {
+        while whole.samples() < cut {
+            let sample = sample(&mut random, cells);
+            signal.add(&mut whole, &sample);
+        }
+        let state = signal.state(&mut whole);
+        let mut fresh = signal.statistics();
+        fresh.restore(&signal.rig.queue, &state).unwrap();
+        assert_eq!(signal.state(&mut fresh), state);
+        let next = sample(&mut random, cells);
+        signal.add(&mut whole, &next);
+        signal.add(&mut fresh, &next);
+        let [one, other] = [&mut whole, &mut fresh].map(|of| signal.state(of));
+        assert_eq!(one, other, "cut at {cut}");
+    }
+    let mut state = signal.state(&mut whole);
+    state.values.pop();
+    assert!(whole.restore(&signal.rig.queue, &state).is_err());
+    let bad = whole.read(
+        &signal.rig.device,
+        &signal.rig.queue,
+        &signal.lattice,
+        Statistic::Velocity(3),
+        None,
+    );
+    assert!(signal.rig.wait(bad).is_err());
+}

@@ -1,0 +1,140 @@
+//! Statistics of the fields of a scene: what is sampled when, over restarts, beside blocks.
+
+use kit::Rig;
+use riprap::{
+    output::Image,
+    scene::{Field, Scene},
+    simulation::Simulation,
+};
+
+const FIELDS: [Field; 5] = [
+    Field::MeanVelocity,
+    Field::MeanPressure,
+    Field::PressureRms,
+    Field::ReynoldsStress,
+    Field::TurbulentKineticEnergy,
+];
+
+/// A free block in a channel whose inlet swings; samples are the steps 4, 7, 10, …
+fn scene(statistics: bool) -> Scene {
+    let with = match statistics {
+        true => "[statistics]\nfrom = 0.04\nevery = 0.03\n[output]\nfields = [\"mean_velocity\"]",
+        false => "",
+    };
+    kit::scene::read(&format!(
+        r#"
+        domain = {{ size = [1.6, 0.9, 1.0], cell = 0.1 }}
+        fluid = {{ viscosity = 1e-2, density = 1000 }}
+        numerics.time_step = 0.01
+        run.steps = 60
+        [boundaries]
+        x_min = {{ kind = "velocity", velocity = ["0.3 + 0.1 * sin(60 * t)", 0, 0] }}
+        x_max = {{ kind = "pressure" }}
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "free_slip" }}
+        [[materials]]
+        name = "rock"
+        density = 2650
+        normal_stiffness = 1e6
+        friction = 30
+        [rock]
+        gravity = [0, 0, -9.81]
+        [coupling]
+        interval = 2
+        [[blocks]]
+        kind = "box"
+        size = [0.3, 0.3, 0.3]
+        position = [0.6, 0.45, 0.5]
+        {with}
+        "#
+    ))
+    .unwrap()
+}
+
+fn simulation(rig: &Rig, statistics: bool) -> Simulation {
+    rig.simulation(&scene(statistics)).unwrap()
+}
+
+fn image(rig: &Rig, simulation: &mut Simulation, fields: &[Field]) -> Image {
+    rig.wait(simulation.image(fields)).unwrap()
+}
+
+fn values<'a>(image: &'a Image, field: Field) -> &'a [f32] {
+    &image.array(field.name()).unwrap().values
+}
+
+#[test]
+fn fields_over_time_are_those_of_the_states_that_are_samples() {
+    let rig = Rig::new();
+    let mut whole = simulation(&rig, true);
+    let mut cut = simulation(&rig, true);
+    let mut plain = simulation(&rig, false);
+    rig.wait(whole.advance(3)).unwrap();
+    assert_eq!(whole.samples(), 0);
+    assert!(values(&image(&rig, &mut whole, &FIELDS), Field::MeanPressure)[0].is_nan());
+    let mut states = Vec::new();
+    for step in (4..=40).step_by(3) {
+        rig.wait(plain.advance(step - plain.step())).unwrap();
+        states.push(image(&rig, &mut plain, &[Field::Velocity, Field::Pressure]));
+    }
+    rig.wait(whole.advance(40 - 3)).unwrap();
+    assert_eq!(whole.samples(), states.len() as u64);
+    let found = image(&rig, &mut whole, &FIELDS);
+
+    let count = states.len() as f64;
+    let mean = |of: &dyn Fn(&Image) -> f64| states.iter().map(of).sum::<f64>() / count;
+    let u = |state: &Image, at: usize| f64::from(values(state, Field::Velocity)[at]);
+    let p = |state: &Image, at: usize| f64::from(values(state, Field::Pressure)[at]);
+    for cell in 0..found.cell_count() {
+        let means = [0, 1, 2].map(|a| mean(&|state| u(state, 3 * cell + a)));
+        for a in 0..3 {
+            let of = f64::from(values(&found, Field::MeanVelocity)[3 * cell + a]);
+            assert!(
+                (of - means[a]).abs() < 1e-6,
+                "{cell} {a}: {of} for {}",
+                means[a]
+            );
+        }
+        let product = |a: usize, b: usize| {
+            mean(&|state| (u(state, 3 * cell + a) - means[a]) * (u(state, 3 * cell + b) - means[b]))
+        };
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        for (k, (a, b)) in pairs.into_iter().enumerate() {
+            let of = f64::from(values(&found, Field::ReynoldsStress)[6 * cell + k]);
+            assert!(
+                (of - product(a, b)).abs() < 2e-7,
+                "{cell} {k}: {of} for {}",
+                product(a, b)
+            );
+        }
+        let energy = 0.5 * (product(0, 0) + product(1, 1) + product(2, 2));
+        let of = f64::from(values(&found, Field::TurbulentKineticEnergy)[cell]);
+        assert!((of - energy).abs() < 2e-7, "{cell}: {of} for {energy}");
+        let pressure = mean(&|state| p(state, cell));
+        let of = f64::from(values(&found, Field::MeanPressure)[cell]);
+        assert!(
+            (of - pressure).abs() < 1e-5 * pressure.abs().max(100.0),
+            "{cell}: {of} for {pressure}"
+        );
+        let rms = mean(&|state| (p(state, cell) - pressure).powi(2)).sqrt();
+        let of = f64::from(values(&found, Field::PressureRms)[cell]);
+        assert!(
+            (of - rms).abs() < 1e-4 * rms.max(10.0),
+            "{cell}: {of} for {rms}"
+        );
+    }
+
+    // The flow is the same to the bit, and a run that was cut goes on with the same numbers.
+    let [one, other] = [&mut whole, &mut plain].map(|of| image(&rig, of, &[Field::Velocity]));
+    assert_eq!(one, other);
+    rig.wait(cut.advance(17)).unwrap();
+    let state = rig.wait(cut.checkpoint()).unwrap();
+    let mut fresh = simulation(&rig, true);
+    fresh.restore(&state).unwrap();
+    rig.wait(fresh.advance(23)).unwrap();
+    assert_eq!(image(&rig, &mut fresh, &FIELDS), found);
+    // One without, and one of other samples, begin anew.
+    let none = rig.wait(plain.checkpoint()).unwrap();
+    fresh.restore(&none).unwrap();
+    assert_eq!(fresh.samples(), 0);
+}

@@ -23,6 +23,7 @@ mod repeatability;
 pub(crate) mod rock;
 mod slots;
 mod stability;
+mod statistics;
 mod wale;
 mod wall_model;
 
@@ -146,6 +147,7 @@ pub const CASES: &[Case] = &[
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
+    short("statistics/known-signal", "means and variances on the device of 3·10⁵ samples in f32, against f64", statistics::known_signal),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),

@@ -1,14 +1,10 @@
 // Chan, Golub & LeVeque 1983, Am. Stat. 37:242, eqs. 2.1: means and covariances over time of density and velocity, from
 // blocks of samples that are shifted by the mean so far.
-// needs scalar_grid
+// needs scalar_grid, $sample
 
-// Density minus one and velocity of each domain cell.
-@group(0) @binding(50) var<storage, read> density: array<f32>;
-@group(0) @binding(51) var<storage, read> velocity_x: array<f32>;
-@group(0) @binding(52) var<storage, read> velocity_y: array<f32>;
-@group(0) @binding(53) var<storage, read> velocity_z: array<f32>;
 @group(0) @binding(54) var<storage, read_write> derived: array<f32>;
-// Of the cells of the pass, plane by plane: 4 means, 7 covariances, and of the open block 4 sums and 7 sums of products.
+// Of each 64 cells of the pass one after the other: 4 means, 7 covariances, and of the open block 4 sums and 7 sums of
+// products. What an invocation touches lies close together.
 @group(0) @binding(56) var<storage, read_write> statistics: array<f32>;
 
 struct StatisticsPass {
@@ -23,20 +19,17 @@ struct StatisticsPass {
 
 @group(0) @binding(57) var<uniform> statistics_pass: StatisticsPass;
 
+const PLANES = 22u;
 const SUMS = 11u;
 const PRODUCTS = 15u;
 
 fn place(plane: u32, n: u32) -> u32 {
-    return plane * (cell_pass.end - cell_pass.first) + n;
+    return (n / 64u * PLANES + plane) * 64u + n % 64u;
 }
 
 // Whose product is number k of the covariances: density, xx, yy, zz, xy, yz, xz.
 fn factors(k: u32) -> vec2<u32> {
     return select(vec2(k), vec2(k - 3u, k % 3u + 1u), k > 3u);
-}
-
-fn sample(n: u32) -> vec4<f32> {
-    return vec4(density[n], velocity_x[n], velocity_y[n], velocity_z[n]);
 }
 
 // What a mean or covariance is with the samples of the open block.

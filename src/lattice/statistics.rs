@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{kernel::largest_binding, readback::Readback},
+    gpu::{kernel::largest_binding, link::Program, readback::Readback},
 };
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -17,6 +17,14 @@ use std::ops::Range;
 const BLOCK: u64 = 256;
 /// Numbers of a cell: 4 means, 7 covariances, and as many sums of the open block.
 const PLANES: usize = 22;
+
+/// Cells whose numbers lie together, as in `kernels/lattice/statistics.wgsl`.
+const GROUP: usize = 64;
+
+/// Where the numbers of cell `n` of a part lie, `plane` of them.
+fn place(plane: usize, n: usize) -> usize {
+    (n / GROUP * PLANES + plane) * GROUP + n % GROUP
+}
 
 /// A mean or a covariance over time, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,25 +89,26 @@ pub struct StatisticsState {
 struct Part {
     cells: Range<u32>,
     buffer: wgpu::Buffer,
-    begin: Dispatch,
-    add: Dispatch,
+    /// Of the first sample, after an even and after an odd number of steps.
+    begin: [Dispatch; 2],
+    /// Of the others.
+    add: [Dispatch; 2],
 }
 
-/// Statistics over time of what an [`Observer`] shows: 88 bytes a cell.
+/// Statistics over time of density and velocity: 88 bytes a cell.
 ///
 /// Sums run over blocks of 256 samples, shifted by the mean so far, and each block is then merged with those before it, so
 /// that in f32 neither means nor covariances drift: 3·10⁵ samples leave an error of 10⁻⁵.
 ///
 /// ```
-/// use riprap::{lattice::{Lattice, Observer, Setup, State, Statistics}, wgpu};
+/// use riprap::{lattice::{Lattice, Setup, State, Statistics}, wgpu};
 ///
 /// # fn main() -> riprap::Result<()> {
 /// // Any device; this one does nothing, so that the example runs everywhere.
 /// let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
 /// let mut lattice = Lattice::new(&device, Setup::periodic([16, 16, 16], 0.01))?;
 /// lattice.start(&device, &queue, &State::rest(16 * 16 * 16), true)?;
-/// let observer = Observer::new(&device, &lattice)?;
-/// let mut statistics = Statistics::new(&device, &lattice, &observer)?;
+/// let mut statistics = Statistics::of_populations(&device, &lattice)?;
 ///
 /// let mut encoder = device.create_command_encoder(&Default::default());
 /// {
@@ -108,8 +117,7 @@ struct Part {
 ///     for _ in 0..5 {
 ///         lattice.record(&mut pass);
 ///     }
-///     observer.record(&mut lattice, &mut pass)?;
-///     statistics.record(&device, &lattice, &mut pass)?;
+///     statistics.record(&device, &mut lattice, &mut pass)?;
 /// }
 /// queue.submit([encoder.finish()]);
 /// assert_eq!(statistics.samples(), 1);
@@ -119,6 +127,7 @@ struct Part {
 #[derive(Debug)]
 pub struct Statistics {
     parts: Vec<Part>,
+    program: Program,
     cells: usize,
     merged: u64,
     open: u64,
@@ -129,42 +138,73 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Makes the buffers for the statistics of what `observer` shows of `lattice`.
+    /// Of the states of a lattice without blocks, read from its populations.
     ///
     /// # Errors
-    /// If the device does not hold them.
-    pub fn new(device: &wgpu::Device, lattice: &Lattice, observer: &Observer) -> Result<Self> {
+    /// If it has cells with solid, of which only an [`Observer`] knows the velocity, or the device does not hold the buffers.
+    pub fn of_populations(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
+        if lattice.setup.solid_operator.is_some() {
+            let message = "this lattice has blocks; use `of_observer`, which knows the velocity in their cells";
+            return Err(Error::argument("solid_operator", message));
+        }
+        Self::new(device, lattice, "sample_populations", &[])
+    }
+
+    /// Of what `observer` shows of a lattice: before each [`Statistics::record`] goes an [`Observer::record`].
+    ///
+    /// # Errors
+    /// If the device does not hold the buffers.
+    pub fn of_observer(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        observer: &Observer,
+    ) -> Result<Self> {
+        let [x, y, z] = observer.velocity();
+        let buffers = [
+            ("density", observer.density()),
+            ("velocity_x", x),
+            ("velocity_y", y),
+            ("velocity_z", z),
+        ];
+        Self::new(device, lattice, "sample_observed", &buffers)
+    }
+
+    fn new(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        sample: &'static str,
+        sampled: &[(&str, &wgpu::Buffer)],
+    ) -> Result<Self> {
         let cells = lattice.grid().cell_count();
         let bytes = 4 * PLANES as u64;
-        let most = (largest_binding(&device.limits()) / bytes).max(1) as usize;
-        let program = lattice.cell_program("statistics");
+        let groups = largest_binding(&device.limits()) / bytes / GROUP as u64;
+        let most = GROUP * groups.max(1) as usize;
+        let program = lattice.cell_program("statistics").slot("sample", sample);
         let make = |first: usize| {
             let cells = first as u32..cells.min(first + most) as u32;
             let buffer = result_buffer(
                 device,
                 "statistics",
-                bytes * u64::from(cells.end - cells.start),
+                bytes * cells.len().next_multiple_of(GROUP) as u64,
             );
-            let [x, y, z] = observer.velocity();
-            let buffers = [
-                ("statistics", &buffer),
-                ("density", observer.density()),
-                ("velocity_x", x),
-                ("velocity_y", y),
-                ("velocity_z", z),
-            ];
-            let dispatch = |entry| {
+            let mut buffers = vec![("statistics", &buffer)];
+            buffers.extend(sampled);
+            let dispatch = |entry, odd| {
                 let dispatch = CellDispatch {
                     program: &program,
                     entry,
-                    pass: pass_over(&cells),
+                    pass: CellPass {
+                        odd,
+                        ..pass_over(&cells)
+                    },
                     buffers: &buffers,
                     constants: &[],
                     invocations: cells.end - cells.start,
                 };
                 lattice.cell_dispatch(device, &dispatch)
             };
-            let (begin, add) = (dispatch("begin_statistics")?, dispatch("add_sample")?);
+            let both = |entry| Ok::<_, Error>([dispatch(entry, 0)?, dispatch(entry, 1)?]);
+            let (begin, add) = (both("begin_statistics")?, both("add_sample")?);
             Ok(Part {
                 cells,
                 buffer,
@@ -174,6 +214,7 @@ impl Statistics {
         };
         Ok(Self {
             parts: (0..cells).step_by(most).map(make).collect::<Result<_>>()?,
+            program,
             cells,
             merged: 0,
             open: 0,
@@ -193,21 +234,23 @@ impl Statistics {
         self.parts.iter().map(|part| part.buffer.size()).sum()
     }
 
-    /// Records that what [`Observer::record`] has written just before is a sample.
+    /// Records that the present state is a sample.
     ///
     /// # Errors
     /// If the device does not compile the kernel that merges a block.
     pub fn record(
         &mut self,
         device: &wgpu::Device,
-        lattice: &Lattice,
+        lattice: &mut Lattice,
         pass: &mut wgpu::ComputePass<'_>,
     ) -> Result<()> {
+        lattice.close(pass);
         for part in &self.parts {
-            match self.samples() {
-                0 => part.begin.record(pass),
-                _ => part.add.record(pass),
-            }
+            let dispatches = match self.samples() {
+                0 => &part.begin,
+                _ => &part.add,
+            };
+            dispatches[lattice.parity()].record(pass);
         }
         self.open += 1;
         if self.open == BLOCK {
@@ -240,7 +283,7 @@ impl Statistics {
         let mut buffers = vec![("statistics", &part.buffer), ("statistics_pass", &of_block)];
         buffers.extend(others);
         let dispatch = CellDispatch {
-            program: &lattice.cell_program("statistics"),
+            program: &self.program,
             entry,
             pass: pass_over(&part.cells),
             buffers: &buffers,
@@ -312,13 +355,15 @@ impl Statistics {
         }
         state.values.resize(PLANES * self.cells, 0.0);
         for part in &self.parts {
-            let (first, count) = (part.cells.start as usize, part.cells.len());
+            let count = part.buffer.size() as usize / 4;
             let read: Vec<f32> = self
                 .readback
-                .read(device, queue, &part.buffer, PLANES * count)
+                .read(device, queue, &part.buffer, count)
                 .await?;
-            for (plane, values) in read.chunks(count).enumerate() {
-                state.values[plane * self.cells + first..][..count].copy_from_slice(values);
+            for (plane, values) in state.values.chunks_mut(self.cells).enumerate() {
+                for (n, cell) in part.cells.clone().enumerate() {
+                    values[cell as usize] = read[place(plane, n)];
+                }
             }
         }
         Ok(state)
@@ -353,12 +398,12 @@ impl Statistics {
             return Ok(());
         }
         for part in &self.parts {
-            let (first, count) = (part.cells.start as usize, part.cells.len());
-            let planes = state.values.chunks(self.cells);
-            let own: Vec<f32> = planes
-                .flat_map(|plane| &plane[first..first + count])
-                .copied()
-                .collect();
+            let mut own = vec![0.0; part.buffer.size() as usize / 4];
+            for (plane, values) in state.values.chunks(self.cells).enumerate() {
+                for (n, cell) in part.cells.clone().enumerate() {
+                    own[place(plane, n)] = values[cell as usize];
+                }
+            }
             queue.write_buffer(&part.buffer, 0, bytemuck::cast_slice(&own));
         }
         Ok(())

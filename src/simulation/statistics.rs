@@ -48,7 +48,10 @@ impl Sampling {
         Ok(Some(Self {
             first: requested.first_step(time_step).max(1),
             stride: requested.stride(time_step),
-            statistics: Statistics::new(device, lattice, observer)?,
+            statistics: match lattice.setup().solid_operator {
+                Some(_) => Statistics::of_observer(device, lattice, observer)?,
+                None => Statistics::of_populations(device, lattice)?,
+            },
         }))
     }
 
@@ -92,10 +95,12 @@ impl LatticeFluid {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.observer.record(&mut self.lattice, &mut pass)?;
+            if self.lattice.setup().solid_operator.is_some() {
+                self.observer.record(&mut self.lattice, &mut pass)?;
+            }
             sampling
                 .statistics
-                .record(&self.device, &self.lattice, &mut pass)?;
+                .record(&self.device, &mut self.lattice, &mut pass)?;
         }
         self.queue.submit([encoder.finish()]);
         Ok(())

@@ -15,7 +15,8 @@ use std::mem::offset_of;
 
 fn linked(entry: &str) -> Linked {
     let setup = Setup::periodic([4; 3], 0.1);
-    single_cells(&setup, 1, entry).link().unwrap()
+    let program = single_cells(&setup, 1, entry).slot("sample", "sample_populations");
+    program.link().unwrap()
 }
 
 #[test]

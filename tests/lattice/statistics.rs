@@ -2,7 +2,10 @@
 
 use kit::{Random, Rig, twin::statistics::moments};
 use riprap::{
-    lattice::{Lattice, Observer, Setup, State, Statistic, Statistics, StatisticsState},
+    lattice::{
+        Face, Force, Lattice, Observer, Setup, SolidOperator, State, Statistic, Statistics,
+        StatisticsState, Storage,
+    },
     wgpu,
 };
 
@@ -29,7 +32,7 @@ impl Signal {
     }
 
     fn statistics(&self) -> Statistics {
-        Statistics::new(&self.rig.device, &self.lattice, &self.observer).unwrap()
+        Statistics::of_observer(&self.rig.device, &self.lattice, &self.observer).unwrap()
     }
 
     /// Adds a sample of each cell.
@@ -44,7 +47,7 @@ impl Signal {
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             statistics
-                .record(&self.rig.device, &self.lattice, &mut pass)
+                .record(&self.rig.device, &mut self.lattice, &mut pass)
                 .unwrap();
         }
         self.rig.queue.submit([encoder.finish()]);
@@ -97,14 +100,14 @@ fn means_and_covariances_are_those_of_all_samples() {
     let small = {
         let all = kit::gpu::selected().unwrap().limits();
         wgpu::Limits {
-            max_storage_buffer_binding_size: 4 * 22 * 40,
+            max_storage_buffer_binding_size: 4 * 22 * 64,
             ..all
         }
     };
     for (cells, limits) in [
         ([7, 5, 3], None),
         ([1, 1, 1], None),
-        ([5, 3, 3], Some(small)),
+        ([7, 5, 3], Some(small)),
     ] {
         let mut signal = Signal::new(cells, limits);
         let mut statistics = signal.statistics();
@@ -155,6 +158,56 @@ fn means_and_covariances_are_those_of_all_samples() {
             assert_eq!(listed, expected);
         }
     }
+}
+
+/// A stream between walls that a force drives, in two layouts.
+#[test]
+fn samples_from_populations_are_those_of_an_observer() {
+    let rig = Rig::new();
+    let cells = [6, 7, 4];
+    let count = cells.iter().product::<u32>() as usize;
+    for (storage, lanes) in [(Storage::F32, 1), (Storage::F16, 2)] {
+        let mut setup = Setup::periodic(cells, 0.02);
+        (setup.storage, setup.lanes) = (storage, lanes);
+        setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.05, 0.0, 0.0])];
+        setup.force = Force::Constant([1e-4, 0.0, 2e-5]);
+        setup.solid = (0..count).map(|n| n == 100).collect();
+        let mut lattice = rig.start(setup, &State::rest(count), true);
+        let observer = Observer::new(&rig.device, &lattice).unwrap();
+        let mut of_observer = Statistics::of_observer(&rig.device, &lattice, &observer).unwrap();
+        let mut of_populations = Statistics::of_populations(&rig.device, &lattice).unwrap();
+        for _ in 0..7 {
+            rig.run(&mut lattice, 5);
+            let mut encoder = rig.device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                observer.record(&mut lattice, &mut pass).unwrap();
+                for statistics in [&mut of_observer, &mut of_populations] {
+                    statistics
+                        .record(&rig.device, &mut lattice, &mut pass)
+                        .unwrap();
+                }
+            }
+            rig.queue.submit([encoder.finish()]);
+        }
+        for of in ALL {
+            let [one, other] = [&mut of_observer, &mut of_populations].map(|statistics| {
+                let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
+                rig.wait(read).unwrap()
+            });
+            let most = one
+                .iter()
+                .fold(0.0_f32, |most, value| most.max(value.abs()));
+            assert!(most > 0.0, "{of:?}");
+            for (one, other) in one.iter().zip(&other) {
+                assert!((one - other).abs() <= 1e-6 * most, "{of:?}: {one} {other}");
+            }
+        }
+    }
+    let mut setup = Setup::periodic(cells, 0.02);
+    setup.solid_operator = Some(SolidOperator::Holdych);
+    let lattice = rig.start(setup, &State::rest(count), true);
+    assert!(Statistics::of_populations(&rig.device, &lattice).is_err());
 }
 
 #[test]

@@ -29,7 +29,7 @@ pub fn known_signal(stand: &Stand) -> Outcome {
     let mut lattice = Lattice::new(device, Setup::periodic([4, 4, 4], 0.02))?;
     lattice.start(device, queue, &State::rest(CELLS), true)?;
     let observer = Observer::new(device, &lattice)?;
-    let mut statistics = Statistics::new(device, &lattice, &observer)?;
+    let mut statistics = Statistics::of_observer(device, &lattice, &observer)?;
     let mut random = Random(5);
     let mut fluctuations = [[0.0; CELLS]; 4];
     let mut exact = vec![Series::default(); 4 * CELLS];
@@ -68,7 +68,7 @@ pub fn known_signal(stand: &Stand) -> Outcome {
                 encoder.copy_buffer_to_buffer(&staged, from, buffer, 0, bytes);
             }
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            statistics.record(device, &lattice, &mut pass)?;
+            statistics.record(device, &mut lattice, &mut pass)?;
         }
         queue.submit([encoder.finish()]);
         // Submissions do not pile up.

@@ -148,7 +148,9 @@ fn kernels_for_single_cells_in_all_variants() {
         setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][equilibrium]);
         setup.solid_operator = (quantity == 1).then_some(SolidOperator::Holdych);
         let count = bindings_of(&variant);
-        let program = single_cells(&setup, count, file).slot("quantity", QUANTITIES[quantity]);
+        let program = single_cells(&setup, count, file)
+            .slot("quantity", QUANTITIES[quantity])
+            .slot("sample", ["sample_observed", "sample_populations"][walls]);
         let linked = program
             .link()
             .unwrap_or_else(|error| panic!("{file} {setup:?} {count}: {error}"));

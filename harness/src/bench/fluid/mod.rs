@@ -16,9 +16,13 @@ use kit::{
     copy::{Copy, METHODS},
     subject::{Arithmetic, StreamOnly, Subject, sheared_noise},
 };
-use riprap::{Error, lattice::Lattice};
+use riprap::{
+    Error,
+    lattice::{Lattice, Statistics},
+    wgpu,
+};
 use row::{Ceilings, StepWork};
-use variant::{Group, PLAIN, STREAM_ONLY, Variant};
+use variant::{Group, PLAIN, STATISTICS, STREAM_ONLY, Variant};
 
 /// The kernels of the fluid on each grid.
 ///
@@ -74,12 +78,15 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
     subjects.extend(METHODS.map(|method| Subject::Copying(&copy, method)));
     subjects.push(Subject::Computing(&arithmetic));
     // The first turns compile and clear memory; the next ones tell how many fill the time. An even
-    // number, because a lattice steps in pairs.
+    // number, because a lattice steps in pairs; as many as hold whole intervals between samples, where there are some.
     let mut turns = Vec::new();
-    for subject in &mut subjects {
-        clock.run(subject, 2)?;
-        let wall = clock.run(subject, 2)?.spent.wall;
-        turns.push(((long / wall) as u32).clamp(2, 2048).next_multiple_of(2));
+    for (n, subject) in subjects.iter_mut().enumerate() {
+        let is_sampled = group.variants.get(n).is_some_and(|v| v.name == STATISTICS);
+        let whole = if is_sampled { 2 * SAMPLED } else { 2 };
+        clock.run(subject, whole)?;
+        let wall = clock.run(subject, whole)?.spent.wall;
+        let filling = ((long / wall) as u32).clamp(2, 2048);
+        turns.push(filling.next_multiple_of(whole));
     }
     let mut spent = vec![Vec::new(); subjects.len()];
     for _round in 0..rounds {
@@ -112,12 +119,32 @@ fn subject(clock: &Clock, variant: &Variant) -> Result<(Subject<'static>, StepWo
     let state = sheared_noise(&variant.setup)?;
     lattice.start(&clock.device, &clock.queue, &state, true)?;
     let work = StepWork::of(&lattice);
+    if variant.name == STATISTICS {
+        return Ok((sampled(&clock.device, lattice)?, work));
+    }
     if variant.name != STREAM_ONLY {
         return Ok((Subject::Steps(Box::new(lattice)), work));
     }
     let stream = StreamOnly::new(&clock.device, lattice)?;
     let work = StepWork { flops: 0, ..work };
     Ok((Subject::Streaming(Box::new(stream)), work))
+}
+
+/// Steps from one sample of statistics to the next.
+const SAMPLED: u32 = 5;
+
+/// Steps of a lattice with statistics.
+fn sampled(device: &wgpu::Device, mut lattice: Lattice) -> Result<Subject<'static>, Error> {
+    let device = device.clone();
+    let mut statistics = Statistics::of_populations(&device, &lattice)?;
+    Ok(Subject::Recording(Box::new(move |pass| {
+        lattice.record(pass);
+        if lattice.step().is_multiple_of(SAMPLED.into()) {
+            if let Err(error) = statistics.record(&device, &mut lattice, pass) {
+                eprintln!("no sample is recorded: {error}");
+            }
+        }
+    })))
 }
 
 /// The median of each kind of time by itself.
@@ -163,6 +190,7 @@ fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Option<Target>> {
         ]
     };
     let guard = longer("mrt, guard");
+    let statistics = longer(STATISTICS).zip(longer("mrt, WALE"));
     let model = longer(variant::WALL_MODEL).zip(longer(variant::TWO_WALLS));
     all.extend([
         Target::at_most("MRT ≤ 1.1 BGK", longer("bgk").map(f64::recip), 1.1),
@@ -172,6 +200,11 @@ fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Option<Target>> {
             "wall model ≤ 1.08 of the step with walls on two sides",
             model.map(|(model, walls)| model / walls),
             1.08,
+        ),
+        Target::at_most(
+            "statistics of every fifth state ≤ 1.1 of the step with WALE",
+            statistics.map(|(sampled, plain)| sampled / plain),
+            1.1,
         ),
     ]);
     all

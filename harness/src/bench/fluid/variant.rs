@@ -13,6 +13,8 @@ pub const PLAIN: &str = "mrt";
 pub const TWO_WALLS: &str = "mrt, WALE, two walls";
 /// See [`TWO_WALLS`].
 pub const WALL_MODEL: &str = "mrt, WALE, wall model";
+/// With WALE, and statistics over time of every fifth state.
+pub const STATISTICS: &str = "mrt, WALE, statistics";
 /// Streaming without collision.
 pub const STREAM_ONLY: &str = "stream only";
 
@@ -38,10 +40,11 @@ pub struct Group {
 type Change = fn(&mut Setup);
 
 /// What changes the plain step.
-const MAIN: [(&str, Change); 8] = [
+const MAIN: [(&str, Change); 9] = [
     ("bgk", |s| s.collision = Collision::Bgk),
     ("mrt, force", |s| s.force = FORCE),
     ("mrt, WALE", |s| s.wale = Some(0.5)),
+    (STATISTICS, |s| s.wale = Some(0.5)),
     ("mrt, guard", |s| s.max_speed = 0.3),
     ("mrt, walls", |s| s.faces = walls()),
     ("all of these", |s| {

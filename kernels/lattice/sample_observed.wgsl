@@ -1,0 +1,12 @@
+// A sample for statistics.wgsl (Chan, Golub & LeVeque 1983): what macroscopic.wgsl and those after it have written.
+// needs scalar_grid
+
+// Density minus one and velocity of each domain cell.
+@group(0) @binding(50) var<storage, read> density: array<f32>;
+@group(0) @binding(51) var<storage, read> velocity_x: array<f32>;
+@group(0) @binding(52) var<storage, read> velocity_y: array<f32>;
+@group(0) @binding(53) var<storage, read> velocity_z: array<f32>;
+
+fn sample(n: u32) -> vec4<f32> {
+    return vec4(density[n], velocity_x[n], velocity_y[n], velocity_z[n]);
+}

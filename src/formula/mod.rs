@@ -4,7 +4,7 @@ mod parse;
 #[cfg(feature = "scene")]
 mod scene_text;
 
-use std::fmt;
+use std::{fmt, sync::Arc};
 
 /// Variables that a formula may use, in the order of the arguments of [`Formula::eval`].
 pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
@@ -20,6 +20,25 @@ enum Op {
     Variable(u8),
     Unary(fn(f64) -> f64),
     Binary(fn(f64, f64) -> f64),
+    /// In the series of this number.
+    Interpolate(u16),
+}
+
+/// Places and values, places ascending.
+type Series = Arc<[[f64; 2]]>;
+
+/// The value at `place`, linear between the points of a series and constant beyond them.
+fn interpolate(series: &[[f64; 2]], place: f64) -> f64 {
+    let after = series.partition_point(|[x, _]| *x <= place);
+    match (
+        after.checked_sub(1).map(|n| series[n]),
+        series.get(after).copied(),
+    ) {
+        _ if place.is_nan() => f64::NAN,
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (place - x0) / (x1 - x0),
+        (Some([_, y]), None) | (None, Some([_, y])) => y,
+        (None, None) => f64::NAN,
+    }
 }
 
 /// A number, or a formula of x, y, z (m) and t (s) as text.
@@ -27,7 +46,8 @@ enum Op {
 /// Operators `+ - * / ^` with the precedence of mathematics (`-x^2` is `-(x^2)`, `^` groups to
 /// the right), parentheses, the constants `pi` and `e`, and the functions sin, cos, tan, asin,
 /// acos, atan, sinh, cosh, tanh, exp, log (= ln), log10, sqrt, abs, sign, floor, ceil, and, with
-/// two arguments, min, max, atan2, mod.
+/// two arguments, min, max, atan2, mod. `interpolate(t, 0, 0.5, 10, 2)` is linear in its first argument between
+/// points, here from 0.5 at 0 to 2 at 10, and constant beyond them.
 ///
 /// ```
 /// let profile: riprap::formula::Formula = "1 - (y/0.1)^2".parse().unwrap();
@@ -37,6 +57,7 @@ enum Op {
 pub struct Formula {
     text: String,
     ops: Vec<Op>,
+    series: Vec<Series>,
 }
 
 impl Formula {
@@ -45,6 +66,7 @@ impl Formula {
         Self {
             text: value.to_string(),
             ops: vec![Op::Number(value)],
+            series: Vec::new(),
         }
     }
 
@@ -64,6 +86,10 @@ impl Formula {
                     top += 1;
                 }
                 Op::Unary(function) => stack[top - 1] = function(stack[top - 1]),
+                Op::Interpolate(series) => {
+                    let series = &self.series[usize::from(series)];
+                    stack[top - 1] = interpolate(series, stack[top - 1]);
+                }
                 Op::Binary(function) => {
                     top -= 1;
                     stack[top - 1] = function(stack[top - 1], stack[top]);
@@ -160,9 +186,11 @@ impl std::str::FromStr for Formula {
     type Err = FormulaError;
 
     fn from_str(text: &str) -> Result<Self, FormulaError> {
+        let (ops, series) = parse::compile(text)?;
         Ok(Self {
             text: text.to_owned(),
-            ops: parse::compile(text)?,
+            ops,
+            series,
         })
     }
 }

@@ -8,14 +8,15 @@
 //! atom   = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 //! ```
 
-use super::{FormulaError, Op, STACK, VARIABLES};
+use super::{Formula, FormulaError, Op, STACK, Series, VARIABLES};
 
-pub(super) fn compile(text: &str) -> Result<Vec<Op>, FormulaError> {
+pub(super) fn compile(text: &str) -> Result<(Vec<Op>, Vec<Series>), FormulaError> {
     let mut parser = Parser {
         text,
         at: 0,
         nesting: 0,
         ops: Vec::new(),
+        series: Vec::new(),
     };
     parser.sum()?;
     match parser.peek() {
@@ -32,6 +33,7 @@ struct Parser<'a> {
     at: usize,
     nesting: usize,
     ops: Vec<Op>,
+    series: Vec<Series>,
 }
 
 impl Parser<'_> {
@@ -167,6 +169,8 @@ impl Parser<'_> {
         } else if let Some(function) = binary(name) {
             self.arguments(name, 2)?;
             self.ops.push(Op::Binary(function));
+        } else if name == "interpolate" {
+            self.interpolate()?;
         } else if let Some(value) = constant(name) {
             self.at += name.len();
             self.ops.push(Op::Number(value));
@@ -176,7 +180,7 @@ impl Parser<'_> {
         } else if rest[name.len()..].trim_start().starts_with('(') {
             return Err(self.error(format!(
                 "there is no function `{name}`; use sin, cos, tan, asin, acos, atan, sinh, cosh, \
-                 tanh, exp, log, log10, sqrt, abs, sign, floor, ceil, min, max, atan2, mod"
+                 tanh, exp, log, log10, sqrt, abs, sign, floor, ceil, min, max, atan2, mod, interpolate"
             )));
         } else {
             return Err(self.error(format!(
@@ -205,14 +209,65 @@ impl Parser<'_> {
         self.close()
     }
 
+    /// An argument, and points as pairs of numbers.
+    fn interpolate(&mut self) -> Result<(), FormulaError> {
+        self.at += "interpolate".len();
+        if !self.take('(') {
+            return Err(self.error("`(` must follow the function `interpolate`"));
+        }
+        self.sum()?;
+        let mut numbers = Vec::new();
+        while self.take(',') {
+            numbers.push(self.fixed()?);
+        }
+        let points: Vec<[f64; 2]> = numbers
+            .chunks_exact(2)
+            .map(|pair| [pair[0], pair[1]])
+            .collect();
+        if points.len() < 2 || numbers.len() % 2 == 1 {
+            return Err(self.error(format!(
+                "`interpolate` takes an argument and at least two points, each of a place and a value; here are {} \
+                 numbers after the argument",
+                numbers.len()
+            )));
+        }
+        if let Some(pair) = points.windows(2).find(|pair| !(pair[0][0] < pair[1][0])) {
+            return Err(self.error(format!(
+                "the places of `interpolate` ascend, and {} follows {}",
+                pair[1][0], pair[0][0]
+            )));
+        }
+        let Ok(number) = u16::try_from(self.series.len()) else {
+            return Err(self.error("so many calls of `interpolate` are not possible"));
+        };
+        self.series.push(points.into());
+        self.ops.push(Op::Interpolate(number));
+        self.close()
+    }
+
+    /// A number, or a formula without variables.
+    fn fixed(&mut self) -> Result<f64, FormulaError> {
+        let before = self.ops.len();
+        self.sum()?;
+        let own = Formula {
+            text: String::new(),
+            ops: self.ops.split_off(before),
+            series: self.series.clone(),
+        };
+        match own.constant().filter(|value| value.is_finite()) {
+            Some(value) => Ok(value),
+            None => Err(self.error("a point of `interpolate` is of finite numbers")),
+        }
+    }
+
     /// The operations, if an evaluation never holds more than [`STACK`] values.
-    fn bounded(self) -> Result<Vec<Op>, FormulaError> {
+    fn bounded(self) -> Result<(Vec<Op>, Vec<Series>), FormulaError> {
         let mut depth = 0_usize;
         let mut most = 0;
         for op in &self.ops {
             match op {
                 Op::Number(_) | Op::Variable(_) => depth += 1,
-                Op::Unary(_) => {}
+                Op::Unary(_) | Op::Interpolate(_) => {}
                 Op::Binary(_) => depth -= 1,
             }
             most = most.max(depth);
@@ -220,7 +275,7 @@ impl Parser<'_> {
         if most > STACK {
             return Err(self.error(format!("nested deeper than {STACK} levels; simplify it")));
         }
-        Ok(self.ops)
+        Ok((self.ops, self.series))
     }
 }
 

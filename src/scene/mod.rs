@@ -52,6 +52,7 @@ mod rock_masses;
 mod rules;
 mod run;
 mod sample;
+mod series_files;
 mod solids;
 pub mod static_solids;
 mod statistics;

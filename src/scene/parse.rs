@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::Scene;
 use super::renamed::renamed_keys;
-use super::tagged;
+use super::{series_files, tagged};
 use crate::error::{Error, Place, Result};
 
 /// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
@@ -37,7 +37,7 @@ impl Scene {
     /// # Errors
     /// If the text is not TOML, does not follow the format, or contradicts itself.
     pub fn from_toml(text: &str, dir: &Path, place: &str) -> Result<Self> {
-        let mut scene = deserialize(text).map_err(|refusal| refusal.at(text, place))?;
+        let mut scene = deserialize(text, dir).map_err(|refusal| refusal.at(text, place))?;
         dir.clone_into(&mut scene.dir);
         if scene.title.is_empty() {
             let stem = Path::new(place).file_stem();
@@ -65,15 +65,25 @@ pub(super) struct Refusal {
 }
 
 /// The scene in `text`, not checked yet.
-fn deserialize(text: &str) -> Result<Scene, Refusal> {
+fn deserialize(text: &str, dir: &Path) -> Result<Scene, Refusal> {
     let refused = |error| Refusal::of(error, text);
-    let document = DeTable::parse(text).map_err(refused)?;
+    let mut document = DeTable::parse(text).map_err(refused)?;
+    series_files::insert(document.get_mut(), dir)?;
     let mut document = Spanned::new(document.span(), DeValue::Table(document.into_inner()));
     tagged::tag(&mut document)?;
     Scene::deserialize(ValueDeserializer::from(document)).map_err(refused)
 }
 
 impl Refusal {
+    /// The same of a value in the table `key`.
+    pub fn below(self, key: &str) -> Self {
+        let key = match self.key.as_str() {
+            "" => key.to_owned(),
+            inner => format!("{key}.{inner}"),
+        };
+        Self { key, ..self }
+    }
+
     fn of(mut error: toml::de::Error, text: &str) -> Self {
         // Without its input the error prints the path of keys at which it arose.
         error.set_input(None);

@@ -1,5 +1,6 @@
 //! Defaults and every key.
 
+use kit::assert_contains;
 use riprap::scene::*;
 
 use crate::{CHANNEL, channel, read};
@@ -200,4 +201,49 @@ fn a_view_has_slices_and_traces() {
         (SliceField::Pressure, Some([-1.0, 1.0]))
     );
     assert_eq!((second.position, second.range), (None, None));
+}
+
+#[test]
+fn formulas_take_series_from_files_beside_the_scene() {
+    let folder = std::env::temp_dir().join(format!("riprap_series_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |text: &str| std::fs::write(folder.join("flow.csv"), text).unwrap();
+    let scene = r#"
+        domain = { size = [1, 1, 1], cell = 0.1 }
+        fluid = { viscosity = 1e-2 }
+        numerics.time_step = 0.01
+        run.steps = 1
+        [boundaries]
+        x_min = { kind = "velocity", velocity = ["0.5*interpolate(t, 'flow.csv')", 0, 0] }
+        x_max = { kind = "pressure" }
+    "#;
+    let read = || Scene::from_toml(scene, &folder, "river.toml");
+    write("time,speed\n0,1\n10,2\n20,0.5\n");
+    let read_scene = read().unwrap();
+    let Boundary::Velocity { velocity } = read_scene.boundaries.face(Face::XMin) else {
+        panic!("a velocity inlet")
+    };
+    assert_eq!(velocity[0].eval(0.0, 0.0, 0.0, 5.0), 0.75);
+    assert_eq!(velocity[0].eval(0.0, 0.0, 0.0, 99.0), 0.25);
+    for (text, parts) in [
+        (
+            "0,1\n10,2\n",
+            vec!["river.toml:7:", "first line is of numbers"],
+        ),
+        (
+            "time,a,b\n0,1,2\n",
+            vec!["boundaries.x_min.velocity", "3 columns"],
+        ),
+        ("time,a\n0,one\n", vec!["line 2", "`one` is not a number"]),
+        ("time,a\n5,1\n0,1\n", vec!["ascend, and 0 follows 5"]),
+        ("time,a\n5,1\n", vec!["at least two points"]),
+    ] {
+        write(text);
+        assert_contains(&read().unwrap_err().to_string(), &parts);
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_contains(
+        &read().unwrap_err().to_string(),
+        &["river.toml:7:", "flow.csv"],
+    );
 }

@@ -52,12 +52,41 @@ fn variables_are_position_and_time() {
 }
 
 #[test]
+fn series_are_linear_between_their_points_and_constant_beyond_them() {
+    let text = "2*interpolate(t + 1, 0, 0.5, 10, 2.5, 10.5, -1, 2e1, pi) + x";
+    for (t, value) in [
+        (-9.0, 0.5),
+        (-1.0, 0.5),
+        (1.5, 1.0),
+        (9.0, 2.5),
+        (9.25, 0.75),
+        (9.5, -1.0),
+        (19.0, std::f64::consts::PI),
+        (1e9, std::f64::consts::PI),
+    ] {
+        let found = at(text, 3.0, 0.0, 0.0, t);
+        assert!((found - 2.0 * value - 3.0).abs() < 1e-12, "{t}: {found}");
+    }
+    let formula: Formula = text.parse().unwrap();
+    assert!(formula.uses_time() && formula.uses_place());
+    let constant: Formula = "interpolate(1, 0, 0, 2, 2)".parse().unwrap();
+    assert_eq!(constant.constant(), Some(1.0));
+    let two = "interpolate(x, 0, 0, 1, 1) + interpolate(interpolate(y, 0, 1, 1, 0), 0, 5, 1, 6)";
+    assert_eq!(at(two, 0.5, 0.25, 0.0, 0.0), 0.5 + 5.75);
+    assert!(at("interpolate(x/x, 0, 0, 1, 1)", 0.0, 0.0, 0.0, 0.0).is_nan());
+}
+
+#[test]
 fn errors_point_at_the_character() {
     for (text, column, part) in [
         ("1-(y", 5, "`)` is missing"),
         ("2x", 2, "operator"),
         ("1 + q", 5, "no variable `q`; allowed are x, y, z, t"),
         ("sinus(x)", 1, "no function `sinus`; use sin"),
+        ("interpolate(t, 1, 2)", 20, "at least two points"),
+        ("interpolate(t, 0, 1, 2, 3, 4)", 29, "5 numbers"),
+        ("interpolate(t, 1, 0, 1, 5)", 26, "ascend, and 1 follows 1"),
+        ("interpolate(t, 0, 1, x, 5)", 23, "finite numbers"),
         ("sin x", 5, "`(` must follow"),
         ("min(x)", 6, "takes 2 arguments"),
         ("sin(x, y)", 6, "takes 1 argument"),

@@ -1,0 +1,73 @@
+//! Series of numbers in files that formulas name: `interpolate(t, 'flow.csv')`.
+
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::parse::Refusal;
+use crate::output::Table;
+
+/// Puts the numbers of files, which are looked for in `dir`, in the place of their names in formulas.
+pub(super) fn insert(table: &mut DeTable<'_>, dir: &Path) -> Result<(), Refusal> {
+    table.iter_mut().try_for_each(|(key, value)| {
+        let key = key.get_ref().to_string();
+        insert_in(value, dir).map_err(|refusal| refusal.below(&key))
+    })
+}
+
+fn insert_in(value: &mut Spanned<DeValue<'_>>, dir: &Path) -> Result<(), Refusal> {
+    let span = value.span();
+    match value.get_mut() {
+        DeValue::Table(table) => insert(table, dir),
+        DeValue::Array(list) => list.iter_mut().try_for_each(|value| insert_in(value, dir)),
+        DeValue::String(text) if text.contains("interpolate") && text.contains('\'') => {
+            let expanded = expand(text, dir).map_err(|message| Refusal {
+                span: Some(span),
+                key: String::new(),
+                message,
+            })?;
+            *text = expanded.into();
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The formula with numbers in the place of `'FILE'`.
+fn expand(text: &str, dir: &Path) -> Result<String, String> {
+    let mut parts = text.split('\'');
+    let mut expanded = parts.next().unwrap_or_default().to_owned();
+    while let Some(file) = parts.next() {
+        let Some(rest) = parts.next() else {
+            return Err(format!("`{text}`: the name of a file ends with a second '"));
+        };
+        expanded += &points(&dir.join(file))?;
+        expanded += rest;
+    }
+    Ok(expanded)
+}
+
+/// The two columns of a file, row by row.
+fn points(path: &Path) -> Result<String, String> {
+    let table = Table::read(path).map_err(|error| error.to_string())?;
+    let refused = |why: &str| Err(format!("{}: {why}", path.display()));
+    let [(first, x), (second, y)] = &table.columns[..] else {
+        return refused(&format!(
+            "it has {} columns; a series has two, such as time and velocity, under one line of names",
+            table.columns.len()
+        ));
+    };
+    if [first, second]
+        .iter()
+        .any(|name| name.parse::<f64>().is_ok())
+    {
+        return refused("its first line is of numbers; give the names of the columns there");
+    }
+    let pairs: Vec<String> = x
+        .iter()
+        .zip(y)
+        .map(|(x, y)| format!("{x:?}, {y:?}"))
+        .collect();
+    Ok(pairs.join(", "))
+}

@@ -231,7 +231,10 @@ impl Statistics {
 
     /// Bytes of the buffers.
     pub fn bytes(&self) -> u64 {
-        self.parts.iter().map(|part| part.buffer.size()).sum()
+        let parts = self.parts.iter().map(|part| part.buffer.size());
+        parts
+            .chain(self.field.as_ref().map(wgpu::Buffer::size))
+            .sum()
     }
 
     /// Records that the present state is a sample.

@@ -369,6 +369,12 @@ impl Simulation {
         self.lattice_fluid().map_or(0, LatticeFluid::samples)
     }
 
+    /// Bytes that statistics of fields take on the device; 0 of a scene that shows none.
+    pub fn statistics_bytes(&self) -> u64 {
+        self.lattice_fluid()
+            .map_or(0, LatticeFluid::statistics_bytes)
+    }
+
     /// The solver of free water, if there is any.
     pub fn particles(&self) -> Option<&SphSolver> {
         Some(&self.sph_fluid().ok()?.particles)

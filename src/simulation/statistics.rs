@@ -124,6 +124,12 @@ impl LatticeFluid {
             .map_or(0, |sampling| sampling.statistics.samples())
     }
 
+    /// Bytes of the statistics on the device.
+    pub(super) fn statistics_bytes(&self) -> u64 {
+        let sampling = self.sampling.as_ref();
+        sampling.map_or(0, |sampling| sampling.statistics.bytes())
+    }
+
     /// A field over time on the given cells or on all, component by component, SI; empty for one that is not.
     pub(super) async fn statistic(
         &mut self,

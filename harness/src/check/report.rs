@@ -168,7 +168,7 @@ impl Report {
             title: scene.title.clone(),
             adapter,
             cells: Cells::of(lattice),
-            memory: Memory::of(lattice, solid_cells),
+            memory: Memory::of(lattice, simulation),
             kernels: lattice
                 .kernels(false)
                 .chain(solid_cells.into_iter().flat_map(SolidCells::kernels))
@@ -214,14 +214,18 @@ impl Cells {
 }
 
 impl Memory {
-    fn of(lattice: &Lattice, solid_cells: Option<&SolidCells>) -> Self {
+    fn of(lattice: &Lattice, simulation: &Simulation) -> Self {
         let bytes = lattice.bytes().into_iter();
         let mut kinds: BTreeMap<_, _> = bytes.map(|(kind, n)| (kind.to_owned(), n)).collect();
         // Density and three components of the velocity in f32.
         let output = 16 * lattice.grid().cell_count() as u64;
         kinds.insert("density and velocity for output".into(), output);
-        if let Some(solid_cells) = solid_cells {
-            kinds.insert("blocks".into(), solid_cells.bytes());
+        if let Some(coupled) = simulation.coupled() {
+            kinds.insert("blocks".into(), coupled.solid_cells().bytes());
+        }
+        if simulation.statistics_bytes() > 0 {
+            let bytes = simulation.statistics_bytes();
+            kinds.insert("statistics over time".into(), bytes);
         }
         Self {
             total: kinds.values().sum(),

@@ -72,7 +72,7 @@ pub struct Args {
     #[arg(long)]
     pub error_estimate: bool,
     /// End the run early, once the statistical error of the means of all probes with statistics is so small a part of their
-    /// root mean squares: `2%` or `0.02`
+    /// root mean squares: `2%` or `0.02`; not before 256 samples, and as long a time as that before statistics.from
     #[arg(long, value_name = "ERROR")]
     pub until_error: Option<UntilError>,
     /// Of these probes, or quantities of them such as `point.velocity`, alone

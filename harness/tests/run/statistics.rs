@@ -117,7 +117,8 @@ fn tables_of_means_spectra_and_correlations() {
 #[test]
 fn a_run_ends_when_its_means_are_known() {
     let folder = folder("until_error");
-    let mut args = args(&folder, SCENE, "out");
+    let often = SCENE.replace("every = 0.002", "every = 0.001");
+    let mut args = args(&folder, &often, "out");
     args.until_error = Some("20%".parse().unwrap());
     args.error_of = vec!["inflow.velocity".into()];
     let summary = go(&args);

@@ -26,6 +26,8 @@ const STATISTICS: [&str; 7] = [
     "max",
     "integral_time",
 ];
+/// Fewest samples by whose errors a run may end: batches of at least four.
+const SAMPLES: u64 = 256;
 /// Products of the fluctuations of the components of a velocity.
 const PRODUCTS: [(&str, [usize; 2]); 3] = [("xy", [0, 1]), ("yz", [1, 2]), ("xz", [0, 2])];
 
@@ -176,9 +178,12 @@ impl TableStatistics {
         }
     }
 
-    /// The relative errors of the means of its quantities; none while there are too few samples.
+    /// The relative errors of the means of its quantities; none while there are too few samples, or they span less time than the
+    /// flow was given to develop, before which no error shows what slow motions it has.
     fn error(&self) -> Option<&[Option<f64>]> {
-        self.error.as_deref()
+        let length = self.times.map_or(0.0, |[first, last]| last - first);
+        let enough = self.count >= SAMPLES && length >= self.from;
+        self.error.as_deref().filter(|_| enough)
     }
 
     fn name(&self) -> String {

@@ -67,17 +67,9 @@ impl Station {
         let values = &row[coordinates..];
         self.coordinates = row[..coordinates].to_vec();
         self.series.resize_with(values.len(), Series::default);
-        let before = velocity.map(|first| {
-            [0, 1, 2].map(|axis| {
-                let series = &self.series[first + axis];
-                values[first + axis]
-                    - if series.count() > 0 {
-                        series.mean()
-                    } else {
-                        0.0
-                    }
-            })
-        });
+        let deviation = |series: &[Series], at: usize| values[at] - series[at].mean();
+        let before =
+            velocity.map(|first| [0, 1, 2].map(|axis| deviation(&self.series, first + axis)));
         for (series, value) in self.series.iter_mut().zip(values) {
             series.push(*value);
         }
@@ -85,7 +77,8 @@ impl Station {
             return;
         };
         for ((_, [a, b]), sum) in PRODUCTS.into_iter().zip(&mut self.products) {
-            let product = before[a] * (values[first + b] - self.series[first + b].mean());
+            // Not a number before the first sample, of which nothing deviates.
+            let product = before[a] * deviation(&self.series, first + b);
             if product.is_finite() {
                 *sum += product;
             }

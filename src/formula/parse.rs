@@ -231,7 +231,7 @@ impl Parser<'_> {
                 numbers.len()
             )));
         }
-        if let Some(pair) = points.windows(2).find(|pair| !(pair[0][0] < pair[1][0])) {
+        if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
             return Err(self.error(format!(
                 "the places of `interpolate` ascend, and {} follows {}",
                 pair[1][0], pair[0][0]

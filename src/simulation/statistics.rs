@@ -15,7 +15,7 @@ pub(super) struct Sampling {
     statistics: Statistics,
 }
 
-/// The numbers of a [`Sampling`] between two steps.
+/// Statistics of fields between two steps, and which steps are samples of them.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct SamplingState {

@@ -239,11 +239,11 @@ fn formulas_take_series_from_files_beside_the_scene() {
         ("time,a\n5,1\n", vec!["at least two points"]),
     ] {
         write(text);
-        assert_contains(&read().unwrap_err().to_string(), &parts);
+        assert_contains(read().unwrap_err().to_string(), &parts);
     }
     std::fs::remove_dir_all(&folder).unwrap();
     assert_contains(
-        &read().unwrap_err().to_string(),
+        read().unwrap_err().to_string(),
         &["river.toml:7:", "flow.csv"],
     );
 }

@@ -59,7 +59,7 @@ fn image(rig: &Rig, simulation: &mut Simulation, fields: &[Field]) -> Image {
     rig.wait(simulation.image(fields)).unwrap()
 }
 
-fn values<'a>(image: &'a Image, field: Field) -> &'a [f32] {
+fn values(image: &Image, field: Field) -> &[f32] {
     &image.array(field.name()).unwrap().values
 }
 

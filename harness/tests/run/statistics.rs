@@ -111,7 +111,7 @@ fn tables_of_means_spectra_and_correlations() {
     assert!(last(&of("sill_statistics.csv"), "fluid_force_x_mean") > 0.0);
     let fields = fs::read(of("fields_000400.vti")).unwrap();
     let tensor = "Name=\"reynolds_stress\" NumberOfComponents=\"6\"";
-    assert_contains(&String::from_utf8_lossy(&fields), &[tensor]);
+    assert_contains(String::from_utf8_lossy(&fields), &[tensor]);
 }
 
 #[test]
@@ -151,5 +151,5 @@ fn a_run_ends_when_its_means_are_known() {
     fs::write(folder.join("scene.toml"), plain).unwrap();
     let output = riprap(&folder, &["run", "scene.toml", "--until-error", "2%"]);
     assert!(!output.status.success());
-    assert_contains(&said(&output), &["--until-error", "[statistics]"]);
+    assert_contains(said(&output), &["--until-error", "[statistics]"]);
 }

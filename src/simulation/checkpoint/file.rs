@@ -171,8 +171,9 @@ mod tests {
             bytes
         };
         // Another version stays refused however old the file.
+        let next = format!("version {}", VERSION + 1);
         for (bytes, version) in [
-            (changed(MAGIC.len(), 8), "version 8"),
+            (changed(MAGIC.len(), VERSION + 1), next.as_str()),
             (b"riprap state  4\nrest".to_vec(), "version 4"),
             (b"riprap rocks  2\n".to_vec(), "version 2"),
             (b"riprap water  5\n".to_vec(), "version 5"),

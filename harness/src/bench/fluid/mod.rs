@@ -139,10 +139,10 @@ fn sampled(device: &wgpu::Device, mut lattice: Lattice) -> Result<Subject<'stati
     let mut statistics = Statistics::of_populations(&device, &lattice)?;
     Ok(Subject::Recording(Box::new(move |pass| {
         lattice.record(pass);
-        if lattice.step().is_multiple_of(SAMPLED.into()) {
-            if let Err(error) = statistics.record(&device, &mut lattice, pass) {
-                eprintln!("no sample is recorded: {error}");
-            }
+        if lattice.step().is_multiple_of(SAMPLED.into())
+            && let Err(error) = statistics.record(&device, &mut lattice, pass)
+        {
+            eprintln!("no sample is recorded: {error}");
         }
     })))
 }

@@ -1,8 +1,8 @@
 //! The passes that complete the populations of cells at walls and open faces.
 
 use super::{
-    CellPass, Face, Lattice, Link, OpenFace,
-    cell_kernels::{CellDispatch, uniform},
+    CellPass, Face, Grid, Lattice, Link, OpenFace, Setup,
+    cell_kernels::CellDispatch,
     fluid::{Dispatch, storage},
     stages::LAST_STAGE,
 };
@@ -96,28 +96,14 @@ impl Lattice {
         pass: CellPass,
     ) -> Result<Option<Dispatch>> {
         let (axis, side, _) = self.geometry.open[face];
-        let (file, apply, density) = match self.setup.faces[axis][side] {
-            Face::Pressure { density } => ("pressure_face", "hold_pressure", density),
-            Face::Outflow { density } => ("outflow", "flow_out", density),
+        let (file, apply) = match self.setup.faces[axis][side] {
+            Face::Pressure { .. } => ("pressure_face", "hold_pressure"),
+            Face::Outflow { .. } => ("outflow", "flow_out"),
             _ => return Ok(None),
         };
         if pass.first >= pass.end {
             return Ok(None);
         }
-        // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
-        // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
-        // twenty passages of sound, slow enough not to ring.
-        let length = f64::from(self.grid.cells[axis]);
-        let hold = 0.4 / length;
-        let mut normal = [0.0; 3];
-        normal[axis] = if side == 0 { -1.0 } else { 1.0 };
-        let open_face = OpenFace {
-            normal,
-            density: density as f32,
-            hold: hold as f32,
-            integral: (0.05 * hold / length) as f32,
-            ..OpenFace::default()
-        };
         let (list, carried) = &self.buffers.open_faces[face];
         let dispatch = CellDispatch {
             program: &self.cell_program(file),
@@ -129,12 +115,36 @@ impl Lattice {
             buffers: &[
                 ("face_cells", list),
                 ("carried", carried),
-                ("open_face", &uniform(device, "open face", &open_face)),
+                ("open_face", &self.buffers.open_face_uniforms[face]),
             ],
             constants: &[],
             invocations: pass.end - pass.first,
         };
         Ok(Some(self.cell_dispatch(device, &dispatch)?))
+    }
+}
+
+impl OpenFace {
+    /// That of a face of a setup.
+    pub(super) fn of(setup: &Setup, grid: &Grid, axis: usize, side: usize) -> Self {
+        // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
+        // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
+        // twenty passages of sound, slow enough not to ring.
+        let length = f64::from(grid.cells[axis]);
+        let hold = 0.4 / length;
+        let mut normal = [0.0; 3];
+        normal[axis] = if side == 0 { -1.0 } else { 1.0 };
+        let density = match setup.faces[axis][side] {
+            Face::Pressure { density } | Face::Outflow { density } => density as f32,
+            _ => 1.0,
+        };
+        Self {
+            normal,
+            density,
+            hold: hold as f32,
+            integral: (0.05 * hold / length) as f32,
+            ..Self::default()
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The fluid on a device: its buffers, its kernels, and what a step records.
 
 use super::{
-    Bindings, Face, Force, Geometry, Grid, Setup,
+    Bindings, Face, Force, Geometry, Grid, OpenFace, Setup,
     cell_kernels::CellKernels,
     check::finite,
     geometry::{FaceCell, MovingCell},
@@ -84,6 +84,8 @@ pub(super) struct Buffers {
     pub(super) psm_slots: Option<wgpu::Buffer>,
     /// Cells of each open face, and what they carry from step to step.
     pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
+    /// What its passes take, an [`OpenFace`].
+    pub(super) open_face_uniforms: Vec<wgpu::Buffer>,
 }
 
 /// Names of the bindings of fields of vectors.
@@ -305,6 +307,37 @@ impl Lattice {
         (self.step % 2) as usize
     }
 
+    /// Gives a pressure or outflow face another density, in lattice units; it holds from the next submission on.
+    ///
+    /// # Errors
+    /// If there is no such face, it holds no density, or one that no fluid has.
+    pub fn set_face_density(
+        &mut self,
+        queue: &wgpu::Queue,
+        axis: usize,
+        side: usize,
+        density: f64,
+    ) -> Result<()> {
+        let refused = |message: String| Err(Error::argument(face_name(axis, side), message));
+        let is_it = |(a, s, _): &(usize, usize, _)| (*a, *s) == (axis, side);
+        let Some(number) = self.geometry.open.iter().position(is_it) else {
+            return refused("this face is not open, or there is none".into());
+        };
+        if !(density > 0.0 && (density as f32).is_finite()) {
+            return refused(format!(
+                "its density is {density}; give a number greater than 0"
+            ));
+        }
+        match &mut self.setup.faces[axis][side] {
+            Face::Pressure { density: old } | Face::Outflow { density: old } => *old = density,
+            _ => return refused("this face holds no density".into()),
+        }
+        let content = OpenFace::of(&self.setup, &self.grid, axis, side);
+        let buffer = &self.buffers.open_face_uniforms[number];
+        queue.write_buffer(buffer, 0, bytemuck::bytes_of(&content));
+        Ok(())
+    }
+
     /// Gives the cells of a velocity face new velocities, in lattice units, lower axis fastest;
     /// they hold from the next submission on.
     ///
@@ -407,6 +440,15 @@ fn make_buffers(
     Buffers {
         populations,
         open_faces: open_faces.collect(),
+        open_face_uniforms: geometry
+            .open
+            .iter()
+            .map(|(axis, side, _)| {
+                let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+                let content = OpenFace::of(setup, grid, *axis, *side);
+                filled(device, "open face", bytemuck::bytes_of(&content), usage)
+            })
+            .collect(),
         names,
         velocity: setup.wale.map(|_| [velocity(), velocity()]),
         flags: list("flags", &geometry.flags),

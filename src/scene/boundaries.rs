@@ -73,9 +73,9 @@ pub enum Boundary {
     },
     /// The pressure is given.
     Pressure {
-        /// Pressure above the reference pressure, Pa. Default 0.
+        /// Pressure above the reference pressure, Pa: a number, or a formula of t, such as that of a level. Default 0.
         #[serde(default)]
-        pressure: f64,
+        pressure: Formula,
         /// Whether the pressure is held firmly. Default false: it is held on average, and waves
         /// and vortices leave.
         #[serde(default)]
@@ -178,7 +178,14 @@ impl Scene {
                     self.face_velocity(face, 0.0)?;
                 }
                 Boundary::Pressure { pressure, .. } => {
-                    finite(format!("{key}.pressure"), &[*pressure])?;
+                    if pressure.uses_place() {
+                        return refuse(
+                            format!("{key}.pressure"),
+                            format!("`{pressure}` uses x, y or z; the variable allowed here is t"),
+                        );
+                    }
+                    finite_constants(&format!("{key}.pressure"), std::slice::from_ref(pressure))?;
+                    self.face_pressure(face, 0.0)?;
                 }
                 Boundary::Periodic | Boundary::FreeSlip | Boundary::Open => {}
             }

@@ -108,7 +108,7 @@ impl Scene {
         });
         for (face, boundary) in self.boundaries.iter() {
             if let Boundary::Pressure { pressure, .. } = boundary {
-                known = *pressure;
+                known = pressure.eval(0.0, 0.0, 0.0, 0.0);
                 at = self.domain.middle();
                 at[face.axis().index()] = self.domain.face_position(face);
                 break;
@@ -118,13 +118,34 @@ impl Scene {
         (zero, gradient)
     }
 
-    /// Least and greatest pressure that faces hold, with the reference pressure, 0, among them, Pa.
+    /// Least and greatest pressure that faces hold in the run, with the reference pressure, 0, among them, Pa; of a formula the
+    /// values at some times.
     pub(super) fn face_pressures(&self) -> [f64; 2] {
+        const TIMES: u32 = 100;
+        let end = self.run.duration.unwrap_or(0.0);
         let held = |(_, boundary): (Face, &Boundary)| match boundary {
-            Boundary::Pressure { pressure, .. } => Some(*pressure),
+            Boundary::Pressure { pressure, .. } => {
+                let times = if pressure.uses_time() { TIMES } else { 0 };
+                let time = move |n| end * f64::from(n) / f64::from(TIMES);
+                let pressure = pressure.clone();
+                Some((0..=times).map(move |n| pressure.eval(0.0, 0.0, 0.0, time(n))))
+            }
             _ => None,
         };
-        range([0.0; 2], self.boundaries.iter().filter_map(held))
+        range([0.0; 2], self.boundaries.iter().filter_map(held).flatten())
+    }
+
+    /// Pressure that `face` holds at the time `t` in s, Pa; none where it holds none.
+    ///
+    /// # Errors
+    /// If its formula is not finite then.
+    pub fn face_pressure(&self, face: Face, t: f64) -> Result<Option<f64>> {
+        let Boundary::Pressure { pressure, .. } = self.boundaries.face(face) else {
+            return Ok(None);
+        };
+        let key = format!("boundaries.{}.pressure", face.name());
+        let value = pressure.eval(0.0, 0.0, 0.0, t);
+        finite(&key, pressure, value, [0.0; 3], t).map(Some)
     }
 
     /// The same with the pressures at the time 0.

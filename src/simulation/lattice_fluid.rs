@@ -16,7 +16,7 @@ use crate::{
     lattice::{self, Collision, Derived, Lattice, Observer, Setup, State},
     scene::{
         Advice, Boundary, Face, SUGA_EXCESS, Scene,
-        build::{block_setup, face_velocity, lattice_key},
+        build::{block_setup, face_density, face_velocity, lattice_key},
     },
     units::Units,
 };
@@ -31,7 +31,7 @@ pub(super) struct LatticeFluid {
     pub units: Units,
     pub lattice: Lattice,
     pub observer: Observer,
-    /// Velocity faces whose formulas contain the time.
+    /// Velocity and pressure faces whose formulas contain the time.
     time_dependent_faces: Vec<Face>,
     /// The coupling to the blocks in it, if there are any.
     coupling: Option<LatticeCoupling>,
@@ -55,6 +55,7 @@ impl LatticeFluid {
         let mut start = start(scene, &units)?;
         let time_dependent = |(face, boundary): (Face, &Boundary)| match boundary {
             Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
+            Boundary::Pressure { pressure, .. } if pressure.uses_time() => Some(face),
             _ => None,
         };
         let make = async {
@@ -237,30 +238,50 @@ impl LatticeFluid {
         Ok(Some(loads))
     }
 
-    /// The velocity faces whose values at the present time are not those that they have.
-    fn changed_faces(&self) -> Result<Vec<(Face, Vec<[f32; 3]>)>> {
+    /// The faces whose values at the present time are not those that they have, with these values.
+    fn changed_faces(&self) -> Result<Vec<(Face, lattice::Face)>> {
         let mut changed = Vec::new();
         for &face in &self.time_dependent_faces {
-            let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
-            match &self.lattice.setup().faces[axis][side] {
-                lattice::Face::Velocity(old) if *old == velocity => {}
-                _ => changed.push((face, velocity)),
+            let old = &self.lattice.setup().faces[axis][side];
+            let density = || face_density(&self.scene, &self.units, face, self.time());
+            let new = match old {
+                lattice::Face::Pressure { .. } => lattice::Face::Pressure {
+                    density: density()?,
+                },
+                lattice::Face::Outflow { .. } => lattice::Face::Outflow {
+                    density: density()?,
+                },
+                _ => {
+                    let velocity = face_velocity(&self.scene, &self.units, face, self.time())?;
+                    lattice::Face::Velocity(velocity)
+                }
+            };
+            if *old != new {
+                changed.push((face, new));
             }
         }
         Ok(changed)
     }
 
-    /// Gives the velocity faces what they have at the present time.
+    /// Gives the faces what they have at the present time.
     ///
     /// # Errors
     /// Those of their formulas.
     pub fn set_faces(&mut self) -> Result<()> {
-        for (face, velocity) in self.changed_faces()? {
+        for (face, new) in self.changed_faces()? {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
-            self.lattice
-                .set_face_velocity(&self.queue, axis, side, velocity)
-                .map_err(|error| error.at_key(lattice_key))?;
+            let (lattice, queue) = (&mut self.lattice, &self.queue);
+            let set = match new {
+                lattice::Face::Velocity(velocity) => {
+                    lattice.set_face_velocity(queue, axis, side, velocity)
+                }
+                lattice::Face::Pressure { density } | lattice::Face::Outflow { density } => {
+                    lattice.set_face_density(queue, axis, side, density)
+                }
+                _ => Ok(()),
+            };
+            set.map_err(|error| error.at_key(lattice_key))?;
         }
         Ok(())
     }
@@ -375,7 +396,7 @@ impl Fluid for LatticeFluid {
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
             if self.lattice.step() == last || !goes_on || self.sample_due() {
-                // What is recorded counts as done, whatever the next step lacks. A velocity that changes is
+                // What is recorded counts as done, whatever the next step lacks. What changes at a face is
                 // written between two submissions.
                 self.submit(encoder).await?;
                 self.set_faces()?;

@@ -138,7 +138,7 @@ normal = "+x"
     assert_eq!(
         scene.boundaries.x_max,
         Boundary::Pressure {
-            pressure: 10.0,
+            pressure: 10.0.into(),
             reflecting: true
         }
     );

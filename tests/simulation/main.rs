@@ -1,5 +1,6 @@
 //! Whole simulations: probes, sensors and restarts.
 
+mod levels;
 mod pressure_sensors;
 mod probes;
 mod sph_restart;

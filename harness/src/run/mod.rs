@@ -137,7 +137,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let restart = args.restart.as_deref();
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
     if let Some(until) = args.until_error {
-        runner.stop_at_error(until, &args.error_of)?;
+        runner.stop_at_error(until, &args.error_of, scene)?;
     }
     runner.summary.scene = args.scene.display().to_string();
     runner.print_header(&run);

@@ -12,7 +12,7 @@ use super::{
     throughput::{Batch, Throughput, Timed},
 };
 use anyhow::{Context, Result};
-use riprap::Error;
+use riprap::{Error, scene::Scene};
 use std::{
     path::{Path, PathBuf},
     sync::atomic::{AtomicBool, Ordering},
@@ -73,12 +73,18 @@ impl Runner {
         })
     }
 
-    /// Stops when the statistical errors of the quantities `of` are `until` at most.
+    /// Stops when the statistical errors of the quantities `of`, or of all probes of `scene`, are `until` at most.
     ///
     /// # Errors
     /// If there are no such statistics.
-    pub fn stop_at_error(&mut self, until: UntilError, of: &[String]) -> Result<()> {
-        self.convergence = Some(Convergence::new(until, of, &self.statistics())?);
+    pub fn stop_at_error(&mut self, until: UntilError, of: &[String], scene: &Scene) -> Result<()> {
+        let probes: Vec<&str> = scene
+            .probes
+            .iter()
+            .map(|probe| probe.name.as_str())
+            .collect();
+        let convergence = Convergence::new(until, of, &probes, &self.statistics())?;
+        self.convergence = Some(convergence);
         Ok(())
     }
 
@@ -92,7 +98,7 @@ impl Runner {
     /// Whether the means are known well enough.
     fn has_converged(&mut self) -> bool {
         let convergence = self.convergence.as_ref();
-        let now = convergence.map(|convergence| convergence.of(&self.statistics()));
+        let now = convergence.map(|convergence| convergence.now(&self.statistics()));
         self.summary.statistics = now;
         self.summary
             .statistics

@@ -114,11 +114,8 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             }
             Boundary::FreeSlip => Face::FreeSlip,
             Boundary::Velocity { .. } => Face::Velocity(face_velocity(scene, units, face, 0.0)?),
-            Boundary::Pressure {
-                pressure,
-                reflecting,
-            } => {
-                let density = units.pressure_to_lattice(*pressure);
+            Boundary::Pressure { reflecting, .. } => {
+                let density = face_density(scene, units, face, 0.0)?;
                 if *reflecting {
                     Face::Pressure { density }
                 } else {
@@ -174,6 +171,15 @@ fn roughness_to_lattice(roughness: f64, units: &Units, key: impl Fn() -> String)
             MAX_ROUGHNESS * units.cell
         ),
     ))
+}
+
+/// Density that a face holds at the time `t` (s), lattice units; 1 where it holds none.
+///
+/// # Errors
+/// If a formula is not finite then.
+pub fn face_density(scene: &Scene, units: &Units, face: scene::Face, t: f64) -> Result<f64> {
+    let pressure = scene.face_pressure(face, t)?;
+    Ok(units.pressure_to_lattice(pressure.unwrap_or(0.0)))
 }
 
 /// Velocity of a face at the time `t` (s), lattice units.

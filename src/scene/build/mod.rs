@@ -16,7 +16,7 @@ pub(crate) use keys::lattice_key;
 pub(crate) use keys::particle_key;
 #[cfg(feature = "rock")]
 pub(crate) use keys::rock_key;
-pub use lattice::{face_velocity, lattice_setup};
+pub use lattice::{face_density, face_velocity, lattice_setup};
 #[cfg(feature = "sph")]
 pub(crate) use particles::scene_step;
 #[cfg(feature = "sph")]

@@ -59,7 +59,7 @@ impl FromStr for UntilError {
 pub struct Convergence {
     /// Relative error at which it stops.
     until: f64,
-    /// Tables, or quantities of tables as `table.quantity`, that count; all if there are none.
+    /// Tables, or quantities of tables as `table.quantity`, that count.
     of: Vec<String>,
 }
 
@@ -77,19 +77,34 @@ pub struct Converged {
 }
 
 impl Convergence {
-    /// Stops at `until`, of the tables and quantities `of`, in a run with these tables.
+    /// Stops at `until`, of the tables and quantities `of`, or where none are named of all that are of `probes`, in a run with
+    /// these tables.
     ///
     /// # Errors
     /// If there is none, or not one that is requested.
-    pub fn new(until: UntilError, of: &[String], tables: &[&TableStatistics]) -> Result<Self> {
+    pub fn new(
+        until: UntilError,
+        of: &[String],
+        probes: &[&str],
+        tables: &[&TableStatistics],
+    ) -> Result<Self> {
+        let is_of_probe = |name: &str| {
+            let probe = name.strip_suffix("_faces").unwrap_or(name);
+            probes.contains(&name) || probes.contains(&probe)
+        };
         let mut names = Vec::new();
         for table in tables {
             names.push(table.name());
             let stems = groups(&table.columns).into_iter().map(|(stem, _)| stem);
             names.extend(stems.map(|stem| format!("{}.{stem}", table.name())));
         }
-        if names.is_empty() {
-            let message = "no table of this scene has statistics; add [statistics] with `from`, and a probe with `every`";
+        let of_probes: Vec<String> = tables
+            .iter()
+            .map(|table| table.name())
+            .filter(|name| is_of_probe(name))
+            .collect();
+        if of.is_empty() && of_probes.is_empty() {
+            let message = "no probe of this scene has statistics; add [statistics] with `from`, and a probe with `every`";
             bail!(Error::argument("--until-error", message));
         }
         if let Some(unknown) = of.iter().find(|requested| !names.contains(requested)) {
@@ -101,22 +116,22 @@ impl Convergence {
         }
         Ok(Self {
             until: until.0,
-            of: of.to_vec(),
+            of: if of.is_empty() {
+                of_probes
+            } else {
+                of.to_vec()
+            },
         })
     }
 
-    fn counts(&self, table: &str, name: &str) -> bool {
-        self.of.is_empty() || self.of.iter().any(|of| of == table || of == name)
-    }
-
     /// How far the means of the tables are.
-    pub fn of(&self, tables: &[&TableStatistics]) -> Converged {
+    pub fn now(&self, tables: &[&TableStatistics]) -> Converged {
         let mut errors = Vec::new();
         for table in tables {
             let own = table.name();
             for (number, (stem, _)) in groups(&table.columns).into_iter().enumerate() {
                 let name = format!("{own}.{stem}");
-                if self.counts(&own, &name) {
+                if self.of.contains(&own) || self.of.contains(&name) {
                     errors.push((name, table.error().and_then(|errors| errors[number])));
                 }
             }

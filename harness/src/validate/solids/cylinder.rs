@@ -48,7 +48,7 @@ pub fn run(stand: &Stand) -> Outcome {
         let faces = &mut scene.boundaries;
         faces.x_min = Boundary::Velocity { velocity: stream };
         faces.x_max = Boundary::Pressure {
-            pressure: 0.0,
+            pressure: 0.0.into(),
             reflecting: false,
         };
         let wall = || Boundary::Wall {

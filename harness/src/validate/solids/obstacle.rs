@@ -138,7 +138,7 @@ impl Stream {
             velocity: numbers(stream),
         };
         faces.x_max = Boundary::Pressure {
-            pressure: 0.0,
+            pressure: 0.0.into(),
             reflecting: false,
         };
         (faces.y_min, faces.y_max) = (Boundary::FreeSlip, Boundary::FreeSlip);

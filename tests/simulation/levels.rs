@@ -3,7 +3,7 @@
 use kit::{Rig, assert_near};
 use riprap::{output::Image, scene::Field, simulation::Simulation};
 
-/// A basin with a pressure face at its end, which rises from 1 s on by 100 Pa in 2 s.
+/// A basin with a pressure face at its end, which rises from 1 s on by 100 Pa in 4 s.
 fn basin(pressure: &str, reflecting: bool) -> String {
     format!(
         r#"
@@ -31,7 +31,7 @@ fn mean_pressure(image: &Image) -> f64 {
 #[test]
 fn a_basin_follows_the_level_at_its_end() {
     let rig = Rig::new();
-    let rises = "\"interpolate(t, 1, 0, 3, 100)\"";
+    let rises = "\"interpolate(t, 1, 0, 5, 100)\"";
     for reflecting in [true, false] {
         let scene = kit::scene::read(&basin(rises, reflecting)).unwrap();
         let mut whole = rig.simulation(&scene).unwrap();
@@ -39,7 +39,9 @@ fn a_basin_follows_the_level_at_its_end() {
         assert_near(mean_pressure(&image(&rig, &mut whole)), 0.0, 1e-3);
         rig.wait(whole.advance(150)).unwrap();
         let halfway = mean_pressure(&image(&rig, &mut whole));
-        assert!((40.0..90.0).contains(&halfway), "{halfway}");
+        // The level is at 37.5 Pa. A face that is held on average only lags behind it.
+        let around = if reflecting { 25.0..50.0 } else { 1.0..37.5 };
+        assert!(around.contains(&halfway), "{reflecting}: {halfway}");
         let state = rig.wait(whole.checkpoint()).unwrap();
         rig.wait(whole.advance(1750)).unwrap();
         let found = image(&rig, &mut whole);

@@ -166,8 +166,12 @@ impl Output<'_> {
             ("sums", "sum_cells"),
             ("derive", "derive"),
             ("gather", "gather"),
+            ("statistics", "add_sample"),
+            ("statistics", "merge_block"),
         ] {
-            let program = single_cells(&setup, 1, file).slot("quantity", "quantity_eddy_viscosity");
+            let program = single_cells(&setup, 1, file)
+                .slot("quantity", "quantity_eddy_viscosity")
+                .slot("sample", "sample_populations");
             self.put(&format!("{entry}_{stored}"), &program, entry, &constants)?;
         }
         Ok(())

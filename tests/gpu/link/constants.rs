@@ -66,7 +66,9 @@ fn constants_of_the_lattice() {
     ]
     .map(|reach| collide_stream(&setup, 1, reach));
     let cells = SINGLE.iter().map(|(file, ..)| {
-        single_cells(&setup, 1, file).slot("quantity", "quantity_eddy_viscosity")
+        single_cells(&setup, 1, file)
+            .slot("quantity", "quantity_eddy_viscosity")
+            .slot("sample", "sample_populations")
     });
     let grid = Grid::new(&setup).unwrap();
     let linked = streams.into_iter().chain(cells);

@@ -3,7 +3,7 @@
 use kit::Rig;
 use riprap::{
     output::Image,
-    scene::{Field, Scene},
+    scene::{Boundary, Field, Scene},
     simulation::Simulation,
 };
 
@@ -137,4 +137,26 @@ fn fields_over_time_are_those_of_the_states_that_are_samples() {
     let none = rig.wait(plain.checkpoint()).unwrap();
     fresh.restore(&none).unwrap();
     assert_eq!(fresh.samples(), 0);
+}
+
+/// Samples between two exchanges, under an inlet that stays the same, change nothing.
+#[test]
+fn samples_between_exchanges_leave_the_flow_and_the_blocks_as_they_are() {
+    let rig = Rig::new();
+    let run = |statistics: bool| {
+        let mut scene = scene(statistics);
+        scene.coupling.interval = 5;
+        if let Boundary::Velocity { velocity } = &mut scene.boundaries.x_min {
+            velocity[0] = 0.3.into();
+        }
+        let mut simulation = rig.simulation(&scene).unwrap();
+        rig.wait(simulation.advance(33)).unwrap();
+        let poses = simulation.rock().unwrap().poses().to_vec();
+        let image = image(&rig, &mut simulation, &[Field::Velocity, Field::Pressure]);
+        (image, format!("{poses:?}"), simulation.samples())
+    };
+    let (with, without) = (run(true), run(false));
+    assert_eq!((with.2, without.2), (10, 0));
+    assert_eq!(with.0, without.0);
+    assert_eq!(with.1, without.1);
 }

@@ -3,7 +3,6 @@
 use super::{
     Bindings, Face, Force, Geometry, Grid, OpenFace, Setup,
     cell_kernels::CellKernels,
-    check::finite,
     geometry::{FaceCell, MovingCell},
     populations,
     spread::{PSM_NAMES, planes},
@@ -306,72 +305,6 @@ impl Lattice {
     pub(super) fn parity(&self) -> usize {
         (self.step % 2) as usize
     }
-
-    /// Gives a pressure or outflow face another density, in lattice units; it holds from the next submission on.
-    ///
-    /// # Errors
-    /// If there is no such face, it holds no density, or one that no fluid has.
-    pub fn set_face_density(
-        &mut self,
-        queue: &wgpu::Queue,
-        axis: usize,
-        side: usize,
-        density: f64,
-    ) -> Result<()> {
-        let refused = |message: String| Err(Error::argument(face_name(axis, side), message));
-        let is_it = |(a, s, _): &(usize, usize, _)| (*a, *s) == (axis, side);
-        let Some(number) = self.geometry.open.iter().position(is_it) else {
-            return refused("this face is not open, or there is none".into());
-        };
-        if !(density > 0.0 && (density as f32).is_finite()) {
-            return refused(format!(
-                "its density is {density}; give a number greater than 0"
-            ));
-        }
-        match &mut self.setup.faces[axis][side] {
-            Face::Pressure { density: old } | Face::Outflow { density: old } => *old = density,
-            _ => return refused("this face holds no density".into()),
-        }
-        let content = OpenFace::of(&self.setup, &self.grid, axis, side);
-        let buffer = &self.buffers.open_face_uniforms[number];
-        queue.write_buffer(buffer, 0, bytemuck::bytes_of(&content));
-        Ok(())
-    }
-
-    /// Gives the cells of a velocity face new velocities, in lattice units, lower axis fastest;
-    /// they hold from the next submission on.
-    ///
-    /// # Errors
-    /// If there is no such face, it is not a velocity face, the number of cells differs, or a velocity is not finite.
-    pub fn set_face_velocity(
-        &mut self,
-        queue: &wgpu::Queue,
-        axis: usize,
-        side: usize,
-        velocity: Vec<[f32; 3]>,
-    ) -> Result<()> {
-        let faces = self.setup.faces.get_mut(axis);
-        let Some(face) = faces.and_then(|faces| faces.get_mut(side)) else {
-            let message =
-                format!("there is no side {side} of axis {axis}; axes are 0 to 2, sides 0 and 1");
-            return Err(Error::argument("faces", message));
-        };
-        match face {
-            Face::Velocity(old) if old.len() == velocity.len() => {
-                finite(&face_name(axis, side), velocity.as_flattened())?;
-                *old = velocity;
-            }
-            _ => {
-                let message = format!("this face takes no list of {} velocities", velocity.len());
-                return Err(Error::argument(face_name(axis, side), message));
-            }
-        }
-        if let Some(buffer) = &self.buffers.wall_velocity {
-            let table = wall_velocities(&self.setup, &self.grid, &self.geometry.moving);
-            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&table));
-        }
-        Ok(())
-    }
 }
 
 /// A read-only storage buffer with this content.
@@ -493,7 +426,11 @@ pub(super) fn vectors(
 }
 
 /// Velocities of the moving faces of each cell: normal to x, y, z, three components each.
-fn wall_velocities(setup: &Setup, grid: &Grid, moving: &[MovingCell]) -> Vec<[[f32; 3]; 3]> {
+pub(super) fn wall_velocities(
+    setup: &Setup,
+    grid: &Grid,
+    moving: &[MovingCell],
+) -> Vec<[[f32; 3]; 3]> {
     let of = |cell: &MovingCell, axis: usize| {
         let at = grid.padded_cell(cell.cell);
         // Both sides of a domain one cell thick are its own faces; the lower one decides.

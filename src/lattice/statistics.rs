@@ -98,7 +98,7 @@ struct Part {
 /// Statistics over time of density and velocity: 88 bytes a cell.
 ///
 /// Sums run over blocks of 256 samples, shifted by the mean so far, and each block is then merged with those before it, so
-/// that in f32 neither means nor covariances drift: 3·10⁵ samples leave an error of 10⁻⁵.
+/// that in f32 neither means nor covariances drift: after 3·10⁵ samples their errors are below 10⁻⁵.
 ///
 /// ```
 /// use riprap::{lattice::{Lattice, Setup, State, Statistics}, wgpu};
@@ -377,7 +377,7 @@ impl Statistics {
     /// # Errors
     /// If it is of another grid.
     pub fn check(&self, state: &StatisticsState) -> Result<()> {
-        let count = match state.merged + state.open {
+        let count = match state.merged.saturating_add(state.open) {
             0 => 0,
             _ => PLANES * self.cells,
         };
@@ -390,7 +390,7 @@ impl Statistics {
         }
     }
 
-    /// Goes on from a state.
+    /// Continues from a state.
     ///
     /// # Errors
     /// If it is of another grid.

@@ -12,6 +12,10 @@ use crate::output::Table;
 pub(super) fn insert(table: &mut DeTable<'_>, dir: &Path) -> Result<(), Refusal> {
     table.iter_mut().try_for_each(|(key, value)| {
         let key = key.get_ref().to_string();
+        // Names and titles are no formulas.
+        if matches!(key.as_str(), "title" | "name") {
+            return Ok(());
+        }
         insert_in(value, dir).map_err(|refusal| refusal.below(&key))
     })
 }
@@ -21,7 +25,7 @@ fn insert_in(value: &mut Spanned<DeValue<'_>>, dir: &Path) -> Result<(), Refusal
     match value.get_mut() {
         DeValue::Table(table) => insert(table, dir),
         DeValue::Array(list) => list.iter_mut().try_for_each(|value| insert_in(value, dir)),
-        DeValue::String(text) if text.contains("interpolate") && text.contains('\'') => {
+        DeValue::String(text) if text.contains("interpolate(") && text.contains('\'') => {
             let expanded = expand(text, dir).map_err(|message| Refusal {
                 span: Some(span),
                 key: String::new(),

@@ -217,9 +217,15 @@ fn formulas_take_series_from_files_beside_the_scene() {
         x_min = { kind = "velocity", velocity = ["0.5*interpolate(t, 'flow.csv')", 0, 0] }
         x_max = { kind = "pressure" }
     "#;
-    let read = || Scene::from_toml(scene, &folder, "river.toml");
+    let read_from = |scene: &str| Scene::from_toml(scene, &folder, "river.toml");
+    let read = || read_from(scene);
     write("time,speed\n0,1\n10,2\n20,0.5\n");
     let read_scene = read().unwrap();
+    let titled = scene.replace(
+        "domain =",
+        "title = \"Don't interpolate(t)\"\n        domain =",
+    );
+    assert_eq!(read_from(&titled).unwrap().title, "Don't interpolate(t)");
     let Boundary::Velocity { velocity } = read_scene.boundaries.face(Face::XMin) else {
         panic!("a velocity inlet")
     };

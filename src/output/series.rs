@@ -2,7 +2,7 @@
 
 /// Most batches; when there are so many, pairs of them become one.
 const BATCHES: usize = 64;
-/// Fewest batches from which an error is told.
+/// Fewest batches from which an error follows.
 const FEWEST: usize = 16;
 
 /// Statistics of a quantity over time, one sample after the other, with a memory that does not grow.
@@ -81,11 +81,6 @@ impl Series {
     /// Number of samples.
     pub fn count(&self) -> u64 {
         self.count
-    }
-
-    /// Whether a batch has just become whole, so that [`Series::error`] is another than before.
-    pub fn has_new_error(&self) -> bool {
-        self.open.1 == 0 && self.batches.len() >= FEWEST
     }
 
     /// Mean; not a number without samples.

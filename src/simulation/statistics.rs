@@ -65,7 +65,7 @@ impl Sampling {
         self.statistics.check(&state.statistics)
     }
 
-    /// Goes on from a state of the same samples; others are forgotten.
+    /// Continues from a state of the same samples; one of others begins anew.
     pub fn restore(&mut self, queue: &wgpu::Queue, state: Option<&SamplingState>) -> Result<()> {
         let same =
             |state: &&SamplingState| [state.first, state.stride] == [self.first, self.stride];

@@ -82,7 +82,7 @@ pub struct Summary {
     /// How safely blocks stand whose probes ask.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
-    /// How well means over time are known, where that was asked for.
+    /// Statistical errors of the means, in a run with `--until-error`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Converged>,
     /// How far headline numbers are from those at half the resolution, where that was asked for.

@@ -49,8 +49,6 @@ pub struct TableStatistics {
     /// All samples of the columns of a single row, for spectra.
     single: Option<Vec<Vec<f64>>>,
     correlation: Option<Correlation>,
-    /// The relative errors of its quantities at the last whole batch.
-    error: Option<Vec<Option<f64>>>,
 }
 
 /// A place with its statistics.
@@ -115,7 +113,6 @@ impl TableStatistics {
             count: 0,
             single: None,
             correlation: None,
-            error: None,
         }
     }
 
@@ -165,18 +162,14 @@ impl TableStatistics {
         if let Some(correlation) = &mut self.correlation {
             correlation.push(rows);
         }
-        let series = self.stations.iter().flat_map(|station| &station.series);
-        if series.into_iter().any(Series::has_new_error) {
-            self.error = Some(relative_errors(self));
-        }
     }
 
     /// The relative errors of the means of its quantities; none while there are too few samples, or they span less time than the
     /// flow was given to develop, before which no error shows what slow motions it has.
-    fn error(&self) -> Option<&[Option<f64>]> {
+    fn errors(&self) -> Option<Vec<Option<f64>>> {
         let length = self.times.map_or(0.0, |[first, last]| last - first);
         let enough = self.count >= SAMPLES && length >= self.from;
-        self.error.as_deref().filter(|_| enough)
+        enough.then(|| relative_errors(self))
     }
 
     fn name(&self) -> String {

@@ -129,12 +129,20 @@ impl Convergence {
         let mut errors = Vec::new();
         for table in tables {
             let own = table.name();
-            for (number, (stem, _)) in groups(&table.columns).into_iter().enumerate() {
-                let name = format!("{own}.{stem}");
-                if self.of.contains(&own) || self.of.contains(&name) {
-                    errors.push((name, table.error().and_then(|errors| errors[number])));
-                }
+            let names = groups(&table.columns).into_iter();
+            let names = names.map(|(stem, _)| format!("{own}.{stem}"));
+            let counts = |name: &String| self.of.contains(&own) || self.of.contains(name);
+            let named: Vec<_> = names.enumerate().filter(|(_, name)| counts(name)).collect();
+            if named.is_empty() {
+                continue;
             }
+            let known = table.errors();
+            let error = |number: usize| known.as_ref().and_then(|known| known[number]);
+            errors.extend(
+                named
+                    .into_iter()
+                    .map(|(number, name)| (name, error(number))),
+            );
         }
         // One that is not known is the worst.
         let size = |(_, error): &&(String, Option<f64>)| error.unwrap_or(f64::INFINITY);

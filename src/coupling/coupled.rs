@@ -180,7 +180,7 @@ impl Coupled<'_> {
 
     /// Velocity of a block's solid at the place `x` (m) or at its periodic image nearest to the block, m/s.
     pub fn solid_velocity(&self, block: usize, x: DVec3) -> DVec3 {
-        let pose = self.rock.poses()[block];
+        let pose = self.rock.pose(block);
         let gradient = pose.deformation_rate * pose.deformation.inverse();
         let (cells, periodic) = self.solid_cells().domain();
         let mut r = x - pose.centre;

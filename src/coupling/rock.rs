@@ -126,13 +126,18 @@ impl Rock {
 
     /// Poses of the blocks; their velocities are zero while the blocks are held.
     pub fn poses(&self) -> Vec<Pose> {
-        let mut poses = self.blocks.poses();
+        (0..self.blocks.len())
+            .map(|block| self.pose(block))
+            .collect()
+    }
+
+    /// One of [`Rock::poses`].
+    pub(super) fn pose(&self, block: usize) -> Pose {
+        let mut pose = self.blocks.pose(block);
         if self.is_held() {
-            for pose in &mut poses {
-                (pose.velocity, pose.deformation_rate) = (DVec3::ZERO, DMat3::ZERO);
-            }
+            (pose.velocity, pose.deformation_rate) = (DVec3::ZERO, DMat3::ZERO);
         }
-        poses
+        pose
     }
 
     /// Whether the blocks are held in an exchange that begins now.

@@ -281,7 +281,7 @@ impl Coupled<'_> {
     pub fn wrench_with_uplift(&self, block: usize) -> Option<[DVec3; 2]> {
         let [force, torque] = self.with_uplift_diagram(block, |diagram| diagram.wrench())?;
         let shape = &self.setup().setup.blocks[block].shape;
-        let centre = self.blocks().poses()[block].centre;
+        let centre = self.blocks().pose(block).centre;
         let weight = self.coupling.ambient.body_force(centre);
         let FluidLoad { buoyancy, .. } = self.cell_load()[block];
         // As in the load on a block: pressures counted from the hydrostatic one lack the body force on the displaced fluid.
@@ -299,7 +299,7 @@ impl Coupled<'_> {
         evaluate: impl FnOnce(UpliftDiagram<'_>) -> T,
     ) -> Option<T> {
         let shape = &self.setup().setup.blocks[block].shape;
-        let pose = self.blocks().poses()[block];
+        let pose = self.blocks().pose(block);
         let cell = self.solid_cells().frame().units.cell;
         let weight = self.coupling.ambient.body_force(pose.centre);
         let neighbours = self.neighbour_parts(block, cell);

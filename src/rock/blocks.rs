@@ -198,6 +198,15 @@ impl Blocks {
             .collect()
     }
 
+    /// Pose of one block.
+    pub(crate) fn pose(&self, block: usize) -> Pose {
+        pose(
+            &self.bodies[block],
+            &self.states[block],
+            &self.deforming.strains,
+        )
+    }
+
     /// Name of a block; empty if there is no such block.
     pub fn name(&self, block: usize) -> &str {
         self.bodies.get(block).map_or("", |body| &body.name)

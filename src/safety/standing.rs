@@ -49,7 +49,7 @@ impl Standing {
     /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too,
     /// but no guide of it: one that holds it is left out.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize, [force, torque]: [DVec3; 2]) -> Self {
-        let pose = blocks.poses()[block];
+        let pose = blocks.pose(block);
         let weight = blocks.mass(block) * blocks.gravity();
         let supports = supports(setup, blocks, block);
         let planes: Vec<Plane> = supports.iter().map(|support| support.plane).collect();

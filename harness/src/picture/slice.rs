@@ -61,14 +61,19 @@ impl Slice<'_> {
         let bar = ColourBar::fitting(self.label, self.unit, self.range, section.fluid(), length)?;
         let (mut canvas, map) = self.layout(&section, &bar)?;
         let opposite = map.opposite();
-        canvas.shade(map.corner, opposite, |place| {
-            match section.cell(map.values(place)) {
-                // Blocks have their own outlines, also where the image calls their cells solid.
-                Some(cell) if !section.solid[cell] || section.in_blocks[cell] => {
-                    bar.colour(section.values[cell])
-                }
-                _ => SOLID,
+        // A cell has many pixels.
+        let colour = |cell: usize| {
+            // Blocks have their own outlines, also where the image calls their cells solid.
+            if !section.solid[cell] || section.in_blocks[cell] {
+                bar.colour(section.values[cell])
+            } else {
+                SOLID
             }
+        };
+        let colours: Vec<_> = (0..section.values.len()).map(colour).collect();
+        canvas.shade(map.corner, opposite, |place| {
+            let cell = section.cell(map.values(place));
+            cell.map_or(SOLID, |cell| colours[cell])
         });
         if self.streamlines {
             draw_streamlines(&mut canvas, &map, &section, bar.palette)?;

@@ -8,6 +8,7 @@ use anyhow::Result;
 use std::{
     fs,
     path::{Path, PathBuf},
+    time::Instant,
 };
 use toml::{Table, Value};
 
@@ -19,11 +20,15 @@ const EARLY: f64 = 100.0;
 const FEWEST: f64 = 2.0;
 /// Bytes that more than these may have together, half a minute of a slow disk: larger states come less often.
 const BYTES: f64 = 4e9;
+/// Part of the time of a run that its writing may take.
+const SHARE: f64 = 0.05;
 
 pub struct Checkpoints {
     schedule: Schedule,
     /// The run, where it is ours to choose its parts.
     own: Option<Parted>,
+    /// Step and time at the end of the last checkpoint, or of the start.
+    last: (u64, Instant),
     path: PathBuf,
     /// The scene's file.
     text: String,
@@ -36,8 +41,9 @@ impl Checkpoints {
         Self {
             schedule: match requested {
                 Some(every) => Schedule::new(Some(every), time_step, last),
-                None => parted.schedule(run.step(), 0),
+                None => parted.schedule(run.step(), 0, 0.0),
             },
+            last: (run.step(), Instant::now()),
             own: requested.is_none().then_some(parted),
             path: folder.join("checkpoint.riprap"),
             text: text.to_owned(),
@@ -53,12 +59,13 @@ struct Parted {
 }
 
 impl Parted {
-    /// When checkpoints of so many bytes are due after `step`.
-    fn schedule(&self, step: u64, bytes: u64) -> Schedule {
+    /// When checkpoints of so many bytes are due after `step`; each takes as long as that many `steps`.
+    fn schedule(&self, step: u64, bytes: u64, steps: f64) -> Schedule {
         let parts = (BYTES / bytes.max(1) as f64).clamp(FEWEST, PARTS).floor();
         let early = parts == PARTS && (step as f64) < self.last as f64 / PARTS;
-        let length = self.last as f64 * self.time_step / if early { EARLY } else { parts };
-        Schedule::new(Some(length), self.time_step, self.last)
+        let part = self.last as f64 / if early { EARLY } else { parts };
+        let every = part.max((steps / SHARE).min(self.last as f64));
+        Schedule::new(Some(every * self.time_step), self.time_step, self.last)
     }
 }
 
@@ -72,6 +79,7 @@ impl Recorder for Checkpoints {
         if step == 0 {
             return Ok(());
         }
+        let begin = Instant::now();
         let written = run.checkpoint(&self.path).map_err(Into::into);
         match written.and_then(|()| keep_scene(&self.text, &self.path)) {
             // The scene does not request it, and the run goes on without.
@@ -88,7 +96,11 @@ impl Recorder for Checkpoints {
         log.checkpoint = Some((step, self.path.clone()));
         log.file(self.path.clone());
         if let (Some(run), Ok(file)) = (&self.own, self.path.metadata()) {
-            self.schedule = run.schedule(step, file.len());
+            let (before, end) = self.last;
+            let pace = (step - before) as f64 / (begin - end).as_secs_f64().max(1e-9);
+            let steps = pace * begin.elapsed().as_secs_f64();
+            self.schedule = run.schedule(step, file.len(), steps);
+            self.last = (step, Instant::now());
         }
         Ok(())
     }
@@ -185,17 +197,17 @@ fn number(value: &Value) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// The steps at which a run of 200 has checkpoints of so many bytes.
-    fn due(bytes: u64) -> Vec<u64> {
+    /// The steps at which a run of 200 has checkpoints of so many bytes, which take as long as so many steps.
+    fn due(bytes: u64, steps: f64) -> Vec<u64> {
         let run = Parted {
             time_step: 0.1,
             last: 200,
         };
-        let mut schedule = run.schedule(0, 0);
+        let mut schedule = run.schedule(0, 0, 0.0);
         let mut due = vec![schedule.next(0)];
         while *due.last().unwrap() < 200 {
             let step = *due.last().unwrap();
-            schedule = run.schedule(step, bytes);
+            schedule = run.schedule(step, bytes, steps);
             due.push(schedule.next(step));
         }
         due
@@ -205,9 +217,15 @@ mod tests {
     fn early_states_are_kept_and_large_ones_are_written_less_often() {
         let tenths = (2..=10).map(|part| 20 * part);
         let small: Vec<u64> = (1..=10).map(|part| 2 * part).chain(tenths).collect();
-        assert_eq!(due(400_000_000), small);
-        assert_eq!(due(1_000_000_000), [2, 50, 100, 150, 200]);
-        assert_eq!(due(1 << 40), [2, 100, 200]);
+        assert_eq!(due(400_000_000, 0.1), small);
+        assert_eq!(due(1_000_000_000, 0.1), [2, 50, 100, 150, 200]);
+        assert_eq!(due(1 << 40, 0.1), [2, 100, 200]);
+    }
+
+    #[test]
+    fn what_takes_long_to_write_is_written_less_often() {
+        assert_eq!(due(400_000_000, 3.0), [2, 60, 120, 180, 200]);
+        assert_eq!(due(400_000_000, 30.0), [2, 200]);
     }
 
     fn found(before: &str, now: &str) -> String {

@@ -111,6 +111,8 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
+    /// The lists of work that the device has: tiles, and lanes of bricks.
+    work: [Vec<u32>; 2],
     walk: Walk,
     /// Most cells that an invocation of `voxelise_edges` may do.
     at_once: u64,
@@ -147,6 +149,7 @@ impl Kernels {
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
+            work: [Vec::new(), Vec::new()],
             walk,
             at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_AN_EDGE),
         };
@@ -230,14 +233,17 @@ impl Kernels {
     /// before.
     pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
         let mark = if anew { WHOLE } else { 0 };
-        for (n, list) in [(0, tiles), (2, lanes)] {
+        for (at, (n, list)) in [(0, tiles), (2, lanes)].into_iter().enumerate() {
             self.groups[n] = list.len() as u32;
             if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
                 // A folded dispatch has a few workgroups too many, which find nothing to do.
                 let [x, y] = fold(list.len() as u32);
                 let mut list: Vec<u32> = list.iter().map(|number| number | mark).collect();
                 list.resize(x as usize * y as usize, NOTHING);
-                queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
+                if anew || self.work[at] != list {
+                    queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
+                    self.work[at] = list;
+                }
             }
         }
         let cells = tiles.len() as u64 * self.workgroup;

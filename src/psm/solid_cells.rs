@@ -248,7 +248,7 @@ impl SolidCells {
         } else {
             let tiles = moved.iter().flat_map(|&block| self.plan.tiles_of(block));
             let tiles: Vec<u32> = tiles.collect();
-            let lanes = self.plan.lanes_of(changed.iter().copied());
+            let lanes = self.plan.lanes_of(&changed);
             self.set_work(queue, &tiles, &lanes, false);
         }
         Ok(())

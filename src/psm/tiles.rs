@@ -387,9 +387,13 @@ impl Plan {
     }
 
     /// Lanes of bricks in which the blocks have tiles, ascending.
-    pub fn lanes_of(&self, blocks: impl Iterator<Item = usize>) -> Vec<u32> {
+    pub fn lanes_of(&self, blocks: &[usize]) -> Vec<u32> {
+        // A brick that is listed has a tile.
+        if self.lanes == 1 && blocks.len() + 1 == self.block_first.len() {
+            return (0..self.lane_count() as u32).collect();
+        }
         let mut taken = vec![false; self.lane_count()];
-        for block in blocks {
+        for &block in blocks {
             for tile in &self.tiles[range(self.tiles_of(block))] {
                 taken[(tile.slot * self.lanes + tile.lane) as usize] = true;
             }

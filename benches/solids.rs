@@ -9,6 +9,7 @@ use kit::subject::{Subject, sheared_noise};
 use riprap::{
     Error,
     geometry::{HalfSpace, Polyhedron, Pose, Shape},
+    gpu::Processor,
     gpu::kernel::Kernel,
     lattice::{Grid, Lattice, SolidOperator},
     psm::{
@@ -107,6 +108,10 @@ impl World {
         let (device, queue) = (adapter.device.clone(), adapter.queue.clone());
         let mut setup = adapter.setup(N);
         setup.solid_operator = Some(operator);
+        if adapter.processor == Processor::Gpu {
+            // Bricks follow what the setup has.
+            setup.suit_gpu();
+        }
         let state = sheared_noise(&setup)?;
         let mut lattice = Lattice::new(&device, setup)?;
         lattice.start(&device, &queue, &state, true)?;

@@ -74,9 +74,12 @@ impl Adapter<'_> {
     pub fn setup(&self, n: u32) -> Setup {
         let mut setup = Setup::periodic([n; 3], 0.01);
         setup.max_speed = 0.0;
-        if self.processor == Processor::Cpu {
-            setup.lanes = 4;
-            setup.suit_cpu(self.device.features());
+        match self.processor {
+            Processor::Cpu => {
+                setup.lanes = 4;
+                setup.suit_cpu(self.device.features());
+            }
+            Processor::Gpu => setup.suit_gpu(),
         }
         setup
     }

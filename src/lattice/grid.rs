@@ -68,6 +68,10 @@ impl Grid {
         }
         let mut elements = [0, 1, 2].map(|axis| pad(setup.cells[axis], axis));
         elements[axis] = depth.div_ceil(lanes);
+        if !periodic[0] {
+            let rows = elements[0].checked_next_multiple_of(setup.row_alignment);
+            elements[0] = rows.unwrap_or(elements[0]);
+        }
         let elements_all = elements.iter().map(|&n| u128::from(n)).product::<u128>();
         let total = elements_all * u128::from(lanes);
         let most = u64::from(MAX_CELLS);

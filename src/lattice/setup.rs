@@ -204,6 +204,8 @@ pub struct Setup {
     pub max_speed: f64,
     /// Elements of a brick along x, y, z; their product is the workgroup: 32, 64, 128 or 256.
     pub brick: [u32; 3],
+    /// Elements of a row along x are padded to a multiple of this where x is not periodic.
+    pub row_alignment: u32,
     /// Storage bindings over which the populations are spread; `None` takes as many as the
     /// device's limits require.
     pub bindings: Option<u32>,
@@ -244,6 +246,7 @@ impl Setup {
             // Three quarters of the speed of sound: outside of what the method resolves, before NaN.
             max_speed: 0.43,
             brick: [16, 2, 2],
+            row_alignment: 1,
             bindings: None,
             wide: false,
             processor: None,
@@ -275,6 +278,23 @@ impl Setup {
         self.brick = [long, (32 / long).max(1), 1];
         self.wide = features.contains(wgpu::Features::SHADER_INT64);
         self.processor = Some(Processor::Cpu);
+    }
+
+    /// Suits a GPU: bricks that are rows of up to 128 elements, each of which begins at a line of its memory. On an H200 a
+    /// plain step with rows of 128, 64 and 32 reaches 0.89, 0.82 and 0.71 of the speed of copies, with bricks of 16 × 2 × 2
+    /// 0.57. Where blocks are in the fluid rows have 32: longer ones hold more cells that no block reaches.
+    pub fn suit_gpu(&mut self) {
+        let length = self.cells[0];
+        // Invocations beyond the last cell are idle: at most one for eight cells.
+        let fits = |long: &u32| (long - length % long) % long <= length / 8;
+        let long = match self.solid_operator {
+            Some(_) => None,
+            None => [128, 64].into_iter().find(fits),
+        };
+        let long = long.unwrap_or(length.clamp(8, 32).next_power_of_two());
+        self.brick = [long, (64 / long).max(1), 1];
+        self.row_alignment = 32;
+        self.processor = Some(Processor::Gpu);
     }
 
     /// Has an invocation treat `lanes` cells, along y or z: the axis along which fewer elements hold fluid, z where both do

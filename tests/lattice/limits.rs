@@ -347,31 +347,6 @@ fn a_cell_between_solids_is_a_closed_box() {
     assert!(after.max_speed < 1e-7, "{after:?}");
 }
 
-/// Rows of 64, or of 32 where those leave fewer invocations beyond the grid; short grids have short rows.
-#[test]
-fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
-    for (cells, wall, row) in [
-        (1, false, 8),
-        (17, false, 32),
-        (32, false, 32),
-        (32, true, 32),
-        (96, false, 32),
-        (96, true, 32),
-        (97, false, 64),
-        (128, false, 64),
-        (128, true, 64),
-        (144, true, 32),
-    ] {
-        let mut setup = Setup::periodic([cells, 3, 3], 0.01);
-        if wall {
-            setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
-        }
-        setup.suit_cpu(wgpu::Features::empty());
-        assert_eq!(setup.brick[0], row, "{cells} cells, walls: {wall}");
-        assert!(setup.brick.iter().product::<u32>() >= 32);
-    }
-}
-
 /// A device that does nothing: what is refused never reaches one.
 fn nothing() -> (wgpu::Device, wgpu::Queue) {
     wgpu::Device::noop(&wgpu::DeviceDescriptor::default())

@@ -4,6 +4,7 @@ mod divergence_guard;
 mod kernels;
 mod limits;
 mod reproducibility;
+mod rows;
 mod statistics;
 mod twin;
 mod wall_model;

@@ -66,7 +66,7 @@ fn a_run_repeats_to_the_bit() {
 fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
     let rig = Rig::new();
     let reference = bits(&run(&rig, setup(), 51).1);
-    let mut others = vec![setup(); 7];
+    let mut others = vec![setup(); 9];
     others[0].lanes = 4;
     others[1].bindings = Some(rig.most_bindings());
     others[2].brick = [64, 1, 1];
@@ -74,10 +74,12 @@ fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
     others[4].brick = [4, 4, 8];
     others[5].brick = [4, 4, 2];
     (others[6].lanes, others[6].lane_axis) = (4, 1);
+    others[7].row_alignment = 32;
+    others[8].suit_gpu();
     for other in others {
         let what = format!(
-            "{} lanes along {}, {:?} bindings, brick {:?}",
-            other.lanes, other.lane_axis, other.bindings, other.brick
+            "{} lanes along {}, {:?} bindings, brick {:?}, rows of a multiple of {}",
+            other.lanes, other.lane_axis, other.bindings, other.brick, other.row_alignment
         );
         assert!(bits(&run(&rig, other, 51).1) == reference, "{what}");
     }

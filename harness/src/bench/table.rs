@@ -186,6 +186,10 @@ fn setup(grid: u32, storage: Storage, kind: Kind, bench: &Bench<'_>) -> Setup {
         Kind::Wale => setup.wale = Some(0.5),
         Kind::Coupled => setup.solid_operator = Some(SolidOperator::Holdych),
     }
+    if !software {
+        // Bricks follow what the setup has.
+        setup.suit_gpu();
+    }
     setup
 }
 

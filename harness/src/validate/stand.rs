@@ -100,6 +100,8 @@ impl Stand {
             if cells[2].is_multiple_of(4) {
                 setup.lanes = 4;
             }
+        } else {
+            setup.suit_gpu();
         }
         setup
     }

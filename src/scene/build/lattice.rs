@@ -2,7 +2,6 @@
 
 use crate::{
     Error, Result,
-    gpu::Processor,
     lattice::{
         Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
         Storage, WallModel,
@@ -132,7 +131,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     }
     match cpu {
         Some(features) => setup.suit_cpu(features),
-        None => setup.processor = Some(Processor::Gpu),
+        None => setup.suit_gpu(),
     }
     if !scene.solids.is_empty() {
         let mask = scene.solid_mask()?;

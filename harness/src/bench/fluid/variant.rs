@@ -145,8 +145,9 @@ pub fn plain(
 ) -> Setup {
     let mut setup = Setup::periodic([grid; 3], 0.01);
     (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
-    if software {
-        setup.suit_cpu(device.features());
+    match software {
+        true => setup.suit_cpu(device.features()),
+        false => setup.suit_gpu(),
     }
     setup
 }

@@ -20,8 +20,10 @@ const EARLY: f64 = 100.0;
 const FEWEST: f64 = 2.0;
 /// Bytes that more than these may have together, half a minute of a slow disk: larger states come less often.
 const BYTES: f64 = 4e9;
-/// Part of the time of a run that its writing may take.
+/// Part of the time of a run that writing states of more than [`SMALL`] may take.
 const SHARE: f64 = 0.05;
+/// Bytes of a state that is written at once.
+const SMALL: u64 = 4_000_000;
 
 pub struct Checkpoints {
     schedule: Schedule,
@@ -64,7 +66,8 @@ impl Parted {
         let parts = (BYTES / bytes.max(1) as f64).clamp(FEWEST, PARTS).floor();
         let early = parts == PARTS && (step as f64) < self.last as f64 / PARTS;
         let part = self.last as f64 / if early { EARLY } else { parts };
-        let every = part.max((steps / SHARE).min(self.last as f64));
+        let long = if bytes > SMALL { steps / SHARE } else { 0.0 };
+        let every = part.max(long.min(self.last as f64));
         Schedule::new(Some(every * self.time_step), self.time_step, self.last)
     }
 }
@@ -226,6 +229,7 @@ mod tests {
     fn what_takes_long_to_write_is_written_less_often() {
         assert_eq!(due(400_000_000, 3.0), [2, 60, 120, 180, 200]);
         assert_eq!(due(400_000_000, 30.0), [2, 200]);
+        assert_eq!(due(400_000, 30.0), due(400_000, 0.0));
     }
 
     fn found(before: &str, now: &str) -> String {

@@ -1,8 +1,8 @@
 // Lehmann 2022, Computation 10(6):92, Esoteric-Pull: streaming without collision. The traffic of a step is all
 // there, its arithmetic is not: what no collision kernel of the same layout can beat.
-// needs stream, $bricks
+// needs stream, $bricks, workgroup
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn stream_only(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

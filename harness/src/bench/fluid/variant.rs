@@ -60,7 +60,7 @@ const MAIN: [(&str, Change); 9] = [
 ];
 
 /// The rest, in the layout that the adapter likes best.
-const REST: [(&str, Change); 9] = [
+const REST: [(&str, Change); 11] = [
     ("mrt, second-order equilibrium", |s| {
         s.equilibrium = Equilibrium::SecondOrder;
     }),
@@ -73,7 +73,9 @@ const REST: [(&str, Change); 9] = [
     ("mrt, 7 bindings", |s| s.bindings = Some(7)),
     ("mrt, 27 bindings", |s| s.bindings = Some(27)),
     ("mrt, bricks 16 × 2 × 2", |s| s.brick = [16, 2, 2]),
+    ("mrt, bricks 32 × 2 × 1", |s| s.brick = [32, 2, 1]),
     ("mrt, bricks 64 × 1 × 1", |s| s.brick = [64, 1, 1]),
+    ("mrt, bricks 128 × 1 × 1", |s| s.brick = [128, 1, 1]),
 ];
 
 /// A weak one: its value does not matter to the time.

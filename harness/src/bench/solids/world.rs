@@ -139,7 +139,7 @@ impl World {
             }
         }
         let rock = format!(
-            "rock = {{ gravity = [0, 0, {gravity:e}] }}\ncoupling = {{ lubrication = false }}"
+            "rock = {{ gravity = [0, 0, {gravity:e}], corner_area = 0.25 }}\ncoupling = {{ lubrication = false }}"
         );
         let floor = "[boundaries]\nz_min = { kind = \"wall\" }\nz_max = { kind = \"wall\" }\n";
         Self::of(n, &rock, format!("{floor}{blocks}"))

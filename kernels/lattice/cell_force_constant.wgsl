@@ -1,9 +1,7 @@
-// Guo, Zheng & Shi 2002: one force per volume everywhere, lattice units.
+// Guo, Zheng & Shi 2002: one force per volume everywhere, lattice units; it may change from step to step.
 
-override FORCE_X: f32;
-override FORCE_Y: f32;
-override FORCE_Z: f32;
+@group(0) @binding(69) var<uniform> uniform_force: vec4<f32>;
 
 fn cell_force(cell: vec3<u32>) -> vec3<f32> {
-    return vec3(FORCE_X, FORCE_Y, FORCE_Z);
+    return uniform_force.xyz;
 }

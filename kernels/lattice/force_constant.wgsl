@@ -1,10 +1,8 @@
-// Guo, Zheng & Shi 2002: one force per volume everywhere, lattice units.
+// Guo, Zheng & Shi 2002: one force per volume everywhere, lattice units; it may change from step to step.
 // needs velocity, grid
 
-override FORCE_X: f32;
-override FORCE_Y: f32;
-override FORCE_Z: f32;
+@group(0) @binding(69) var<uniform> uniform_force: vec4<f32>;
 
 fn body_force(p: Place) -> Vector {
-    return Vector(Real(FORCE_X), Real(FORCE_Y), Real(FORCE_Z));
+    return Vector(Real(uniform_force.x), Real(uniform_force.y), Real(uniform_force.z));
 }

@@ -7,6 +7,7 @@ use super::{
 use crate::{
     Error, Result,
     error::refused,
+    formula::Formula,
     geometry::{Load, Pose},
     gpu::{
         readback,
@@ -76,6 +77,11 @@ impl LatticeCoupling {
             face_probes: Vec::new(),
             initial_inlet_blocks: Vec::new(),
         })
+    }
+
+    /// Gives the fluid another body force per mass, m/s², the same everywhere.
+    pub fn set_acceleration(&mut self, acceleration: [f64; 3]) {
+        self.ambient.acceleration = acceleration.map(Formula::from);
     }
 
     /// Places the blocks at `poses` and records the computation of their cells, unless that is up to date.

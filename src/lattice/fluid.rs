@@ -3,6 +3,7 @@
 use super::{
     Bindings, Face, Force, Geometry, Grid, OpenFace, Setup,
     cell_kernels::CellKernels,
+    force::force_words,
     geometry::{FaceCell, MovingCell},
     populations,
     spread::{PSM_NAMES, planes},
@@ -73,6 +74,8 @@ pub(super) struct Buffers {
     pub(super) velocity: Option<[Vec<wgpu::Buffer>; 2]>,
     pub(super) flags: Option<wgpu::Buffer>,
     pub(super) force: Vec<wgpu::Buffer>,
+    /// The force of all cells, if they have one force.
+    pub(super) uniform_force: Option<wgpu::Buffer>,
     pub(super) guard: Option<wgpu::Buffer>,
     pub(super) wall_velocity: Option<wgpu::Buffer>,
     /// Least eddy viscosity of each cell, by the wall model.
@@ -108,6 +111,7 @@ impl Buffers {
         all.extend(FORCE.into_iter().zip(&self.force));
         let optional = [
             ("flags", &self.flags),
+            ("uniform_force", &self.uniform_force),
             ("guard_state", &self.guard),
             ("wall_velocity", &self.wall_velocity),
             ("near_wall_viscosity", &self.near_wall_viscosity),
@@ -356,6 +360,19 @@ fn make_buffers(
             .collect(),
         _ => Vec::new(),
     };
+    let uniform_force = match setup.force {
+        Force::Constant(force) => {
+            let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+            let content = force_words(force);
+            Some(filled(
+                device,
+                "force",
+                bytemuck::cast_slice(&content),
+                usage,
+            ))
+        }
+        _ => None,
+    };
     let moving = wall_velocities(setup, grid, &geometry.moving);
     let list = |label, values: &[u32]| {
         (!values.is_empty()).then(|| storage(device, label, bytemuck::cast_slice(values)))
@@ -386,6 +403,7 @@ fn make_buffers(
         velocity: setup.wale.map(|_| [velocity(), velocity()]),
         flags: list("flags", &geometry.flags),
         force,
+        uniform_force,
         guard: (setup.max_speed > 0.0).then(|| {
             let usage = wgpu::BufferUsages::STORAGE
                 | wgpu::BufferUsages::COPY_DST

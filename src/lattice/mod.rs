@@ -40,6 +40,7 @@ mod cell_kernels;
 mod check;
 mod exchange;
 mod fluid;
+mod force;
 mod gather;
 mod geometry;
 mod grid;

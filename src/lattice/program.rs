@@ -235,9 +235,6 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
     if let Some(constant) = setup.wale {
         all.push(("C_WALE", constant));
     }
-    if let Force::Constant([x, y, z]) = setup.force {
-        all.extend([("FORCE_X", x), ("FORCE_Y", y), ("FORCE_Z", z)]);
-    }
     all
 }
 

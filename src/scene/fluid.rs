@@ -4,7 +4,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::rules::{finite_constants, no_time, not_negative, positive, refuse};
-use super::{Boundaries, Coupling, Initial, Numerics, Output, ProbePlace, Quantity, Scene, Shape};
+use super::{
+    Boundaries, Boundary, Coupling, Face, Initial, Numerics, Output, ProbePlace, Quantity, Scene,
+    Shape,
+};
 use crate::error::Result;
 use crate::formula::Formula;
 
@@ -23,6 +26,18 @@ pub struct Fluid {
     /// numbers: their gravity. Default none.
     #[serde(default)]
     pub acceleration: [Formula; 3],
+    /// Mean velocity along a periodic axis, m/s, three numbers of which one is not 0: a body force along that axis, beyond
+    /// `acceleration`, follows the friction and keeps it. The force per mass is the history `driving_acceleration`.
+    pub bulk_velocity: Option<[f64; 3]>,
+}
+
+impl Fluid {
+    /// Axis and value, m/s, of the bulk velocity that is kept.
+    pub fn kept_velocity(&self) -> Option<(usize, f64)> {
+        let velocity = self.bulk_velocity?;
+        let axis = velocity.iter().position(|u| *u != 0.0)?;
+        Some((axis, velocity[axis]))
+    }
 }
 
 fn water() -> f64 {
@@ -43,8 +58,70 @@ impl Scene {
             }
             (false, _) => positive("fluid.viscosity", viscosity, "m²/s")?,
         }
+        self.check_bulk_velocity()?;
         no_time("fluid.acceleration", &self.fluid.acceleration)?;
         finite_constants("fluid.acceleration", &self.fluid.acceleration)
+    }
+
+    fn check_bulk_velocity(&self) -> Result<()> {
+        const KEY: &str = "fluid.bulk_velocity";
+        let Some(velocity) = self.fluid.bulk_velocity else {
+            let of_control = |quantity: &Quantity| {
+                matches!(
+                    quantity,
+                    Quantity::BulkVelocity | Quantity::DrivingAcceleration
+                )
+            };
+            for (index, history) in self.output.histories.iter().enumerate() {
+                if let Some(quantity) = history
+                    .quantities
+                    .iter()
+                    .find(|quantity| of_control(quantity))
+                {
+                    return refuse(
+                        format!("output.histories[{index}].quantities"),
+                        format!(
+                            "{} is of a flow with `fluid.bulk_velocity`, which this scene lacks",
+                            quantity.name()
+                        ),
+                    );
+                }
+            }
+            return Ok(());
+        };
+        if self.has_particles() {
+            return refuse(
+                KEY,
+                "is for a fluid on a lattice; particles have `acceleration`",
+            );
+        }
+        let along = velocity.iter().filter(|u| **u != 0.0).count();
+        if along != 1 || !velocity.iter().all(|u| u.is_finite()) {
+            return refuse(
+                KEY,
+                format!(
+                    "is {velocity:?} m/s; give finite numbers of which one is not 0: the flow is along that axis"
+                ),
+            );
+        }
+        let axis = velocity.iter().position(|u| *u != 0.0).unwrap_or_default();
+        if *self.boundaries.face(Face::ALL[2 * axis]) != Boundary::Periodic {
+            let name = ["x", "y", "z"][axis];
+            return refuse(
+                KEY,
+                format!(
+                    "drives a flow along {name}, which has boundaries: remove {name}_min and {name}_max, or give the \
+                         velocity at an inlet"
+                ),
+            );
+        }
+        if !self.fluid.acceleration.iter().all(Formula::is_constant) {
+            return refuse(
+                KEY,
+                "adds to an acceleration that is the same everywhere; give `fluid.acceleration` numbers",
+            );
+        }
+        Ok(())
     }
 
     /// What a scene without fluid must not have.

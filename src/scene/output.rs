@@ -220,6 +220,11 @@ pub enum Quantity {
     MomentumZ,
     /// Largest speed of the fluid, m/s.
     MaxSpeed,
+    /// Mean velocity along the axis of `fluid.bulk_velocity`, of the fluid and of the blocks in it, m/s.
+    BulkVelocity,
+    /// Body force per mass that keeps `fluid.bulk_velocity`, along its axis, beyond `fluid.acceleration`, m/s²: the slope of
+    /// the energy line is this over g.
+    DrivingAcceleration,
     /// Potential energy of particles in their gravity, against that at the time 0, J.
     PotentialEnergy,
     /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, against that at the time 0, J.
@@ -285,6 +290,8 @@ impl Quantity {
             Self::MomentumY => "momentum_y",
             Self::MomentumZ => "momentum_z",
             Self::MaxSpeed => "max_speed",
+            Self::BulkVelocity => "bulk_velocity",
+            Self::DrivingAcceleration => "driving_acceleration",
             Self::PotentialEnergy => "potential_energy",
             Self::CompressionEnergy => "compression_energy",
             Self::EscapedEnergy => "escaped_energy",
@@ -316,7 +323,15 @@ impl Quantity {
         !self.is_of_particles()
             && !matches!(
                 self,
-                KineticEnergy | Enstrophy | Mass | MomentumX | MomentumY | MomentumZ | MaxSpeed
+                KineticEnergy
+                    | Enstrophy
+                    | Mass
+                    | MomentumX
+                    | MomentumY
+                    | MomentumZ
+                    | MaxSpeed
+                    | BulkVelocity
+                    | DrivingAcceleration
             )
     }
 

@@ -10,7 +10,7 @@ use crate::{
     geometry::Load,
     lattice::{Inside, Populations},
     scene::Scene,
-    simulation::{Reading, SamplingState},
+    simulation::{FlowControlState, Reading, SamplingState},
     sph::{Particle, SphState},
 };
 use glam::DVec3;
@@ -88,6 +88,8 @@ pub struct LatticeState {
     pub coupling: Option<CouplingState>,
     /// The statistics of fields, if the scene shows some.
     pub sampling: Option<SamplingState>,
+    /// The force that keeps a bulk velocity, if one is kept.
+    pub flow_control: Option<FlowControlState>,
 }
 
 /// The state of free water.

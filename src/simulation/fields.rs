@@ -23,6 +23,10 @@ pub struct Totals {
     pub enstrophy: f64,
     /// Largest speed, m/s.
     pub max_speed: f64,
+    /// Mean velocity along the axis of a bulk velocity that is kept, m/s.
+    pub bulk_velocity: f64,
+    /// Body force per mass that keeps it, m/s².
+    pub driving_acceleration: f64,
 }
 
 impl Simulation {
@@ -75,7 +79,12 @@ impl Simulation {
         let mass = units.density * volume;
         let speed = units.velocity_from_lattice(1.0);
         let rate = units.rate_from_lattice(1.0);
+        let control = fluid.flow_control.as_ref();
         Ok(Totals {
+            bulk_velocity: control.map_or(0.0, |control| speed * control.bulk_velocity(&sums)),
+            driving_acceleration: control.map_or(0.0, |control| {
+                control.acceleration() / units.acceleration_to_lattice(1.0)
+            }),
             mass: mass * (sums.cells + sums.excess),
             momentum: sums.momentum.map(|j| mass * speed * j),
             kinetic_energy: mass * speed * speed * sums.kinetic_energy,

@@ -2,6 +2,7 @@
 
 use super::{
     checkpoint::{LatticeState, differ, other_scene},
+    flow_control::FlowControl,
     statistics::Sampling,
 };
 use crate::{
@@ -34,9 +35,11 @@ pub(super) struct LatticeFluid {
     /// Velocity and pressure faces whose formulas contain the time.
     time_dependent_faces: Vec<Face>,
     /// The coupling to the blocks in it, if there are any.
-    coupling: Option<LatticeCoupling>,
+    pub coupling: Option<LatticeCoupling>,
     /// Statistics of fields over time, if the scene shows some.
     pub sampling: Option<Sampling>,
+    /// What keeps the bulk velocity, if the scene gives one.
+    pub flow_control: Option<FlowControl>,
     /// Times of the phases of a step, if requested.
     pub phases: Option<Phases>,
 }
@@ -91,7 +94,7 @@ impl LatticeFluid {
             )));
         }
         let (rock, coupling) = blocks.unzip();
-        let fluid = Self {
+        let mut fluid = Self {
             device: device.clone(),
             queue: queue.clone(),
             time_dependent_faces: scene.boundaries.iter().filter_map(time_dependent).collect(),
@@ -101,8 +104,10 @@ impl LatticeFluid {
             observer,
             coupling,
             sampling,
+            flow_control: FlowControl::new(scene, &units),
             phases: None,
         };
+        fluid.apply_flow_control()?;
         Ok((fluid, rock, advice))
     }
 
@@ -235,6 +240,7 @@ impl LatticeFluid {
         let loads = coupling.exchange();
         self.set_faces()?;
         self.sample()?;
+        self.control_flow().await?;
         Ok(Some(loads))
     }
 
@@ -300,6 +306,7 @@ impl LatticeFluid {
         Ok(LatticeState {
             cell: self.units.cell,
             sampling,
+            flow_control: self.flow_control.as_ref().map(FlowControl::state),
             inside: self.observer.inside(device, queue, lattice).await?,
             populations: lattice.populations(device, queue).await?,
             coupling,
@@ -344,6 +351,7 @@ impl LatticeFluid {
         if let Some(sampling) = &mut self.sampling {
             sampling.restore(queue, state.sampling.as_ref())?;
         }
+        self.restore_flow_control(state.flow_control)?;
         self.set_faces()
     }
 }
@@ -395,12 +403,13 @@ impl Fluid for LatticeFluid {
             self.record_rest(&mut encoder);
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
-            if self.lattice.step() == last || !goes_on || self.sample_due() {
+            if self.lattice.step() == last || !goes_on || self.sample_due() || self.control_due() {
                 // What is recorded counts as done, whatever the next step lacks. What changes at a face is
                 // written between two submissions.
                 self.submit(encoder).await?;
                 self.set_faces()?;
                 self.sample()?;
+                self.control_flow().await?;
                 return Ok(None);
             }
         }

@@ -1,6 +1,7 @@
 //! The lattice: kernels against their f64 twin and exact solutions, limits of devices, and equal bits in every layout.
 
 mod divergence_guard;
+mod force;
 mod kernels;
 mod limits;
 mod reproducibility;

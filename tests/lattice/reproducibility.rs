@@ -127,6 +127,7 @@ fn checkpoint(populations: Populations) -> Checkpoint {
             },
             coupling: None,
             sampling: None,
+            flow_control: None,
         })),
     }
 }
@@ -207,7 +208,7 @@ fn broken_checkpoints_are_refused() {
         (&bytes[..14], "cut short"),
         (&bytes[..3], "not a checkpoint"),
         (&changed(middle, !bytes[middle]), "damaged"),
-        (&changed(17, 9), "version 9 of its format"),
+        (&changed(17, 10), "version 10 of its format"),
         (&b"riprap state  4\n"[..], "version 4 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {

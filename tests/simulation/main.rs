@@ -1,5 +1,6 @@
 //! Whole simulations: probes, sensors and restarts.
 
+mod flow_control;
 mod levels;
 mod pressure_sensors;
 mod probes;

@@ -93,6 +93,7 @@ impl Present {
                     kinetic_energy: totals.kinetic_energy,
                     enstrophy: f64::NAN,
                     max_speed: totals.max_speed,
+                    ..Totals::default()
                 };
                 present.water = run.water_ledger()?;
             }
@@ -115,6 +116,10 @@ fn about(quantity: Quantity, now: &Present) -> (&'static str, &'static str, f64)
         Quantity::MomentumY => ("momentum along y", "kg m/s", fluid.momentum[1]),
         Quantity::MomentumZ => ("momentum along z", "kg m/s", fluid.momentum[2]),
         Quantity::MaxSpeed => ("largest speed", "m/s", fluid.max_speed),
+        Quantity::BulkVelocity => ("bulk velocity", "m/s", fluid.bulk_velocity),
+        Quantity::DrivingAcceleration => {
+            ("driving acceleration", "m/s²", fluid.driving_acceleration)
+        }
         Quantity::PotentialEnergy => ("potential energy", "J", water.potential),
         Quantity::CompressionEnergy => ("energy of compression", "J", water.compression),
         Quantity::EscapedEnergy => ("energy of what has left", "J", water.escaped),

@@ -165,6 +165,7 @@ fn kernels_for_single_cells_in_all_variants() {
             for name in &found {
                 let known = wanted.contains(&name.as_str())
                     || name == "flags" && (walls == 1 || quantity == 1)
+                    || name == "uniform_force" && force == 1
                     || name == "force_field_0" && force == 2
                     || name == "wall_blocks" && quantity == 1;
                 assert!(known, "{entry} binds {name}");

@@ -44,6 +44,7 @@ fn the_step_in_all_variants() {
             ("velocity_before_0", setup.wale.is_some()),
             ("velocity_after_0", setup.wale.is_some()),
             ("near_wall_viscosity", wale == 2),
+            ("uniform_force", force == 1),
             ("force_field_0", force == 2),
             ("guard_state", guard == 1),
             ("bricks", kind != BrickKind::All),

@@ -1,0 +1,30 @@
+//! A body force that changes between two steps.
+
+use kit::{Rig, assert_contains, assert_near};
+use riprap::lattice::{Force, Observer, Setup, State};
+
+/// Populations carry momentum without half of the force of the step that comes; what is read has it.
+#[test]
+fn momentum_is_what_each_force_has_put_in() {
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([5, 4, 3], 0.05);
+    setup.force = Force::Constant([1e-5, 0.0, 0.0]);
+    let mut lattice = rig.start(setup, &State::rest(60), true);
+    rig.run(&mut lattice, 10);
+    lattice.set_force(&rig.queue, [0.0, -2e-5, 0.0]).unwrap();
+    rig.run(&mut lattice, 20);
+    let mut observer = Observer::new(&rig.device, &lattice).unwrap();
+    let sums = rig
+        .wait(observer.sums(&rig.device, &rig.queue, &mut lattice))
+        .unwrap();
+    let expected = [60.0 * 9.5e-5, 60.0 * -41e-5, 0.0];
+    for (found, expected) in sums.momentum.into_iter().zip(expected) {
+        assert_near(found, expected, 1e-6);
+    }
+    assert_eq!(lattice.setup().force, Force::Constant([0.0, -2e-5, 0.0]));
+    let bad = lattice.set_force(&rig.queue, [f64::NAN, 0.0, 0.0]);
+    assert_contains(bad.unwrap_err(), &["force", "NaN"]);
+    let mut forceless = rig.start(Setup::periodic([3, 3, 3], 0.05), &State::rest(27), true);
+    let none = forceless.set_force(&rig.queue, [0.0; 3]);
+    assert_contains(none.unwrap_err(), &["force", "the same in all cells"]);
+}

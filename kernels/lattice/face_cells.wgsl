@@ -12,10 +12,17 @@ struct FaceCell {
 struct OpenFace {
     // Outward.
     normal: vec3<f32>,
+    // In cell 0 of the domain, and its increase from cell to cell along the face.
     density: f32,
     // Of the difference to that density what an outflow face removes each step, and what of its sum over time.
     hold: f32,
     integral: f32,
+    gradient: vec3<f32>,
 }
 
 @group(0) @binding(46) var<uniform> open_face: OpenFace;
+
+// What the face holds at a padded cell, less 1.
+fn held_excess(cell: u32) -> f32 {
+    return open_face.density + dot(open_face.gradient, vec3<f32>(padded_cell(cell))) - 1.0;
+}

@@ -42,6 +42,7 @@ fn remember(
         return;
     }
     let here = face_cells[n];
+    let held = held_excess(here.cell);
     let own = all_incoming(neighbourhood(padded_cell(here.cell)));
     let inner = all_incoming(neighbourhood(padded_cell(here.inner)));
     let inner_state = inside(inner);
@@ -53,7 +54,7 @@ fn remember(
     }
     // The density on the face, half a cell further out.
     let face_excess = 1.5 * inside(own).excess - 0.5 * inner_state.excess;
-    carried[27u * n] += open_face.integral * (open_face.density - 1.0 - face_excess);
+    carried[27u * n] += open_face.integral * (held - face_excess);
 }
 
 @compute @workgroup_size(64)
@@ -67,9 +68,10 @@ fn flow_out(
         return;
     }
     let here = face_cells[n];
+    let held = held_excess(here.cell);
     let cell = neighbourhood(padded_cell(here.cell));
     let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))));
-    let anchor = open_face.hold * (open_face.density - 1.0 - inner_state.excess) + carried[27u * n];
+    let anchor = open_face.hold * (held - inner_state.excess) + carried[27u * n];
     // All before the first write, so that the loads do not wait for each other.
     var kept: array<f32, 27>;
     for (var q = 1u; q < 27u; q++) { // unroll

@@ -15,6 +15,7 @@ fn hold_pressure(
         return;
     }
     let here = face_cells[n];
+    let held = held_excess(here.cell);
     let cell = neighbourhood(padded_cell(here.cell));
     let inner = neighbourhood(padded_cell(here.inner));
     var excess = read_incoming(inner, 0u);
@@ -31,7 +32,7 @@ fn hold_pressure(
     }
     // The density is given on the face, half a cell beyond this cell and one and a half beyond the
     // inner one; velocity and stress are as they are inside.
-    let change = (open_face.density - 1.0 - excess) * (2.0 / 3.0);
+    let change = (held - excess) * (2.0 / 3.0);
     let u = j / (1.0 + excess);
     let rho_excess = excess + change;
     let flux = j + change * u;

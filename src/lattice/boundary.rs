@@ -202,12 +202,18 @@ impl OpenFace {
         let mut normal = [0.0; 3];
         normal[axis] = if side == 0 { -1.0 } else { 1.0 };
         let density = match setup.faces[axis][side] {
-            Face::Pressure { density } | Face::Outflow { density } => density as f32,
+            Face::Pressure { density } | Face::Outflow { density } => density,
             _ => 1.0,
         };
+        // What a face is given it has in its middle.
+        let mut gradient = setup.open_face_gradient;
+        gradient[axis] = 0.0;
+        let middle = |a: usize| 0.5 * f64::from(grid.cells[a] - 1);
+        let density = density - (0..3).map(|a| gradient[a] * middle(a)).sum::<f64>();
         Self {
             normal,
-            density,
+            density: density as f32,
+            gradient: gradient.map(|g| g as f32),
             hold: hold as f32,
             integral: (0.05 * hold / length) as f32,
             ..Self::default()

@@ -35,7 +35,7 @@ pub struct CellPass {
 pub struct OpenFace {
     /// Outward unit normal.
     pub normal: [f32; 3],
-    /// Density on the face, lattice units.
+    /// Density on the face in the first cell of the domain, lattice units.
     pub density: f32,
     /// Share of the difference of density that an outflow face removes each step.
     pub hold: f32,
@@ -43,6 +43,10 @@ pub struct OpenFace {
     pub integral: f32,
     /// Not used.
     pub pad: [u32; 2],
+    /// Increase of the density on the face from cell to cell.
+    pub gradient: [f32; 3],
+    /// Not used.
+    pub end: u32,
 }
 
 /// A kernel for single cells with what one dispatch of it takes.

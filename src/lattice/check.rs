@@ -25,6 +25,8 @@ impl Setup {
                 finite("force", field.as_flattened())?;
             }
         }
+        let gradient = self.open_face_gradient.map(|g| g as f32);
+        finite("open_face_gradient", &gradient)?;
         for (axis, faces) in self.faces.iter().enumerate() {
             let periodic = faces.iter().filter(|face| **face == Face::Periodic).count();
             if periodic == 1 {

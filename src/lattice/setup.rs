@@ -191,6 +191,9 @@ pub struct Setup {
     pub force: Force,
     /// Lower and upper face of x, y, z.
     pub faces: [[Face; 2]; 3],
+    /// Increase of the density from cell to cell that pressure and outflow faces hold along themselves: the hydrostatic one
+    /// where the fluid feels gravity. A face has its own density in its middle.
+    pub open_face_gradient: [f64; 3],
     /// Static solid cells, x fastest; empty if there are none.
     pub solid: Vec<bool>,
     /// Storage of the populations.
@@ -239,6 +242,7 @@ impl Setup {
             solid_roughness: Vec::new(),
             force: Force::None,
             faces: [face(), face(), face()],
+            open_face_gradient: [0.0; 3],
             solid: Vec::new(),
             storage: Storage::F32,
             lanes: 1,

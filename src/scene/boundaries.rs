@@ -73,7 +73,8 @@ pub enum Boundary {
     },
     /// The pressure is given.
     Pressure {
-        /// Pressure above the reference pressure, Pa: a number, or a formula of t, such as that of a level. Default 0.
+        /// Pressure above the reference pressure, Pa: a number, or a formula of t, such as that of a level. Default 0. A constant
+        /// `fluid.acceleration` along the face adds the hydrostatic pressure to it; the middle of the face has the pressure given.
         #[serde(default)]
         pressure: Formula,
         /// Whether the pressure is held firmly. Default false: it is held on average, and waves

@@ -65,6 +65,7 @@ fn structures_of_the_lattice() {
         ("density", offset_of!(OpenFace, density)),
         ("hold", offset_of!(OpenFace, hold)),
         ("integral", offset_of!(OpenFace, integral)),
+        ("gradient", offset_of!(OpenFace, gradient)),
     ];
     for entry in ["pressure_face", "outflow"] {
         let module = linked(entry).module;

@@ -1,4 +1,4 @@
-//! Faces whose pressure changes in time.
+//! Faces whose pressure changes in time, and is hydrostatic.
 
 use kit::{Rig, assert_near};
 use riprap::{output::Image, scene::Field, simulation::Simulation};
@@ -63,5 +63,53 @@ fn a_basin_follows_the_level_at_its_end() {
             image(&rig, &mut simulation)
         };
         assert_eq!(run("\"30 + 0*t\""), run("30"));
+    }
+}
+
+/// A flow past a step, which feels gravity along z or does not.
+fn past_a_step(gravity: f64, reflecting: bool) -> String {
+    format!(
+        r#"
+        domain = {{ size = [2.4, 0.4, 1.2], cell = 0.1 }}
+        fluid = {{ viscosity = 0.02, density = 1000, acceleration = [0, 0, {gravity}] }}
+        numerics = {{ time_step = 0.01, velocity_scale = 0.4 }}
+        run.steps = 1000
+        [boundaries]
+        x_min = {{ kind = "velocity", velocity = [0.3, 0, 0] }}
+        x_max = {{ kind = "pressure", reflecting = {reflecting} }}
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "free_slip" }}
+        [initial]
+        velocity = [0.3, 0, 0]
+        [[solids]]
+        name = "step"
+        kind = "box"
+        min = [0.6, 0, 0]
+        max = [1.0, 0.4, 0.4]
+        "#
+    )
+}
+
+/// The water is denser by 0.2 % at the bottom, and the flow is that without weight.
+#[test]
+fn an_outlet_holds_hydrostatic_pressure_where_water_is_heavy() {
+    let rig = Rig::new();
+    for reflecting in [true, false] {
+        let [light, heavy] = [0.0, -0.05].map(|gravity| {
+            let scene = kit::scene::read(&past_a_step(gravity, reflecting)).unwrap();
+            let mut simulation = rig.simulation(&scene).unwrap();
+            rig.wait(simulation.advance(1000)).unwrap();
+            image(&rig, &mut simulation)
+        });
+        let velocity = |image: &Image| image.array("velocity").unwrap().values.clone();
+        let pairs = velocity(&light).into_iter().zip(velocity(&heavy));
+        let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(largest < 0.003, "{reflecting}: {largest} m/s of 0.3");
+        // Above the outlet's middle at 0.6 m the pressure is lower by the weight between.
+        let at = |image: &Image, z: f64| image.sample("pressure", [2.3, 0.2, z]).unwrap()[0];
+        for z in [0.15, 0.55, 1.05] {
+            let weight = at(&heavy, z) - at(&light, z);
+            assert_near(weight, 1000.0 * 0.05 * (0.6 - z), 1.0);
+        }
     }
 }

@@ -131,6 +131,10 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             }
         };
     }
+    let (_, gradient) = scene.hydrostatic();
+    let density =
+        |pascal_a_metre: f64| units.pressure_to_lattice(pascal_a_metre * units.cell) - 1.0;
+    setup.open_face_gradient = gradient.map(density);
     match cpu {
         Some(features) => setup.suit_cpu(features),
         None => setup.suit_gpu(),

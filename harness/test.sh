@@ -7,6 +7,9 @@ root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 source "$root/harness/environment.sh"
 
+# Tests run side by side: many threads of each would wait for each other.
+export RAYON_NUM_THREADS="${RAYON_NUM_THREADS:-2}"
+
 harness/setup.sh --tests
 harness/python.sh
 if cargo nextest --version >/dev/null 2>&1; then

@@ -96,15 +96,15 @@ impl Scene {
             );
         }
         let along = velocity.iter().filter(|u| **u != 0.0).count();
-        if along != 1 || !velocity.iter().all(|u| u.is_finite()) {
+        let usable = along == 1 && velocity.iter().all(|u| u.is_finite());
+        let Some((axis, _)) = self.fluid.kept_velocity().filter(|_| usable) else {
             return refuse(
                 KEY,
                 format!(
                     "is {velocity:?} m/s; give finite numbers of which one is not 0: the flow is along that axis"
                 ),
             );
-        }
-        let axis = velocity.iter().position(|u| *u != 0.0).unwrap_or_default();
+        };
         if *self.boundaries.face(Face::ALL[2 * axis]) != Boundary::Periodic {
             let name = ["x", "y", "z"][axis];
             return refuse(

@@ -28,8 +28,8 @@ pub(super) struct FlowControl {
     base: [f64; 3],
     /// r, a step.
     rate: f64,
-    /// Largest integral part.
-    most: f64,
+    /// What a smooth wall takes: the force at the start.
+    usual: f64,
     state: FlowControlState,
 }
 
@@ -41,6 +41,15 @@ pub struct FlowControlState {
     pub integral: f64,
     /// F.
     pub force: f64,
+}
+
+impl FlowControlState {
+    fn start(force: f64) -> Self {
+        Self {
+            integral: force,
+            force,
+        }
+    }
 }
 
 impl FlowControl {
@@ -68,11 +77,8 @@ impl FlowControl {
             target,
             base,
             rate: (usual / target).max(0.25 / TIME),
-            most: LARGEST * usual.abs(),
-            state: FlowControlState {
-                integral: usual,
-                force: usual,
-            },
+            usual,
+            state: FlowControlState::start(usual),
         })
     }
 
@@ -94,7 +100,8 @@ impl FlowControl {
     fn follow(&mut self, velocity: f64) {
         let error = self.target - velocity;
         let integral = self.state.integral + error * STEPS as f64 * self.rate / TIME;
-        self.state.integral = integral.clamp(-self.most, self.most);
+        let most = LARGEST * self.usual.abs();
+        self.state.integral = integral.clamp(-most, most);
         self.state.force = self.state.integral + error / TIME;
     }
 
@@ -129,10 +136,10 @@ impl LatticeFluid {
         self.apply_flow_control()
     }
 
-    /// Continues from a state, or begins anew.
+    /// Continues from a state; without one the control begins anew.
     pub(super) fn restore_flow_control(&mut self, state: Option<FlowControlState>) -> Result<()> {
-        if let (Some(control), Some(state)) = (&mut self.flow_control, state) {
-            control.state = state;
+        if let Some(control) = &mut self.flow_control {
+            control.state = state.unwrap_or(FlowControlState::start(control.usual));
         }
         self.apply_flow_control()
     }

@@ -68,6 +68,24 @@ fn a_restart_and_other_stretches_go_on_to_the_same_bits() {
     }
 }
 
+/// A state of the same scene without a bulk velocity says nothing of the force.
+#[test]
+fn a_state_without_control_begins_it_anew() {
+    let rig = Rig::new();
+    let mut without = plates();
+    without.fluid.bulk_velocity = None;
+    let state = {
+        let mut simulation = rig.simulation(&without).unwrap();
+        rig.wait(simulation.checkpoint()).unwrap()
+    };
+    let mut fresh = rig.simulation(&plates()).unwrap();
+    let start = totals(&rig, &mut fresh).driving_acceleration;
+    rig.wait(fresh.advance(200)).unwrap();
+    assert!(totals(&rig, &mut fresh).driving_acceleration != start);
+    fresh.restore(&state).unwrap();
+    assert_eq!(totals(&rig, &mut fresh).driving_acceleration, start);
+}
+
 /// In a steady flow what drives the fluid and the solid in it is the drag of the solid.
 #[test]
 fn a_sphere_bears_all_of_the_force() {

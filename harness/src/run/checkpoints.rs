@@ -29,8 +29,8 @@ pub struct Checkpoints {
     schedule: Schedule,
     /// The run, where it is ours to choose its parts.
     own: Option<Parted>,
-    /// Step and time at the end of the last checkpoint, or of the start.
-    last: (u64, Instant),
+    /// Step of the previous checkpoint, or of the start, and the time at its end.
+    previous: (u64, Instant),
     path: PathBuf,
     /// The scene's file.
     text: String,
@@ -45,7 +45,7 @@ impl Checkpoints {
                 Some(every) => Schedule::new(Some(every), time_step, last),
                 None => parted.schedule(run.step(), 0, 0.0),
             },
-            last: (run.step(), Instant::now()),
+            previous: (run.step(), Instant::now()),
             own: requested.is_none().then_some(parted),
             path: folder.join("checkpoint.riprap"),
             text: text.to_owned(),
@@ -99,11 +99,11 @@ impl Recorder for Checkpoints {
         log.checkpoint = Some((step, self.path.clone()));
         log.file(self.path.clone());
         if let (Some(run), Ok(file)) = (&self.own, self.path.metadata()) {
-            let (before, end) = self.last;
+            let (before, end) = self.previous;
             let pace = (step - before) as f64 / (begin - end).as_secs_f64().max(1e-9);
             let steps = pace * begin.elapsed().as_secs_f64();
             self.schedule = run.schedule(step, file.len(), steps);
-            self.last = (step, Instant::now());
+            self.previous = (step, Instant::now());
         }
         Ok(())
     }

@@ -90,7 +90,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     };
     let force = |a: f64| units.acceleration_to_lattice(a);
     setup.force = match scene.force_field()? {
-        // It is adapted as the flow goes on.
+        // Flow control changes it during the run.
         BodyForce::None if scene.fluid.kept_velocity().is_some() => Force::Constant([0.0; 3]),
         BodyForce::None => Force::None,
         BodyForce::Uniform(a) => Force::Constant(a.map(force)),

@@ -85,6 +85,7 @@ pub mod lattice;
 pub mod output;
 pub mod prelude;
 pub mod psm;
+mod random;
 #[cfg(feature = "rock")]
 pub mod rock;
 #[cfg(feature = "rock")]

@@ -1,17 +1,8 @@
 // Ladd 1994, J. Fluid Mech. 271:285, eq. 4.4: half-way bounce-back at a wall that moves with u_w, a velocity
 // inlet included: f_opposite = f* - 6 w rho (c.u_w), c into the wall. rho is the density that the
 // cell has with these populations: rho = (1 + known + reflected) / (1 + 6 sum w c.u_w).
-// needs scalar_grid, incoming, weights
+// needs scalar_grid, moving_cells, incoming, weights
 
-// A padded cell and the directions that lead through a moving face normal to x, y, z.
-struct MovingCell {
-    cell: u32,
-    through_x: u32,
-    through_y: u32,
-    through_z: u32,
-}
-
-@group(0) @binding(40) var<storage, read> moving_cells: array<MovingCell>;
 // For each of them the velocity of its face normal to x, y, z.
 @group(0) @binding(41) var<storage, read> wall_velocity: array<f32>;
 

@@ -33,7 +33,6 @@ mod rock_mass;
 mod shape;
 mod winding;
 
-pub(crate) use joint_set::uniform;
 pub use joint_set::{Compass, JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
 pub use placed::Placed;

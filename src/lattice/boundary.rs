@@ -37,6 +37,7 @@ impl Lattice {
             "moving cells",
             bytemuck::cast_slice(&geometry.moving),
         );
+        passes.extend(self.turbulence_passes(device, &moving, odd)?);
         for stage in 0..=LAST_STAGE {
             for (face, (_, _, cells)) in geometry.open.iter().enumerate() {
                 let range = geometry.stages.range(cells, stage);
@@ -187,6 +188,7 @@ impl Lattice {
             let table = wall_velocities(&self.setup, &self.grid, &self.geometry.moving);
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&table));
         }
+        self.write_mean_velocities(queue);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! What a lattice takes on its device, by kind.
 
-use super::{Lattice, wall_model::WallPart};
+use super::{Lattice, synthetic_turbulence::Inlet, wall_model::WallPart};
 
 impl Lattice {
     /// Bytes of its buffers, each kind with a name; kinds that it does not have are left out.
@@ -37,6 +37,10 @@ impl Lattice {
                 "open faces",
                 open.map(|(cells, carried)| cells.size() + carried.size())
                     .sum(),
+            ),
+            (
+                "synthetic turbulence",
+                buffers.inlets.iter().map(Inlet::bytes).sum(),
             ),
             (
                 "wall model",

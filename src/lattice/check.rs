@@ -34,7 +34,16 @@ impl Setup {
                 return Err(Error::argument(face_name(axis, 0), message));
             }
             for (side, face) in faces.iter().enumerate() {
-                self.check_face(face, axis, &face_name(axis, side))?;
+                let name = face_name(axis, side);
+                self.check_face(face, axis, &name)?;
+                let Some(turbulence) = &self.turbulence[axis][side] else {
+                    continue;
+                };
+                if !matches!(face, Face::Velocity(_)) {
+                    let message = "only a velocity face feeds turbulence; make it one, or leave `turbulence` out";
+                    return Err(Error::argument(name, message));
+                }
+                turbulence.check(&name)?;
             }
         }
         if ![1, 2].contains(&self.lane_axis) {

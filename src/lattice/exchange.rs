@@ -28,6 +28,8 @@ pub struct Populations {
     /// What the outflow faces carry from step to step, face by face.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub carried: Vec<f32>,
+    /// How far the mean flow has come through each face that feeds turbulence, 2⁻¹⁶ cell; without it faces begin anew.
+    pub travelled: Vec<u32>,
 }
 
 impl Lattice {
@@ -91,6 +93,7 @@ impl Lattice {
             values,
             velocity,
             near_wall,
+            travelled: self.travelled(device, queue).await?,
         })
     }
 
@@ -132,6 +135,8 @@ impl Lattice {
         let cells = self.grid.cell_count();
         self.step = state.step;
         self.closed = true;
+        self.write_mean_velocities(queue);
+        self.set_travelled(queue, &state.travelled);
         if let Some(guard) = &self.buffers.guard {
             let [_, _, even_cell, odd_cell] = GUARD_START;
             let done = state.step as u32;

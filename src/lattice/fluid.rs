@@ -8,6 +8,7 @@ use super::{
     populations,
     spread::{PSM_NAMES, planes},
     streams::Streams,
+    synthetic_turbulence::Inlet,
     wall_model::WallPart,
 };
 use crate::{
@@ -78,6 +79,8 @@ pub(super) struct Buffers {
     pub(super) uniform_force: Option<wgpu::Buffer>,
     pub(super) guard: Option<wgpu::Buffer>,
     pub(super) wall_velocity: Option<wgpu::Buffer>,
+    /// The turbulence of velocity faces.
+    pub(super) inlets: Vec<Inlet>,
     /// Least eddy viscosity of each cell, by the wall model.
     pub(super) near_wall_viscosity: Option<wgpu::Buffer>,
     /// The walls of the model.
@@ -189,6 +192,12 @@ impl Lattice {
     /// `kernels/lattice/stream.wgsl`, and its parity that of [`Lattice::step`].
     pub fn population_buffers(&self) -> &[wgpu::Buffer] {
         &self.buffers.populations
+    }
+
+    /// Velocities of moving walls and velocity faces in the last step, synthetic turbulence included, lattice units: for each cell of
+    /// [`Geometry::moving`] those of its faces normal to x, y, z, three components each. None where nothing moves.
+    pub fn wall_velocity_buffer(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.wall_velocity.as_ref()
     }
 
     /// Steps recorded since the start of the run.
@@ -410,8 +419,18 @@ fn make_buffers(
                 | wgpu::BufferUsages::COPY_SRC;
             filled(device, "guard", bytemuck::cast_slice(&GUARD_START), usage)
         }),
-        wall_velocity: (!moving.is_empty())
-            .then(|| storage(device, "wall velocity", bytemuck::cast_slice(&moving))),
+        wall_velocity: (!moving.is_empty()).then(|| {
+            let usage = wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_DST
+                | wgpu::BufferUsages::COPY_SRC;
+            filled(
+                device,
+                "wall velocity",
+                bytemuck::cast_slice(&moving),
+                usage,
+            )
+        }),
+        inlets: Inlet::all(device, setup, grid, &geometry.moving),
         // New buffers hold zeros.
         near_wall_viscosity: setup
             .wall_model
@@ -451,10 +470,9 @@ pub(super) fn wall_velocities(
 ) -> Vec<[[f32; 3]; 3]> {
     let of = |cell: &MovingCell, axis: usize| {
         let at = grid.padded_cell(cell.cell);
-        // Both sides of a domain one cell thick are its own faces; the lower one decides.
-        let through = cell.through[axis];
-        let low = (1..27).any(|q| through & (1 << q) != 0 && super::geometry::C[q][axis] < 0);
-        let side = usize::from(!low);
+        let Some(side) = moving_side(cell, axis) else {
+            return [0.0; 3];
+        };
         let (a, b) = in_plane(axis);
         match &setup.faces[axis][side] {
             Face::Wall(velocity) => velocity.map(|v| v as f32),
@@ -466,6 +484,14 @@ pub(super) fn wall_velocities(
         .iter()
         .map(|cell| [0, 1, 2].map(|axis| of(cell, axis)))
         .collect()
+}
+
+/// The side of the moving face of a cell that is normal to `axis`. Both sides of a domain one cell thick are its own faces; the lower one
+/// decides.
+pub(super) fn moving_side(cell: &MovingCell, axis: usize) -> Option<usize> {
+    let through = cell.through[axis];
+    let low = (1..27).any(|q| through & (1 << q) != 0 && super::geometry::C[q][axis] < 0);
+    (through != 0).then_some(usize::from(!low))
 }
 
 /// The axes of a face normal to `axis`, lower one first.

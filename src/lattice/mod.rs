@@ -55,6 +55,7 @@ mod stages;
 mod start;
 mod statistics;
 mod streams;
+mod synthetic_turbulence;
 mod traffic;
 mod wall_model;
 
@@ -79,5 +80,6 @@ pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;
 pub use start::State;
 pub use statistics::{Statistic, Statistics, StatisticsPass, StatisticsState};
+pub use synthetic_turbulence::{FaceMode, FourierMode, SyntheticTurbulence, TurbulentFace};
 pub use traffic::{bytes_a_cell, bytes_a_step};
 pub use wall_model::{WallCell, WallStress, Walls};

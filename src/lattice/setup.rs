@@ -1,5 +1,6 @@
 //! What a lattice fluid is, in lattice units (Δx = Δt = 1, ρ₀ = 1).
 
+use super::SyntheticTurbulence;
 use crate::gpu::Processor;
 
 /// Collision operator.
@@ -191,6 +192,8 @@ pub struct Setup {
     pub force: Force,
     /// Lower and upper face of x, y, z.
     pub faces: [[Face; 2]; 3],
+    /// What velocity faces add to their velocities; `None` has no code for it.
+    pub turbulence: [[Option<SyntheticTurbulence>; 2]; 3],
     /// Increase of the density from cell to cell that pressure and outflow faces hold along themselves: the hydrostatic one
     /// where the fluid feels gravity. A face has its own density in its middle.
     pub open_face_gradient: [f64; 3],
@@ -242,6 +245,7 @@ impl Setup {
             solid_roughness: Vec::new(),
             force: Force::None,
             faces: [face(), face(), face()],
+            turbulence: [[None; 2]; 3],
             open_face_gradient: [0.0; 3],
             solid: Vec::new(),
             storage: Storage::F32,

@@ -55,6 +55,8 @@ impl Lattice {
             queue.write_buffer(guard, 0, bytemuck::cast_slice(&GUARD_START));
         }
         self.set_velocity_before(queue, &state.velocity);
+        self.write_mean_velocities(queue);
+        self.set_travelled(queue, &[]);
         let input =
             |field: &[f32]| fluid::storage(device, "initial state", bytemuck::cast_slice(field));
         let density = input(&state.excess);

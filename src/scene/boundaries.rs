@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, de::Error as _};
 
 use super::rules::{finite, finite_constants, refuse};
 use super::tagged::Kind;
-use super::{Face, Scene};
+use super::{Face, Scene, sample::mean_normal_velocity};
 use crate::error::Result;
 use crate::formula::Formula;
 
@@ -70,6 +70,9 @@ pub enum Boundary {
     Velocity {
         /// Velocity, m/s: three numbers or formulas of x, y, z, t.
         velocity: [Formula; 3],
+        /// Turbulence that is added to it. Default none.
+        #[serde(default)]
+        turbulence: Option<Turbulence>,
     },
     /// The pressure is given.
     Pressure {
@@ -86,12 +89,26 @@ pub enum Boundary {
     Open,
 }
 
+/// Isotropic turbulence that flows in through a face: von Kármán's spectrum, carried in by the mean normal velocity of the face, without a
+/// net flow through it. For a fluid on a lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Turbulence {
+    /// RMS of each component of its velocity over the mean normal velocity of the face, up to 1.
+    pub intensity: f64,
+    /// Integral length of its eddies, m, at least a cell.
+    pub length: f64,
+    /// Another seed gives other eddies of the same kind; each face has eddies of its own. Default 0.
+    #[serde(default)]
+    pub seed: u64,
+}
+
 impl Boundary {
     pub(super) const KINDS: &[Kind] = &[
         ("periodic", "", ""),
         ("wall", "", "velocity roughness"),
         ("free_slip", "", ""),
-        ("velocity", "velocity", ""),
+        ("velocity", "velocity", "turbulence"),
         ("pressure", "", "pressure reflecting"),
         ("open", "", ""),
     ];
@@ -114,6 +131,30 @@ impl Boundary {
             self,
             Self::Velocity { .. } | Self::Pressure { .. } | Self::Open
         )
+    }
+}
+
+impl Turbulence {
+    fn check(&self, key: &str, cell: f64) -> Result<()> {
+        if !(self.intensity > 0.0 && self.intensity <= 1.0) {
+            return refuse(
+                format!("{key}.intensity"),
+                format!(
+                    "is {}; give the RMS of a component over the mean velocity, above 0 up to 1, such as 0.05",
+                    self.intensity
+                ),
+            );
+        }
+        if !(self.length >= cell && self.length.is_finite()) {
+            return refuse(
+                format!("{key}.length"),
+                format!(
+                    "is {} m; the grid carries eddies from one cell on, {cell} m here, better from four",
+                    self.length
+                ),
+            );
+        }
+        Ok(())
     }
 }
 
@@ -174,9 +215,23 @@ impl Scene {
                         );
                     }
                 }
-                Boundary::Velocity { velocity } => {
+                Boundary::Velocity {
+                    velocity,
+                    turbulence,
+                } => {
                     finite_constants(&format!("{key}.velocity"), velocity)?;
-                    self.face_velocity(face, 0.0)?;
+                    let velocities = self.face_velocity(face, 0.0)?;
+                    if let Some(turbulence) = turbulence {
+                        let key = format!("{key}.turbulence");
+                        turbulence.check(&key, self.domain.cell)?;
+                        let steady = !velocity.iter().any(Formula::uses_time);
+                        if steady && mean_normal_velocity(face, &velocities) == 0.0 {
+                            return refuse(
+                                key,
+                                "no net flow through this face carries it in; give a velocity towards the fluid, or remove `turbulence`",
+                            );
+                        }
+                    }
                 }
                 Boundary::Pressure { pressure, .. } => {
                     if pressure.uses_place() {

@@ -71,7 +71,7 @@ use rules::refuse;
 pub use advice::{Advice, SUGA_EXCESS, Warning};
 pub use block_shape::{BlockShape, PlaneFace};
 pub use blocks::{Block, Motion, Part, Repeat, Rotation};
-pub use boundaries::{Boundaries, Boundary};
+pub use boundaries::{Boundaries, Boundary, Turbulence};
 pub use coupling::Coupling;
 pub use deformable::{FixedPoint, PointLoad};
 pub use domain::Domain;

@@ -192,7 +192,7 @@ impl Scene {
     pub fn face_velocity(&self, face: Face, t: f64) -> Result<Vec<[f64; 3]>> {
         let points = self.domain.face_points(face);
         match self.boundaries.face(face) {
-            Boundary::Velocity { velocity } => {
+            Boundary::Velocity { velocity, .. } => {
                 let key = format!("boundaries.{}.velocity", face.name());
                 points.map(|x| vector_at(&key, velocity, x, t)).collect()
             }
@@ -225,10 +225,13 @@ impl Scene {
         for (face, boundary) in self.boundaries.iter() {
             match boundary {
                 Boundary::Wall { velocity, .. } => largest = largest.max(length(*velocity)),
-                Boundary::Velocity { .. } => {
-                    for velocity in self.face_velocity(face, 0.0)? {
-                        largest = largest.max(length(velocity));
-                    }
+                Boundary::Velocity { turbulence, .. } => {
+                    let velocities = self.face_velocity(face, 0.0)?;
+                    let fastest = velocities.iter().copied().map(length).fold(0.0, f64::max);
+                    // Three standard deviations.
+                    let eddies = turbulence.map_or(0.0, |t| 3.0 * t.intensity);
+                    let mean = mean_normal_velocity(face, &velocities).abs();
+                    largest = largest.max(fastest + eddies * mean);
                 }
                 _ => {}
             }
@@ -297,6 +300,12 @@ fn range(known: [f64; 2], values: impl IntoIterator<Item = f64>) -> [f64; 2] {
 /// Euclidean length.
 fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+/// The mean of the normal components of the velocities on a face.
+pub(super) fn mean_normal_velocity(face: Face, velocities: &[[f64; 3]]) -> f64 {
+    let sum: f64 = velocities.iter().map(|u| u[face.axis().index()]).sum();
+    sum / velocities.len().max(1) as f64
 }
 
 /// The vector of `formulas` at the point `x` in m and the time `t` in s.

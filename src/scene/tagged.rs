@@ -32,7 +32,7 @@ struct Tagged {
 const TAGGED: [Tagged; 10] = [
     Tagged {
         path: "boundaries.*",
-        keys: "kind velocity roughness pressure reflecting",
+        keys: "kind velocity roughness pressure reflecting turbulence",
         kinds: Boundary::KINDS,
         is_enum: true,
         rule: |_, _| Ok(()),

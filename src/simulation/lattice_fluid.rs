@@ -57,7 +57,9 @@ impl LatticeFluid {
     ) -> Result<(Self, Option<Rock>, Advice)> {
         let mut start = start(scene, &units)?;
         let time_dependent = |(face, boundary): (Face, &Boundary)| match boundary {
-            Boundary::Velocity { velocity } if velocity.iter().any(|f| f.uses_time()) => Some(face),
+            Boundary::Velocity { velocity, .. } if velocity.iter().any(|f| f.uses_time()) => {
+                Some(face)
+            }
             Boundary::Pressure { pressure, .. } if pressure.uses_time() => Some(face),
             _ => None,
         };

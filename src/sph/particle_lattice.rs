@@ -1,10 +1,7 @@
 //! The initial lattice of the particles in the domain, and a spatial hash of points with a least distance.
 
 use super::{Side, solid::ConvexPart};
-use crate::{
-    geometry::{HalfSpace, uniform},
-    rock::Block,
-};
+use crate::{geometry::HalfSpace, random::uniform, rock::Block};
 use glam::DVec3;
 use std::collections::HashMap;
 

@@ -2,7 +2,8 @@
 
 use super::{Start, solid::ConvexPart};
 use crate::{
-    geometry::{min_max, uniform},
+    geometry::min_max,
+    random::uniform,
     rock::{Block, Motion, formula_values},
 };
 use glam::DVec3;

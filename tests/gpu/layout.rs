@@ -7,8 +7,8 @@ use riprap::{
         link::{Linked, Program, source},
     },
     lattice::{
-        BrickKind, C, CellPass, FaceCell, Link, MovingCell, OpenFace, Setup, StatisticsPass,
-        WallCell, WallStress, collide_stream, single_cells,
+        BrickKind, C, CellPass, FaceCell, FaceMode, Link, MovingCell, OpenFace, Setup,
+        StatisticsPass, TurbulentFace, WallCell, WallStress, collide_stream, single_cells,
     },
 };
 use std::mem::offset_of;
@@ -35,6 +35,24 @@ fn structures_of_the_lattice() {
         ("through_z", through + 8),
     ];
     check::<MovingCell>(&linked("moving_wall").module, "MovingCell", &moving).unwrap();
+    let mode = [
+        ("a", offset_of!(FaceMode, a)),
+        ("lower", offset_of!(FaceMode, lower)),
+        ("b", offset_of!(FaceMode, b)),
+        ("upper", offset_of!(FaceMode, upper)),
+        ("mean", offset_of!(FaceMode, mean)),
+        ("normal", offset_of!(FaceMode, normal)),
+        ("phase", offset_of!(FaceMode, phase)),
+    ];
+    let face = [
+        ("modes", offset_of!(TurbulentFace, modes)),
+        ("axis", offset_of!(TurbulentFace, axis)),
+        ("advance", offset_of!(TurbulentFace, advance)),
+        ("intensity", offset_of!(TurbulentFace, intensity)),
+    ];
+    let turbulence = linked("synthetic_turbulence").module;
+    check::<FaceMode>(&turbulence, "Mode", &mode).unwrap();
+    check::<TurbulentFace>(&turbulence, "TurbulentFace", &face).unwrap();
     let wall = [
         ("cell", offset_of!(WallCell, cell)),
         ("face", offset_of!(WallCell, face)),

@@ -7,5 +7,6 @@ mod limits;
 mod reproducibility;
 mod rows;
 mod statistics;
+mod synthetic_turbulence;
 mod twin;
 mod wall_model;

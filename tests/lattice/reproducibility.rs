@@ -2,12 +2,14 @@
 
 use kit::Rig;
 use riprap::{
-    lattice::{Face, Force, Inside, Lattice, Populations, Setup, State, Storage},
+    lattice::{
+        Face, Force, Inside, Lattice, Populations, Setup, State, Storage, SyntheticTurbulence,
+    },
     simulation::checkpoint::{Checkpoint, FluidState, LatticeState},
     wgpu,
 };
 
-/// WALE, force, walls, an inlet and an outflow: everything that carries memory from step to step.
+/// WALE, force, walls, a turbulent inlet and an outflow: everything that carries memory from step to step.
 fn setup() -> Setup {
     let mut setup = Setup::periodic([11, 7, 8], 1e-3);
     setup.wale = Some(0.5);
@@ -16,6 +18,11 @@ fn setup() -> Setup {
         Face::Velocity(vec![[0.03, 0.0, 0.0]; 56]),
         Face::Outflow { density: 1.0 },
     ];
+    setup.turbulence[0][0] = Some(SyntheticTurbulence {
+        intensity: 0.1,
+        length: 2.0,
+        seed: 3,
+    });
     setup.faces[1] = [Face::Wall([0.0; 3]), Face::FreeSlip];
     setup.solid = (0..616)
         .map(|n| (4..6).contains(&(n % 11)) && (n / 11) % 7 < 3)
@@ -48,6 +55,7 @@ fn bits(populations: &Populations) -> Vec<u32> {
         .map(|(f, _)| f.to_bits());
     fluid
         .chain(populations.carried.iter().map(|v| v.to_bits()))
+        .chain(populations.travelled.iter().copied())
         .collect()
 }
 
@@ -208,7 +216,7 @@ fn broken_checkpoints_are_refused() {
         (&bytes[..14], "cut short"),
         (&bytes[..3], "not a checkpoint"),
         (&changed(middle, !bytes[middle]), "damaged"),
-        (&changed(17, 10), "version 10 of its format"),
+        (&changed(17, 11), "version 11 of its format"),
         (&b"riprap state  4\n"[..], "version 4 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {

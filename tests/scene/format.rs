@@ -226,7 +226,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
         "title = \"Don't interpolate(t)\"\n        domain =",
     );
     assert_eq!(read_from(&titled).unwrap().title, "Don't interpolate(t)");
-    let Boundary::Velocity { velocity } = read_scene.boundaries.face(Face::XMin) else {
+    let Boundary::Velocity { velocity, .. } = read_scene.boundaries.face(Face::XMin) else {
         panic!("a velocity inlet")
     };
     assert_eq!(velocity[0].eval(0.0, 0.0, 0.0, 5.0), 0.75);

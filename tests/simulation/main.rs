@@ -6,3 +6,4 @@ mod pressure_sensors;
 mod probes;
 mod sph_restart;
 mod statistics;
+mod synthetic_turbulence;

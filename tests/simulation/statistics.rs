@@ -146,7 +146,7 @@ fn samples_between_exchanges_leave_the_flow_and_the_blocks_as_they_are() {
     let run = |statistics: bool| {
         let mut scene = scene(statistics);
         scene.coupling.interval = 5;
-        if let Boundary::Velocity { velocity } = &mut scene.boundaries.x_min {
+        if let Boundary::Velocity { velocity, .. } = &mut scene.boundaries.x_min {
             velocity[0] = 0.3.into();
         }
         let mut simulation = rig.simulation(&scene).unwrap();

@@ -152,6 +152,7 @@ impl Output<'_> {
         for (file, entry) in [
             ("links", "reflect"),
             ("moving_wall", "move_wall"),
+            ("synthetic_turbulence", "feed_turbulence"),
             ("wall_model", "wall_model"),
             ("mark_blocks", "mark_blocks"),
             ("pressure_face", "hold_pressure"),

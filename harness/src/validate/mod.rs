@@ -24,6 +24,7 @@ pub(crate) mod rock;
 mod slots;
 mod stability;
 mod statistics;
+mod synthetic_turbulence;
 mod wale;
 mod wall_model;
 
@@ -148,6 +149,7 @@ pub const CASES: &[Case] = &[
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
     short("statistics/known-signal", "means and variances on the device of 3·10⁵ samples in f32, against f64", statistics::known_signal),
+    short("turbulence/inlet", "turbulence that a velocity face feeds: its intensity on the face and in the fluid", synthetic_turbulence::inlet),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),

@@ -49,6 +49,7 @@ fn noise_and_shear(cells: [u32; 3]) -> Populations {
         values,
         velocity,
         near_wall: Vec::new(),
+        travelled: Vec::new(),
         carried: Vec::new(),
     }
 }

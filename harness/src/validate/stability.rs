@@ -51,6 +51,7 @@ fn noise(cells: [u32; 3]) -> Populations {
         values: (0..C.len() as u32 * count).map(value).collect(),
         velocity: Vec::new(),
         near_wall: Vec::new(),
+        travelled: Vec::new(),
         carried: Vec::new(),
     }
 }

@@ -5,6 +5,7 @@ use crate::{gpu, picture::Chart};
 use anyhow::Context;
 use kit::clock::{PATIENCE, Spent, Stopwatch};
 use riprap::{
+    gpu::readback::Readback,
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums, WallStress},
     wgpu,
 };
@@ -247,6 +248,22 @@ impl Flow<'_> {
         let state = stand.drive("reading a state", future)??;
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(state)
+    }
+
+    /// Velocities of moving faces in the last step, nine of each cell.
+    pub fn wall_velocities(&mut self) -> anyhow::Result<Vec<f32>> {
+        let Some(buffer) = self.lattice.wall_velocity_buffer() else {
+            return Ok(Vec::new());
+        };
+        let stand = self.stand;
+        let mut readback = Readback::default();
+        let read = readback.read(
+            &stand.device,
+            &stand.queue,
+            buffer,
+            (buffer.size() / 4) as usize,
+        );
+        Ok(stand.drive("velocities of faces", read)??)
     }
 
     /// What the walls of a wall model received in the last step, lattice units.

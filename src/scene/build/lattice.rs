@@ -4,7 +4,7 @@ use crate::{
     Error, Result,
     lattice::{
         Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
-        Storage, WallModel,
+        Storage, SyntheticTurbulence, WallModel,
     },
     scene::{self, BodyForce, Boundary, Numerics, Scene},
     units::{SOUND_SPEED_SQUARED, Units},
@@ -100,8 +100,20 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             Force::Field(each.map(|((x, y), z)| [x, y, z].map(lattice)).collect())
         }
     };
-    for (face, boundary) in scene.boundaries.iter() {
+    for (number, (face, boundary)) in (0..).zip(scene.boundaries.iter()) {
         let side = usize::from(face.is_max());
+        if let Boundary::Velocity {
+            turbulence: Some(turbulence),
+            ..
+        } = boundary
+        {
+            setup.turbulence[face.axis().index()][side] = Some(SyntheticTurbulence {
+                intensity: turbulence.intensity,
+                length: turbulence.length / units.cell,
+                // Each face has eddies of its own.
+                seed: turbulence.seed.wrapping_mul(6).wrapping_add(number),
+            });
+        }
         setup.faces[face.axis().index()][side] = match boundary {
             Boundary::Periodic => Face::Periodic,
             Boundary::Wall {

@@ -12,6 +12,19 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         &["cell_pass", "moving_cells", "wall_velocity"],
     ),
     (
+        "synthetic_turbulence",
+        &["feed_turbulence"],
+        &[
+            "cell_pass",
+            "moving_cells",
+            "wall_velocity",
+            "turbulent_cells",
+            "turbulent_face",
+            "mean_velocity",
+            "travelled",
+        ],
+    ),
+    (
         "wall_model",
         &["wall_model", "near_wall"],
         &[

@@ -101,6 +101,7 @@ pub fn random_populations(twin: &mut Twin) -> Populations {
         values,
         velocity,
         near_wall: Vec::new(),
+        travelled: Vec::new(),
         carried: Vec::new(),
     }
 }

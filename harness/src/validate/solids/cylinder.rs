@@ -46,7 +46,10 @@ pub fn run(stand: &Stand) -> Outcome {
         stream[0] = profile.parse::<Formula>()?;
         scene.initial.velocity = stream.clone();
         let faces = &mut scene.boundaries;
-        faces.x_min = Boundary::Velocity { velocity: stream };
+        faces.x_min = Boundary::Velocity {
+            velocity: stream,
+            turbulence: None,
+        };
         faces.x_max = Boundary::Pressure {
             pressure: 0.0.into(),
             reflecting: false,

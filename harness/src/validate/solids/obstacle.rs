@@ -136,6 +136,7 @@ impl Stream {
         let faces = &mut scene.boundaries;
         faces.x_min = Boundary::Velocity {
             velocity: numbers(stream),
+            turbulence: None,
         };
         faces.x_max = Boundary::Pressure {
             pressure: 0.0.into(),

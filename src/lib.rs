@@ -31,7 +31,7 @@
 //! | `scene` | `scene`; `scene::build` to the setups of the other features | serde, toml, schemars, strsim |
 //! | `rock`, `sph` and `scene` | `coupling`, `simulation` | |
 //! | `checkpoint` | files of `simulation::checkpoint`; implies `rock`, `sph` and `scene` | serde, postcard, crc32fast |
-//! | `mesh` | STL and OBJ files in `geometry` | stl_io, tobj |
+//! | `mesh` | files in `geometry`: STL, OBJ; terrain | stl_io, tobj, tiff |
 //! | `backends` | the backends of wgpu: Vulkan, OpenGL ES, Metal, DirectX 12 | those of wgpu |
 //!
 //! # Devices

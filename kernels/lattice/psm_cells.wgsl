@@ -1,7 +1,7 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid, with the weight B of the fraction e of the cell that
 // blocks fill, and of the relaxation time tau. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals
+// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface
 
 // Largest B in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations in
 // such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
@@ -28,7 +28,8 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
         get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
     let fraction = get_reals(read_psm(PLANE_FRACTION, slot, local));
-    return PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
+    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
+    return with_surface(blocks, slot, local);
 }
 
 // The velocity for the eddy viscosity of the next step: the solid's velocity in the solid.
@@ -69,7 +70,7 @@ fn collide_with_solid(
     let e = psm.fraction;
     let open = solid_weight(e, tau_minus_half, odd_rate);
     let closure = clamp((e - Real(1.0 - OPEN_GAP)) / (OPEN_GAP - CLOSED_GAP), Real(0.0), Real(1.0));
-    let narrow = (closure > Real(0.0)) & !psm.interior;
+    let narrow = (closure > Real(0.0)) & (psm.shares > Real(0.0)) & !psm.interior;
     var at_wall = Mask(false);
     // Momentum that the fluid loses along walls.
     var lost = Vector(Real(0.0), Real(0.0), Real(0.0));

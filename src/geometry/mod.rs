@@ -19,6 +19,7 @@
 //! ```
 
 mod cell;
+mod columns;
 mod convex_parts;
 mod hull;
 mod joint_set;
@@ -31,8 +32,12 @@ mod pose;
 #[cfg(feature = "rock")]
 mod rock_mass;
 mod shape;
+mod terrain;
+#[cfg(feature = "mesh")]
+mod terrain_file;
 mod winding;
 
+pub(crate) use columns::volumes_below;
 pub use joint_set::{Compass, JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
 pub use placed::Placed;
@@ -43,4 +48,5 @@ pub(crate) use pose::{axial, inner, outer};
 #[cfg(feature = "rock")]
 pub use rock_mass::{Fragment, Fragments, RockMass, Sliver};
 pub use shape::{Form, Part, Shape};
+pub use terrain::Terrain;
 pub use winding::WindingTree;

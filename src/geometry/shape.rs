@@ -152,6 +152,11 @@ impl Shape {
                 return Err(Error::argument(format!("parts[{index}]"), message));
             }
         }
+        Ok(Self::disjoint(parts))
+    }
+
+    /// The rigid compound of parts that do not overlap, and its centroid (m).
+    pub(super) fn disjoint(parts: Vec<Part>) -> (Self, DVec3) {
         let volume: f64 = parts.iter().map(|p| p.form.volume()).sum();
         let first: DVec3 = parts.iter().map(|p| p.offset * p.form.volume()).sum();
         let centroid = first / volume;
@@ -160,7 +165,7 @@ impl Shape {
             let steiner = DMat3::IDENTITY * r.length_squared() - outer(r, r);
             sum + part.form.inertia() + steiner * part.form.volume()
         });
-        Ok((Self::of(parts, centroid, volume, inertia), centroid))
+        (Self::of(parts, centroid, volume, inertia), centroid)
     }
 
     /// Parts moved to their common centroid, whose mass properties are known.

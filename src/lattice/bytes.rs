@@ -1,6 +1,6 @@
 //! What a lattice takes on its device, by kind.
 
-use super::{Lattice, synthetic_turbulence::Inlet, wall_model::WallPart};
+use super::{Lattice, surface::Surface, synthetic_turbulence::Inlet, wall_model::WallPart};
 
 impl Lattice {
     /// Bytes of its buffers, each kind with a name; kinds that it does not have are left out.
@@ -47,6 +47,10 @@ impl Lattice {
                 buffers.walls.iter().map(WallPart::bytes).sum::<u64>()
                     + size(&buffers.near_wall_viscosity)
                     + size(&buffers.psm_slots),
+            ),
+            (
+                "solid fractions of static surfaces",
+                buffers.surface.as_ref().map_or(0, Surface::bytes),
             ),
             ("lists of bricks", lists),
             ("saturation of bricks with blocks", psm_planes),

@@ -1,6 +1,6 @@
 //! A setup that can be computed, in numbers that the device can hold.
 
-use super::{Face, Force, Setup, SolidOperator, SolidWeight, face_name, in_plane};
+use super::{Face, Force, Setup, SolidOperator, SolidWeight, SurfaceCell, face_name, in_plane};
 use crate::{Error, Result};
 
 /// Largest equivalent sand roughness, cells: the cells beside the wall still lie above the roughness's zero of the log law.
@@ -17,6 +17,7 @@ impl Setup {
         if !self.solid.is_empty() {
             same("solid", self.solid.len(), cells)?;
         }
+        self.check_surface(cells)?;
         match &self.force {
             Force::None => {}
             Force::Constant(force) => finite("force", &force.map(|f| f as f32))?,
@@ -57,6 +58,30 @@ impl Setup {
         if ![32, 64, 128, 256].contains(&brick) {
             let message = format!("a brick has 32, 64, 128 or 256 elements, not {brick}");
             return Err(Error::argument("brick", message));
+        }
+        Ok(())
+    }
+
+    fn check_surface(&self, cells: u128) -> Result<()> {
+        let mut next = 0;
+        for SurfaceCell { cell, fraction } in &self.surface {
+            let wrong =
+                |message: &str| Err(Error::argument("surface", format!("cell {cell} {message}")));
+            if u128::from(*cell) >= cells {
+                return wrong("is not in the domain");
+            }
+            if *cell < next {
+                return wrong(
+                    "is listed after one that does not come before it; list each cell once, in ascending order",
+                );
+            }
+            if !(*fraction > 0.0 && *fraction < 1.0) {
+                return wrong("is not filled in part; leave it out, or make it solid");
+            }
+            if self.solid.get(*cell as usize) == Some(&true) {
+                return wrong("is solid as well; leave it out");
+            }
+            next = cell.saturating_add(1);
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ use super::{
     populations,
     spread::{PSM_NAMES, planes},
     streams::Streams,
+    surface::Surface,
     synthetic_turbulence::Inlet,
     wall_model::WallPart,
 };
@@ -87,6 +88,8 @@ pub(super) struct Buffers {
     pub(super) walls: Vec<WallPart>,
     /// Of each brick its place among those that blocks reach, from 1, for the wall model.
     pub(super) psm_slots: Option<wgpu::Buffer>,
+    /// Cells that solids at rest fill in part.
+    pub(super) surface: Option<Surface>,
     /// Cells of each open face, and what they carry from step to step.
     pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
     /// What its passes take, an [`OpenFace`].
@@ -120,6 +123,12 @@ impl Buffers {
             ("near_wall_viscosity", &self.near_wall_viscosity),
             ("psm_slots", &self.psm_slots),
         ];
+        if let Some(surface) = &self.surface {
+            all.extend([
+                ("surface_slots", &surface.slots),
+                ("surface_fractions", &surface.fractions),
+            ]);
+        }
         all.extend(
             optional
                 .into_iter()
@@ -435,6 +444,7 @@ fn make_buffers(
         near_wall_viscosity: setup
             .wall_model
             .map(|_| result_buffer(device, "near-wall viscosity", 4 * scalars)),
+        surface: Surface::new(device, setup, grid),
         walls: WallPart::all(device, setup, &geometry.walls),
         psm_slots: (setup.wall_model.is_some() && setup.solid_operator.is_some()).then(|| {
             let bricks: u32 = grid.bricks().iter().product();

@@ -1,6 +1,6 @@
 //! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
 
-use super::{Face, Grid, Setup, stages::Stages, wall_model::Walls};
+use super::{Face, Grid, Setup, stages::Stages, surface, wall_model::Walls};
 use crate::gpu::Processor;
 
 /// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
@@ -111,6 +111,8 @@ pub struct Geometry {
     pub plain: Vec<u32>,
     /// Bricks that run the kernel with flags.
     pub mixed: Vec<u32>,
+    /// Bricks that hold cells which solids at rest fill in part, or neighbours of such cells.
+    pub surface: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
     /// Fluid cells.
@@ -175,6 +177,10 @@ impl Geometry {
             geometry.stages.sort(cells, grid);
         }
         geometry.sort_bricks(grid);
+        geometry.surface = surface::bricks(setup, grid);
+        for list in [&mut geometry.mixed, &mut geometry.plain] {
+            list.retain(|brick| geometry.surface.binary_search(brick).is_err());
+        }
         if setup.processor == Some(Processor::Cpu) {
             geometry.merge_bricks();
         }
@@ -183,7 +189,8 @@ impl Geometry {
 
     /// Whether a brick has a fluid cell.
     pub fn runs(&self, brick: u32) -> bool {
-        self.mixed.binary_search(&brick).is_ok() || self.plain.binary_search(&brick).is_ok()
+        let lists = [&self.mixed, &self.plain, &self.surface];
+        lists.iter().any(|list| list.binary_search(&brick).is_ok())
     }
 
     /// Adds the links of a cell and returns its flags.
@@ -306,6 +313,13 @@ impl Survey<'_> {
     fn is_solid(&self, cell: [u32; 3]) -> bool {
         let solid = &self.setup.solid;
         !solid.is_empty() && solid[self.grid.index(cell)]
+    }
+
+    /// Whether solids at rest fill the cell in part.
+    pub(super) fn is_surface(&self, cell: [u32; 3]) -> bool {
+        let index = self.grid.index(cell) as u32;
+        let surface = &self.setup.surface;
+        surface.binary_search_by_key(&index, |s| s.cell).is_ok()
     }
 
     /// Whether all 26 neighbours are fluid cells of the domain, or may be taken so: the early

@@ -133,6 +133,18 @@ impl Grid {
         (element, y / ny + z / nz)
     }
 
+    /// The brick of a cell, numbered as in [`Grid::bricks`] with x fastest, and its place there: element, then lane.
+    pub(super) fn place_in_bricks(&self, cell: [u32; 3]) -> (u32, u32) {
+        let [nx, ny, _] = self.elements;
+        let (element, lane) = self.element_of(cell);
+        let at = [element % nx, element / nx % ny, element / (nx * ny)];
+        let [bx, by, _] = self.bricks();
+        let [sx, sy, sz] = self.brick;
+        let brick = at[0] / sx + bx * (at[1] / sy + by * (at[2] / sz));
+        let place = at[0] % sx + sx * (at[1] % sy + sy * (at[2] % sz));
+        (brick, place * self.lanes + lane)
+    }
+
     /// Index of a cell among the scalars of a direction: the lanes of an element are neighbours.
     pub fn scalar_of(&self, cell: [u32; 3]) -> u32 {
         let (element, lane) = self.element_of(cell);

@@ -82,7 +82,8 @@ impl Room<'_> {
             + 2 * vectors * u32::from(setup.wale.is_some())
             + u32::from(setup.max_speed > 0.0)
             + u32::from(setup.wall_model.is_some())
-            + u32::from(setup.solid_operator.is_some());
+            + u32::from(setup.solid_operator.is_some())
+            + 2 * u32::from(!setup.surface.is_empty());
         let boundary = match setup.wall_model {
             Some(_) => 4 + vectors + u32::from(setup.solid_operator.is_some()),
             None if moving => 2,

@@ -55,6 +55,7 @@ mod stages;
 mod start;
 mod statistics;
 mod streams;
+mod surface;
 mod synthetic_turbulence;
 mod traffic;
 mod wall_model;
@@ -72,7 +73,7 @@ pub use observe::{Derived, Fault, Observer, Sums};
 pub use program::{BrickKind, collide_stream, constants, single_cells};
 pub use setup::{
     Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, SolidWeight, Storage,
-    WallModel,
+    SurfaceCell, WallModel,
 };
 pub use spread::{Bindings, PSM_PLANES};
 #[doc(hidden)]

@@ -15,6 +15,8 @@ pub enum BrickKind {
     Plain,
     /// Listed bricks with the flags of each cell.
     Flagged,
+    /// Listed bricks with flags that hold cells which solids at rest fill in part.
+    Surface,
     /// Listed bricks with flags and with the planes of partially saturated cells.
     Psm,
 }
@@ -60,10 +62,11 @@ fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
 /// The fused collision and streaming of a setup.
 pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickKind) -> Program {
     let either = |condition, yes, no| if condition { yes } else { no };
-    let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
+    let with_solids = matches!(kind, BrickKind::Surface | BrickKind::Psm);
+    let flagged = with_solids || kind == BrickKind::Flagged;
     let operator = setup
-        .solid_operator
-        .filter(|_| kind == BrickKind::Psm)
+        .operator()
+        .filter(|_| with_solids)
         .map(|operator| match operator {
             SolidOperator::Holdych => "operator_holdych",
             SolidOperator::Noble => "operator_noble",
@@ -72,7 +75,14 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
     let program = base("collide_stream", setup, bindings.into());
     let program = match operator {
         Some(operator) => program
-            .slot("psm", "psm_cells")
+            .slot(
+                "psm",
+                either(kind == BrickKind::Psm, "psm_cells", "psm_surface"),
+            )
+            .slot(
+                "surface",
+                either(setup.surface.is_empty(), "surface_none", "surface_stored"),
+            )
             .slot("operator", operator)
             .slot(
                 "weight",

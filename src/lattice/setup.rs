@@ -73,6 +73,15 @@ pub enum Force {
     Field(Vec<[f32; 3]>),
 }
 
+/// A cell that solids at rest fill in part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceCell {
+    /// Its place in the domain, x fastest.
+    pub cell: u32,
+    /// The part of its volume that they fill, between 0 and 1.
+    pub fraction: f32,
+}
+
 /// What lies beyond a face of the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Face {
@@ -199,6 +208,8 @@ pub struct Setup {
     pub open_face_gradient: [f64; 3],
     /// Static solid cells, x fastest; empty if there are none.
     pub solid: Vec<bool>,
+    /// Cells that solids at rest fill in part, in ascending order; each of the others is `solid` or fluid.
+    pub surface: Vec<SurfaceCell>,
     /// Storage of the populations.
     pub storage: Storage,
     /// Cells an invocation: 1, 2 or 4.
@@ -248,6 +259,7 @@ impl Setup {
             turbulence: [[None; 2]; 3],
             open_face_gradient: [0.0; 3],
             solid: Vec::new(),
+            surface: Vec::new(),
             storage: Storage::F32,
             lanes: 1,
             lane_axis: 2,
@@ -261,9 +273,15 @@ impl Setup {
         }
     }
 
+    /// The operator of cells with solid: that of blocks, or [`SolidOperator::Holdych`] where only solids at rest fill cells in part.
+    pub fn operator(&self) -> Option<SolidOperator> {
+        let at_rest = (!self.surface.is_empty()).then_some(SolidOperator::Holdych);
+        self.solid_operator.or(at_rest)
+    }
+
     /// The weight of the solid operator, which is [`SolidWeight::Standard`] where there is none.
     pub fn weight(&self) -> SolidWeight {
-        let usual = match self.solid_operator {
+        let usual = match self.operator() {
             Some(SolidOperator::Holdych) => SolidWeight::Exact,
             _ => SolidWeight::Standard,
         };
@@ -380,6 +398,6 @@ impl Setup {
 
     /// Whether every cell is and stays a fluid cell without a wall next to it.
     pub fn is_all_fluid(&self) -> bool {
-        self.periodic_axes() == [true; 3] && self.solid.is_empty() && self.solid_operator.is_none()
+        self.periodic_axes() == [true; 3] && self.solid.is_empty() && self.operator().is_none()
     }
 }

@@ -190,6 +190,7 @@ fn sorted(setup: &Setup, geometry: &Geometry, psm: &[u32]) -> Vec<(BrickKind, Ve
         return vec![(BrickKind::All, Vec::new())];
     }
     let fixed = [
+        (BrickKind::Surface, &geometry.surface),
         (BrickKind::Flagged, &geometry.mixed),
         (BrickKind::Plain, &geometry.plain),
     ];
@@ -199,13 +200,18 @@ fn sorted(setup: &Setup, geometry: &Geometry, psm: &[u32]) -> Vec<(BrickKind, Ve
     }
     // The guard counts steps in the first dispatch, which needs a brick: without a block in it the
     // kernel for blocks gives what its own would.
-    let spare = geometry.mixed.first().or(geometry.plain.first());
+    let mut lists = fixed.iter();
+    let spare = lists.find_map(|(_, list)| list.first());
     let first: Vec<u32> = match psm {
         [] => spare.into_iter().copied().collect(),
         _ => psm.to_vec(),
     };
     let mut taken = first.clone();
     taken.sort_unstable();
+    // The kernel of surfaces is compiled only where there are some.
+    let fixed = fixed
+        .into_iter()
+        .filter(|(kind, list)| *kind != BrickKind::Surface || !list.is_empty());
     let fixed = fixed.map(|(kind, list)| (kind, without(list, &taken)));
     std::iter::once((BrickKind::Psm, first))
         .chain(fixed)

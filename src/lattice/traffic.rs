@@ -32,8 +32,9 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
     let count = |n: usize| n as u64;
     let brick: u64 = grid.brick.iter().map(|&n| u64::from(n)).product();
     // One u32 holds the flags of the cells of an element.
-    let flags = 4 * brick * count(geometry.mixed.len());
-    let lists = 4 * count(geometry.mixed.len() + geometry.plain.len());
+    let flags = 4 * brick * count(geometry.mixed.len() + geometry.surface.len());
+    let lists = 4 * count(geometry.mixed.len() + geometry.plain.len() + geometry.surface.len());
+    let surface = 4 * brick * u64::from(grid.lanes) * count(geometry.surface.len());
     let links = count(geometry.links.len()) * (count(size_of::<Link>()) + 2 * word);
     // The velocity that the law reads, what the wall received, and the eddy viscosity of four cells.
     let wall = 9 * (count(size_of::<Link>()) + 2 * word)
@@ -51,7 +52,14 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
         u64::from(Q + cell.entering.count_ones()) * word + count(size_of::<FaceCell>())
     };
     let open: u64 = geometry.open.iter().flat_map(|(_, _, c)| c).map(open).sum();
-    geometry.fluid_cells * bytes_a_cell(setup) + flags + lists + links + walls + moving + open
+    geometry.fluid_cells * bytes_a_cell(setup)
+        + flags
+        + lists
+        + surface
+        + links
+        + walls
+        + moving
+        + open
 }
 
 #[cfg(test)]

@@ -130,7 +130,7 @@ impl Survey<'_> {
         let q = C.iter().position(|c| *c == inward)?;
         let mut at = cell;
         for _ in 1..DEPTH {
-            if self.beyond(at, q) != Beyond::Fluid {
+            if self.is_surface(at) || self.beyond(at, q) != Beyond::Fluid {
                 return None;
             }
             at = self.grid.neighbour(at, inward);

@@ -1,11 +1,12 @@
 //! The box that is computed, and its cells.
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::rules::{finite, positive, refuse};
 use super::{Axis, Face, Scene};
-use crate::error::Result;
+use crate::{error::Result, geometry::HalfSpace};
 
 /// Part of the largest coordinate of a domain by which points may lie outside: some thousand times the rounding of f64.
 const ROUNDING: f64 = 1e-12;
@@ -27,6 +28,27 @@ pub struct Domain {
 }
 
 impl Domain {
+    /// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
+    /// farther than any block there, and so the same in all periods.
+    pub(crate) fn beyond(&self) -> [HalfSpace; 6] {
+        let longest = self.size.into_iter().fold(0.0, f64::max);
+        let end = self.end();
+        std::array::from_fn(|face| {
+            let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
+            let mut normal = DVec3::ZERO;
+            normal[axis] = sign;
+            let at = if face % 2 == 0 {
+                self.origin[axis]
+            } else {
+                end[axis]
+            };
+            HalfSpace {
+                normal,
+                distance: sign * at + longest,
+            }
+        })
+    }
+
     /// Whether there is one.
     pub fn is_given(&self) -> bool {
         *self != Self::default()

@@ -53,6 +53,7 @@ mod rules;
 mod run;
 mod sample;
 mod series_files;
+mod solid_cells;
 mod solids;
 pub mod static_solids;
 mod statistics;
@@ -90,7 +91,8 @@ pub use rock::{Rock, Search, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::{Kernels, Run};
 pub use sample::{BodyForce, InitialFields, StartPressure};
-pub use solids::{Shape, Solid};
+pub use solid_cells::SolidCells;
+pub use solids::{Shape, Solid, SolidSurface};
 pub use statistics::Statistics;
 pub use views::{View, ViewSlice};
 

@@ -33,9 +33,22 @@ pub struct Solid {
     /// Name of the material that blocks touch. Default the first one.
     #[serde(default)]
     pub material: Option<String>,
+    /// How the fluid meets it. Default `exact` for a terrain and `staircase` for other shapes.
+    #[serde(default)]
+    pub surface: Option<SolidSurface>,
     /// Equivalent sand roughness k_s, m, for `numerics.wall_model`. Default 0, smooth.
     #[serde(default)]
     pub roughness: f64,
+}
+
+/// How the fluid meets a static solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SolidSurface {
+    /// Where it is: cells that it fills in part are partially saturated.
+    Exact,
+    /// A cell is solid if its centre lies inside.
+    Staircase,
 }
 
 /// Shape of a solid or of a region.
@@ -75,6 +88,17 @@ pub enum Shape {
         #[serde(default)]
         translate: [f64; 3],
     },
+    /// What lies below heights along z, from a survey.
+    Terrain {
+        /// XYZ file of a regular grid, ESRI ASCII grid (.asc) or GeoTIFF, relative to the scene's file.
+        file: PathBuf,
+        /// Length of the file's unit, m. Default 1.
+        #[serde(default = "metre")]
+        scale: f64,
+        /// Where the file's origin goes, m, after scaling. Default (0, 0, 0).
+        #[serde(default)]
+        translate: [f64; 3],
+    },
 }
 
 impl Shape {
@@ -83,12 +107,13 @@ impl Shape {
         ("half_space", "point normal", ""),
         ("sphere", "center radius", ""),
         ("mesh", "file", "scale translate"),
+        ("terrain", "file", "scale translate"),
     ];
 }
 
 /// A region has the keys of a solid that say where it is.
 pub(super) fn check_region(region: &DeTable<'_>, _: &str) -> Result<(), String> {
-    let mut others = ["name", "void", "material", "roughness"].iter();
+    let mut others = ["name", "void", "material", "surface", "roughness"].iter();
     match others.find(|key| region.contains_key(**key)) {
         Some(key) => Err(format!("`{key}` has no meaning for a region; remove it")),
         None => Ok(()),
@@ -137,6 +162,9 @@ impl Scene {
             }
             Shape::Mesh {
                 scale, translate, ..
+            }
+            | Shape::Terrain {
+                scale, translate, ..
             } => {
                 positive(format!("{key}.scale"), *scale, "m")?;
                 finite(format!("{key}.translate"), translate)
@@ -152,7 +180,7 @@ impl Scene {
                 let corner = |sign: f64| center.map(|c| c + sign * radius);
                 self.check_reach(key, corner(-1.0), corner(1.0))
             }
-            Shape::HalfSpace { .. } | Shape::Mesh { .. } => Ok(()),
+            Shape::HalfSpace { .. } | Shape::Mesh { .. } | Shape::Terrain { .. } => Ok(()),
         }
     }
 

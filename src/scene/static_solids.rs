@@ -98,22 +98,12 @@ impl Mask {
 }
 
 impl Scene {
-    /// The cells that the solids of the scene fill.
+    /// The cells that the solids of the scene fill altogether.
     ///
     /// # Errors
-    /// If the file of a mesh cannot be read, a mesh is open or lies wholly outside the domain, or
-    /// no fluid is left.
+    /// Those of [`Scene::solid_cells`].
     pub fn solid_mask(&self) -> Result<Mask> {
-        let mut mask = Mask::new(self.cells())?;
-        self.fill_solids(|solid, cell| mask.set(cell, !solid.void))?;
-        if mask.solid_count() == mask.as_slice().len() {
-            return Err(Error::scene(
-                "solids",
-                "the solids fill the whole domain; leave some fluid, for example turn a half \
-                 space by reversing its normal (it points out of the solid)",
-            ));
-        }
-        Ok(mask)
+        Ok(self.solid_cells()?.mask)
     }
 
     /// Roughness of each solid cell, m, x fastest; empty if all are smooth.
@@ -126,33 +116,34 @@ impl Scene {
         }
         let mask = Mask::new(self.cells())?;
         let mut roughness = vec![0.0; mask.as_slice().len()];
-        self.fill_solids(|solid, cell| {
-            if mask.has(cell) {
+        self.fill_solids(|solid, cell, part| {
+            if part >= 0.5 && mask.has(cell) {
                 roughness[mask.index(cell)] = solid.roughness;
             }
         })?;
         Ok(roughness)
     }
 
-    /// Calls `mark` for each cell of each solid and hole, in their order.
-    fn fill_solids(&self, mut mark: impl FnMut(&Solid, [u32; 3])) -> Result<()> {
-        for (index, solid) in self.solids.iter().enumerate() {
-            let key = format!("solids[{index}]");
-            match &solid.shape {
-                Shape::Mesh {
-                    file,
-                    scale,
-                    translate,
-                } => {
-                    let mesh = TriangleMesh::read(&self.dir().join(file), *scale, *translate)?;
-                    let (min, max) = mesh.bounds();
-                    self.check_reach(&format!("{key} ({})", file.display()), min, max)?;
-                    mesh.closed()
-                        .map_err(|message| Error::file(self.dir().join(file), message))?;
-                    cells_in_mesh(&mesh, &self.domain, |cell| mark(solid, cell));
-                }
-                shape => cells_in_shape(shape, &self.domain, |cell| mark(solid, cell)),
+    /// Calls `mark` for each cell whose centre lies in a solid.
+    pub(super) fn fill_by_centres(
+        &self,
+        key: &str,
+        solid: &Solid,
+        mut mark: impl FnMut([u32; 3]),
+    ) -> Result<()> {
+        if let Some(mesh) = self.solid_mesh(key, &solid.shape)? {
+            cells_in_mesh(&mesh, &self.domain, mark);
+        } else if let Some(terrain) = self.terrain(&solid.shape)? {
+            let [nx, ny, nz] = self.domain.cells();
+            for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
+                let [x, y, _] = self.domain.centre([i, j, 0]);
+                let height = terrain.height(x, y);
+                self.check_covered(key, height.is_none().then_some([i, j]))?;
+                let below = |k: &u32| height.is_some_and(|h| self.domain.centre([i, j, *k])[2] < h);
+                (0..nz).take_while(below).for_each(|k| mark([i, j, k]));
             }
+        } else {
+            cells_in_shape(&solid.shape, &self.domain, mark);
         }
         Ok(())
     }
@@ -162,7 +153,7 @@ impl Scene {
 /// coordinates, below anything that matters.
 const ON_SURFACE: f64 = 1e-6;
 
-/// Calls `mark` for each cell whose centre lies inside `shape`. A mesh has none here.
+/// Calls `mark` for each cell whose centre lies inside `shape`. A mesh and a terrain have none here.
 fn cells_in_shape(shape: &Shape, domain: &Domain, mut mark: impl FnMut([u32; 3])) {
     let slack = ON_SURFACE * domain.cell;
     let [nx, ny, nz] = domain.cells();
@@ -177,7 +168,7 @@ fn cells_in_shape(shape: &Shape, domain: &Domain, mut mark: impl FnMut([u32; 3])
     }
 }
 
-/// Whether `shape` contains the point `x` in m; a point within `slack` m of a surface belongs to
+/// Whether `shape` contains the point `x` in m, which a mesh and a terrain do not say; a point within `slack` m of a surface belongs to
 /// the side of larger coordinates.
 fn contains(shape: &Shape, x: [f64; 3], slack: f64) -> bool {
     match shape {
@@ -189,7 +180,7 @@ fn contains(shape: &Shape, x: [f64; 3], slack: f64) -> bool {
         Shape::Sphere { center, radius } => {
             DVec3::from(x).distance(DVec3::from(*center)) < radius - slack
         }
-        Shape::Mesh { .. } => false,
+        Shape::Mesh { .. } | Shape::Terrain { .. } => false,
     }
 }
 

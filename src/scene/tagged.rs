@@ -95,7 +95,7 @@ const PART: Tagged = Tagged {
 /// Regions: solids without the keys that do not say where they are.
 const REGION: Tagged = Tagged {
     path: "rock_masses.fixed",
-    keys: "kind name void material roughness min max point normal center radius file scale translate",
+    keys: "kind name void material surface roughness min max point normal center radius file scale translate",
     kinds: Shape::KINDS,
     is_enum: true,
     rule: solids::check_region,

@@ -7,6 +7,7 @@ mod limits;
 mod reproducibility;
 mod rows;
 mod statistics;
+mod surface;
 mod synthetic_turbulence;
 mod twin;
 mod wall_model;

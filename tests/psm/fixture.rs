@@ -132,7 +132,12 @@ impl Subject {
     /// Bricks that hold fluid, about two in three of them, in no order.
     pub fn some_bricks(&self) -> Vec<u32> {
         let geometry = self.lattice.geometry();
-        let all = geometry.mixed.iter().chain(&geometry.plain).copied();
+        let all = geometry
+            .mixed
+            .iter()
+            .chain(&geometry.plain)
+            .chain(&geometry.surface)
+            .copied();
         let mut some: Vec<u32> = all
             .filter(|&brick| noise(7 * brick as usize) < 0.4)
             .collect();

@@ -6,6 +6,7 @@ mod formulas;
 mod particles;
 mod refusals;
 mod sampling;
+mod solid_cells;
 mod solids;
 mod units;
 mod warnings;

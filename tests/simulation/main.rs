@@ -5,5 +5,6 @@ mod levels;
 mod pressure_sensors;
 mod probes;
 mod sph_restart;
+mod static_surfaces;
 mod statistics;
 mod synthetic_turbulence;

@@ -13,7 +13,7 @@ use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::{
         self, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight, Storage,
-        WallModel, collide_stream, single_cells,
+        SurfaceCell, WallModel, collide_stream, single_cells,
     },
     psm::{self, Forms, Walk},
     sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
@@ -108,6 +108,13 @@ impl Output<'_> {
                         &setup,
                     )?;
                 }
+                let mut at_rest = setup.clone();
+                at_rest.surface = vec![SurfaceCell {
+                    cell: 0,
+                    fraction: 0.5,
+                }];
+                let name = format!("{stored}{eddy}_surface");
+                self.step(&name, BrickKind::Surface, &at_rest)?;
                 for (operator, name) in [
                     (SolidOperator::Holdych, "holdych"),
                     (SolidOperator::Noble, "noble"),

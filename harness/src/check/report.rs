@@ -202,7 +202,7 @@ impl Cells {
             solid: grid.cell_count() as u64 - geometry.fluid_cells,
             lanes: grid.lanes,
             plain_bricks: geometry.plain.len() as u64,
-            mixed_bricks: geometry.mixed.len() as u64,
+            mixed_bricks: (geometry.mixed.len() + geometry.surface.len()) as u64,
             idle_bricks: u64::from(geometry.solid_bricks),
             links: geometry.links.len() as u64,
             moving: geometry.moving.len() as u64,

@@ -152,7 +152,7 @@ impl Coupling {
             tiles: cells.tiles(),
             saturated_bricks: solid_bricks.len(),
             plain_bricks: others(&geometry.plain),
-            mixed_bricks: others(&geometry.mixed),
+            mixed_bricks: others(&geometry.mixed) + others(&geometry.surface),
             tiles_computed: work.tiles,
             lanes_computed: work.lanes,
             searches: work.searches,

@@ -35,7 +35,10 @@ impl LeftOut {
             ("eddy viscosity", setup.wale.is_some()),
             ("body force", !matches!(setup.force, Force::None)),
             ("blocks", setup.solid_operator.is_some()),
-            ("walls", !geometry.mixed.is_empty()),
+            (
+                "walls",
+                !geometry.mixed.is_empty() || !geometry.surface.is_empty(),
+            ),
         ];
         let absent: Vec<&str> = features
             .iter()
@@ -43,14 +46,14 @@ impl LeftOut {
             .map(|(name, _)| *name)
             .collect();
         let of = features.len() as f64;
-        let run = (geometry.plain.len() + geometry.mixed.len()) as f64;
+        let walls = (geometry.mixed.len() + geometry.surface.len()) as f64;
+        let run = geometry.plain.len() as f64 + walls;
         let all = run + f64::from(geometry.solid_bricks);
         let absent_count = absent.len() as f64;
         let kernel = format!(
             "features of the fluid kernel, without {}",
             absent.join(", ")
         );
-        let walls = geometry.mixed.len() as f64;
         Self::some([
             (kernel.as_str(), of - absent_count, of),
             ("bricks of cells, the others being solid", run, all),

@@ -24,6 +24,7 @@ pub(crate) mod rock;
 mod slots;
 mod stability;
 mod statistics;
+mod surfaces;
 mod synthetic_turbulence;
 mod wale;
 mod wall_model;
@@ -154,6 +155,7 @@ pub const CASES: &[Case] = &[
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),
     short("stability/taylor-green", "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps", stability::taylor_green),
+    short("surfaces/planes", "where planes of static solids lie along the grid and across it, exact and as staircases", surfaces::planes),
     short("solids/volume", "solid fractions of cells add up to the volume of the block", solids::conservation::volume),
     short("solids/plates", "flow between two plates that are blocks", solids::plates::run),
     short("solids/surfaces", "where the surfaces of plates lie along the grid and across it", solids::plates::places),

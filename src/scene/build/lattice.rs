@@ -4,9 +4,9 @@ use crate::{
     Error, Result,
     lattice::{
         Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
-        Storage, SyntheticTurbulence, WallModel,
+        Storage, SurfaceCell, SyntheticTurbulence, WallModel,
     },
-    scene::{self, BodyForce, Boundary, Numerics, Scene},
+    scene::{self, BodyForce, Boundary, Numerics, Scene, SolidCells},
     units::{SOUND_SPEED_SQUARED, Units},
 };
 
@@ -77,10 +77,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             scene::SolidWeight::Exact => SolidWeight::Exact,
             scene::SolidWeight::Standard => SolidWeight::Standard,
         });
-        // The published operator keeps its rates next to blocks too.
-        setup.solid_lambda =
-            (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
     }
+    // The published operator keeps its rates next to blocks too.
+    setup.solid_lambda = (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
     setup.wall_model = match numerics.wall_model {
@@ -152,7 +151,11 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         None => setup.suit_gpu(),
     }
     if !scene.solids.is_empty() {
-        let mask = scene.solid_mask()?;
+        let SolidCells { mask, partly } = scene.solid_cells()?;
+        let cells = partly.into_iter();
+        setup.surface = cells
+            .map(|(cell, fraction)| SurfaceCell { cell, fraction })
+            .collect();
         if mask.solid_count() > 0 {
             setup.solid = mask.as_slice().iter().map(|&s| s != 0).collect();
             for (index, solid) in scene.solids.iter().enumerate() {

@@ -2,17 +2,18 @@
 
 use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
 use riprap::lattice::{
-    BrickKind, Collision, Equilibrium, Setup, SolidOperator, WallModel, collide_stream,
+    BrickKind, Collision, Equilibrium, Setup, SolidOperator, SurfaceCell, WallModel, collide_stream,
 };
 
-/// What kinds of brick there are, each operator of solids once.
-const KINDS: [(BrickKind, Option<SolidOperator>); 6] = [
-    (BrickKind::All, None),
-    (BrickKind::Plain, None),
-    (BrickKind::Flagged, None),
-    (BrickKind::Psm, Some(SolidOperator::Holdych)),
-    (BrickKind::Psm, Some(SolidOperator::Noble)),
-    (BrickKind::Psm, Some(SolidOperator::Superposition)),
+/// What kinds of brick there are, each operator of solids once, and whether solids at rest fill cells in part.
+const KINDS: [(BrickKind, Option<SolidOperator>, bool); 7] = [
+    (BrickKind::All, None, false),
+    (BrickKind::Plain, None, true),
+    (BrickKind::Flagged, None, false),
+    (BrickKind::Surface, None, true),
+    (BrickKind::Psm, Some(SolidOperator::Holdych), false),
+    (BrickKind::Psm, Some(SolidOperator::Noble), true),
+    (BrickKind::Psm, Some(SolidOperator::Superposition), false),
 ];
 
 #[test]
@@ -29,9 +30,16 @@ fn the_step_in_all_variants() {
         setup.wall_model = (wale == 2).then_some(WallModel::WernerWengle);
         setup.force = forces()[force].clone();
         setup.max_speed = 0.4 * guard as f64;
-        let (kind, operator) = KINDS[kind];
+        let (kind, operator, surface) = KINDS[kind];
         setup.solid_operator = operator;
-        let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
+        if surface {
+            setup.surface = vec![SurfaceCell {
+                cell: 0,
+                fraction: 0.5,
+            }];
+        }
+        let flagged = !matches!(kind, BrickKind::All | BrickKind::Plain);
+        let with_surface = surface && matches!(kind, BrickKind::Surface | BrickKind::Psm);
         // Walls have flags, so that not all bricks are of plain fluid.
         if wale == 2 && kind == BrickKind::All {
             continue;
@@ -49,6 +57,8 @@ fn the_step_in_all_variants() {
             ("guard_state", guard == 1),
             ("bricks", kind != BrickKind::All),
             ("flags", flagged),
+            ("surface_slots", with_surface),
+            ("surface_fractions", with_surface),
             ("psm_planes_0", operator.is_some()),
         ];
         let wanted = wanted.iter().filter(|w| w.1).map(|w| w.0.to_owned());

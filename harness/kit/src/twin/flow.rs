@@ -101,7 +101,9 @@ impl Twin {
     fn tight_at_wall(&self, cell: usize) -> f64 {
         match &self.blocks {
             Some((_, cells))
-                if !cells[cell].deep && self.domain.walls_at(cell).next().is_some() =>
+                if cells[cell].shares > 0.0
+                    && !cells[cell].deep
+                    && self.domain.walls_at(cell).next().is_some() =>
             {
                 tightness(cells[cell].fraction)
             }

@@ -55,12 +55,22 @@ pub fn twin_of(setup: &Setup) -> Twin {
         SolidWeight::Exact => twin::SolidWeight::Exact,
         SolidWeight::Standard => twin::SolidWeight::Standard,
     };
-    let nothing = vec![twin::Solid::default(); domain.cell_count()];
+    let mut at_rest = vec![twin::Solid::default(); domain.cell_count()];
+    for surface in &setup.surface {
+        let cell = surface.cell as usize;
+        at_rest[cell].fraction = surface.fraction.into();
+        at_rest[cell].beside = true;
+        for (axis, step) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+            if let Some(neighbour) = domain.fluid_neighbour(cell, axis, step) {
+                at_rest[neighbour].beside = true;
+            }
+        }
+    }
     let mut twin = Twin::new(domain, config);
     let blocks = |operator| match operator {
-        SolidOperator::Holdych => (twin::SolidOperator::Holdych, nothing),
-        SolidOperator::Noble => (twin::SolidOperator::Noble, nothing),
-        SolidOperator::Superposition => (twin::SolidOperator::Superposition, nothing),
+        SolidOperator::Holdych => (twin::SolidOperator::Holdych, at_rest),
+        SolidOperator::Noble => (twin::SolidOperator::Noble, at_rest),
+        SolidOperator::Superposition => (twin::SolidOperator::Superposition, at_rest),
     };
     twin.wall_model = setup.wall_model.map(|law| twin::WallModel {
         law: match law {
@@ -70,7 +80,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
         roughness: setup.wall_roughness,
         solid_roughness: setup.solid_roughness.clone(),
     });
-    twin.blocks = setup.solid_operator.map(blocks);
+    twin.blocks = setup.operator().map(blocks);
     twin.force = match &setup.force {
         Force::None => twin::Force::Uniform([0.0; 3]),
         Force::Constant(force) => twin::Force::Uniform(*force),

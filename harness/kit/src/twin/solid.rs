@@ -33,7 +33,7 @@ pub struct Solid {
     pub shares: f64,
     /// Mean velocity of the blocks, weighted by their effective fractions.
     pub velocity: [f64; 3],
-    /// Whether a direct neighbour holds solid, where the cell itself holds none.
+    /// Whether a direct neighbour holds solid, where the cell itself holds none of a block.
     pub beside: bool,
     /// Whether the cell and all within two layers of it are full of one block.
     pub deep: bool,

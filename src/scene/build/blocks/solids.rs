@@ -5,7 +5,7 @@ use super::{
     shapes::{in_mesh, mesh_shape},
 };
 use crate::{
-    Result,
+    Error, Result,
     geometry::{HalfSpace, Polyhedron, Shape},
     rock::Block,
     scene::{self, Boundary, Scene, Solid},
@@ -37,7 +37,7 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
         }
         scene::Shape::HalfSpace { point, normal } => {
             let plane = HalfSpace::through(DVec3::from(*point), DVec3::from(*normal));
-            let mut faces = beyond(scene).to_vec();
+            let mut faces = scene.domain.beyond().to_vec();
             faces.push(plane);
             let (made, centroid) = Polyhedron::from_half_spaces(&faces)
                 .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
@@ -47,6 +47,17 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
             Shape::sphere(*radius).map_err(|error| error.at_key(|what| format!("{key}.{what}")))?,
             DVec3::from(*center),
         )),
+        scene::Shape::Terrain { .. } => {
+            let terrain = scene.terrain(shape)?;
+            let terrain = terrain.ok_or_else(|| Error::scene(key, "is no terrain"))?;
+            let domain = &scene.domain;
+            let (min, max) = match domain.is_given() {
+                true => (domain.origin, domain.end()),
+                false => ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]),
+            };
+            let made = terrain.shape([min[0], min[1]], [max[0], max[1]]);
+            made.map_err(|error| error.at_key(|what| format!("{key}.{what}")))
+        }
         scene::Shape::Mesh {
             file,
             scale,
@@ -56,28 +67,6 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
             Ok((made, DVec3::from(*translate) + centroid))
         }
     }
-}
-
-/// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
-/// farther than any block there, and so the same in all periods.
-fn beyond(scene: &Scene) -> [HalfSpace; 6] {
-    let domain = &scene.domain;
-    let longest = domain.size.into_iter().fold(0.0, f64::max);
-    let end = domain.end();
-    std::array::from_fn(|face| {
-        let (axis, sign) = (face / 2, if face % 2 == 0 { -1.0 } else { 1.0 });
-        let mut normal = DVec3::ZERO;
-        normal[axis] = sign;
-        let at = if face % 2 == 0 {
-            domain.origin[axis]
-        } else {
-            end[axis]
-        };
-        HalfSpace {
-            normal,
-            distance: sign * at + longest,
-        }
-    })
 }
 
 /// A fixed block behind each wall and each free-slip face: what keeps the fluid in keeps blocks in. They
@@ -98,7 +87,7 @@ pub(super) fn walls(scene: &Scene) -> Result<Vec<Block>> {
         let mut normal = DVec3::ZERO;
         normal[axis] = if side == 0 { 1.0 } else { -1.0 };
         let point = if side == 0 { low } else { high };
-        let mut faces = beyond(scene).to_vec();
+        let mut faces = scene.domain.beyond().to_vec();
         faces.push(HalfSpace::through(point, normal));
         let (shape, centre) = Polyhedron::from_half_spaces(&faces)?;
         let name = format!("wall_{}", face.name());
@@ -137,6 +126,15 @@ pub(super) fn holds(scene: &Scene, regions: &[scene::Shape]) -> Result<impl Fn(D
             } => {
                 let path = scene.dir().join(file);
                 in_mesh(&path, *scale, DVec3::from(*translate))?
+            }
+            scene::Shape::Terrain { .. } => {
+                let terrain = scene.terrain(region)?;
+                Box::new(move |x| {
+                    let height = terrain
+                        .as_ref()
+                        .and_then(|terrain| terrain.height(x.x, x.y));
+                    height.is_some_and(|height| x.z <= height)
+                })
             }
         });
     }

@@ -1,0 +1,141 @@
+//! Flow between planes that are static solids: where their surfaces lie, as partially saturated cells and as staircases.
+
+use super::{Outcome, Record, Stand, fields};
+use riprap::lattice::{Force, Setup, SurfaceCell};
+
+/// Edge along x and y of the periodic box, cells.
+const PERIOD: u32 = 32;
+/// Cells along z.
+const WIDE: u32 = 4;
+/// Largest velocity aimed at.
+const SPEED: f64 = 0.01;
+/// Normals in the plane of x and y, whole numbers without a common divisor, with what of a cell a surface may lie off.
+const NORMALS: [([u32; 2], f64); 3] = [([1, 0], 0.03), ([2, 1], 0.03), ([1, 1], 0.06)];
+/// Thickness of the solid between two gaps, cells: its surfaces lie at no corner.
+const THICK: f64 = 6.7;
+
+/// How far the surfaces lie outside by the flux between them.
+pub fn planes(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    let taus: &[f64] = match stand.full {
+        true => &[0.52, 0.6, 1.0, 1.5],
+        false => &[0.6, 1.0],
+    };
+    for &tau in taus {
+        for (normal, limit) in NORMALS {
+            for along_z in [true, false] {
+                for exact in [true, false] {
+                    let planes = Planes {
+                        normal,
+                        tau,
+                        along_z,
+                        exact,
+                    };
+                    records.push(planes.measure(stand, limit)?);
+                }
+            }
+        }
+    }
+    Ok(records)
+}
+
+struct Planes {
+    normal: [u32; 2],
+    tau: f64,
+    along_z: bool,
+    /// Partially saturated cells, or those whose centre is solid.
+    exact: bool,
+}
+
+impl Planes {
+    /// The part of each cell of a layer that is solid, x fastest.
+    fn fractions(&self) -> Vec<f64> {
+        let [a, b] = self.normal.map(f64::from);
+        let length = a.hypot(b);
+        let (begin, period) = (0.37 * length, f64::from(PERIOD));
+        // Of a x + b y, which the period of the box makes repeat.
+        let end = begin + THICK * length;
+        let repeats = self.normal.iter().sum::<u32>() + 1;
+        let cell = |x: f64, y: f64| -> f64 {
+            let at = a * x + b * y;
+            (0..repeats)
+                .map(|n| f64::from(n) * period - at)
+                .map(|shift| below(a, b, end + shift) - below(a, b, begin + shift))
+                .sum()
+        };
+        let centre = |x: f64, y: f64| {
+            let at = (a * (x + 0.5) + b * (y + 0.5)).rem_euclid(period);
+            f64::from(u8::from((begin..end).contains(&at)))
+        };
+        let n = PERIOD;
+        let all = (0..n).flat_map(|y| (0..n).map(move |x| (f64::from(x), f64::from(y))));
+        all.map(|(x, y)| if self.exact { cell(x, y) } else { centre(x, y) })
+            .collect()
+    }
+
+    fn setup(&self, stand: &Stand, push: [f64; 3]) -> Setup {
+        let mut setup = stand.setup([PERIOD, PERIOD, WIDE], (self.tau - 0.5) / 3.0);
+        setup.force = Force::Constant(push);
+        let layer = self.fractions();
+        let all = (0..WIDE).flat_map(|_| layer.iter().copied());
+        setup.solid = all.clone().map(|part| part > 1.0 - 1e-6).collect();
+        let partly = (0..)
+            .zip(all)
+            .filter(|(_, part)| (1e-6..=1.0 - 1e-6).contains(part));
+        setup.surface = partly
+            .map(|(cell, part)| SurfaceCell {
+                cell,
+                fraction: part as f32,
+            })
+            .collect();
+        setup
+    }
+
+    fn measure(&self, stand: &Stand, limit: f64) -> anyhow::Result<Record> {
+        let nu = (self.tau - 0.5) / 3.0;
+        let [a, b] = self.normal.map(f64::from);
+        let length = a.hypot(b);
+        let spacing = f64::from(PERIOD) / length;
+        let gap = spacing - THICK;
+        let direction = match self.along_z {
+            true => [0.0, 0.0, 1.0],
+            false => [-b / length, a / length, 0.0],
+        };
+        let push = 8.0 * nu * SPEED / (gap * gap);
+        let setup = self.setup(stand, direction.map(|d| push * d));
+        let fluid = setup.solid.iter().filter(|solid| !**solid).count() as f64;
+        let rest = fields::state(setup.cells, |_| (0.0, [0.0; 3]));
+        let mut flow = stand.flow(setup, &rest, true)?;
+        flow.advance((10.0 * gap * gap / (nu * 9.87)).max(1000.0) as u64)?;
+        let mut momentum = 0.0;
+        for _ in 0..4 {
+            flow.advance(1)?;
+            let sums = flow.sums()?.momentum;
+            momentum += 0.25 * (0..3).map(|i| sums[i] * direction[i]).sum::<f64>();
+        }
+        // Without the half force: in partially saturated cells it is no part of the flux.
+        let volume = f64::from(PERIOD * PERIOD * WIDE);
+        let flux = (momentum - 0.5 * push * fluid) / volume * spacing;
+        let apparent = (12.0 * nu * flux / push).cbrt();
+        let quantity = format!(
+            "{} normal to {:?} lies off by, cells, flow along {}, τ = {}",
+            if self.exact { "surface" } else { "staircase" },
+            self.normal,
+            if self.along_z { "z" } else { "the planes" },
+            self.tau
+        );
+        let outside = 0.5 * (gap - apparent).abs();
+        let limit = self.exact.then_some(limit);
+        Ok(flow.trial().at_most(quantity, outside, limit))
+    }
+}
+
+/// The part of the unit square where a x + b y < s.
+fn below(a: f64, b: f64, s: f64) -> f64 {
+    if b == 0.0 {
+        return (s / a).clamp(0.0, 1.0);
+    }
+    let square = |s: f64| s.max(0.0).powi(2);
+    let area = square(s) - square(s - a) - square(s - b) + square(s - a - b);
+    (area / (2.0 * a * b)).clamp(0.0, 1.0)
+}

@@ -1,0 +1,58 @@
+// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid in cells that solids at rest fill in part. Full cells reflect:
+// with the exact weight a plane along the grid lies where it should be for that.
+// needs velocity, moments, surface_fraction, $operator, $weight
+
+struct PsmCell {
+    fraction: Real,
+    near: Mask,
+}
+
+fn psm_cell(index: u32, local: u32) -> PsmCell {
+    let surface = surface_at(index, local);
+    return PsmCell(surface.fraction, surface.near);
+}
+
+// For the eddy viscosity of the next step: the solid is at rest.
+fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
+    let open = 1.0 - psm.fraction;
+    return Vector(open * u.x, open * u.y, open * u.z);
+}
+
+fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
+    return nu_t * (1.0 - psm.fraction);
+}
+
+// How far the change of the moments is drawn to that of the solid.
+struct SolidWeights {
+    all: Real,
+}
+
+// Before the collision: puts the change by the solid alone in the place of the moments h.
+fn collide_with_solid(
+    p: Place,
+    slot: u32,
+    local: u32,
+    cell: u32,
+    psm: PsmCell,
+    tau_minus_half: Real,
+    odd_rate: Real,
+    rho: Real,
+    u: Vector,
+    h: ptr<function, array<Real, 27>>,
+) -> SolidWeights {
+    let zero = Real(0.0);
+    var s = equilibrium(rho, Vector(zero, zero, zero));
+    for (var k = 1u; k < 27u; k++) { // unroll
+        s[k] -= (*h)[k];
+    }
+    _ = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, Mask(false), &s);
+    *h = s;
+    return SolidWeights(solid_weight(psm.fraction, tau_minus_half, odd_rate));
+}
+
+// Draws the change by the collision to that by the solid.
+fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
+    for (var k = 1u; k < 27u; k++) { // unroll
+        (*change)[k] += weights.all * ((*solid)[k] - (*change)[k]);
+    }
+}

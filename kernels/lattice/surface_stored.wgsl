@@ -1,0 +1,20 @@
+// Gardner & Sitar 2018, eq. 8: cells in which blocks meet solids that stand still. The solids are one more part, whose share of the
+// force nobody has; the joint between both closes as one between blocks does.
+// needs surface_fraction
+
+fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {
+    let surface = surface_at(index, local);
+    let e = surface.fraction;
+    let block = psm.shares > Real(0.0);
+    let shares = psm.shares + e;
+    let part = select(Real(1.0), psm.shares / max(shares, Real(1e-30)), block);
+    return PsmCell(
+        min(psm.fraction + e, Real(1.0)),
+        select(Real(0.0), shares, block),
+        Vector(part * psm.velocity.x, part * psm.velocity.y, part * psm.velocity.z),
+        psm.near | surface.near,
+        psm.adjacent,
+        psm.interior,
+        psm.joint | (block & (e > Real(0.0))),
+    );
+}

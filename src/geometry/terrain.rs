@@ -1,0 +1,164 @@
+//! Surfaces of heights over a grid, from surveys.
+
+#[cfg(feature = "mesh")]
+use super::terrain_file;
+use super::{Form, Part, Polyhedron, Shape};
+use crate::{Error, Result};
+use glam::DVec3;
+use std::path::Path;
+
+/// Most triangles of a surface that blocks touch: each is a convex part.
+const MOST_PRISMS: usize = 200_000;
+
+/// Heights along z over a grid in x and y, with triangles between its nodes: each rectangle is cut from its lower corner to its upper
+/// one. What is below is solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terrain {
+    /// The node of least x and y, m.
+    pub origin: [f64; 2],
+    /// Between nodes along x and y, m.
+    pub spacing: [f64; 2],
+    /// Nodes along x and y, at least two each.
+    pub nodes: [usize; 2],
+    /// Height of each node, m, x fastest; NaN where there is none.
+    pub heights: Vec<f64>,
+}
+
+impl Terrain {
+    /// Reads an XYZ file of a regular grid, an ESRI ASCII grid or a GeoTIFF; its unit becomes `scale` m and its origin goes to
+    /// `translate` m.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is none of these, or has no rectangle of heights.
+    pub fn read(path: &Path, scale: f64, translate: [f64; 3]) -> Result<Self> {
+        let refused = |message: String| Error::file(path, message);
+        let bytes = std::fs::read(path)
+            .map_err(|e| refused(format!("cannot read the terrain: {e}; check the path")))?;
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let read: Result<Self, String> = match extension.as_deref() {
+            #[cfg(feature = "mesh")]
+            Some("tif" | "tiff") => terrain_file::read_tiff(bytes),
+            #[cfg(feature = "mesh")]
+            Some("asc" | "grd") => terrain_file::read_ascii_grid(&bytes),
+            #[cfg(feature = "mesh")]
+            Some("xyz" | "txt" | "csv") => terrain_file::read_xyz(&bytes),
+            #[cfg(not(feature = "mesh"))]
+            Some("tif" | "tiff" | "asc" | "grd" | "xyz" | "txt" | "csv") => {
+                let _ = bytes;
+                Err("files of terrain need the feature `mesh` of riprap".into())
+            }
+            _ => Err("a terrain is an .xyz, .asc or .tif file; convert it".into()),
+        };
+        let mut made = read.map_err(refused)?;
+        let enough = made.nodes.iter().all(|&n| n >= 2)
+            && made.spacing.iter().all(|&s| s > 0.0 && s.is_finite())
+            && made.nodes[0] * made.nodes[1] == made.heights.len();
+        if !enough {
+            return Err(refused(format!(
+                "it has {} × {} nodes; a surface needs two along x and y",
+                made.nodes[0], made.nodes[1]
+            )));
+        }
+        for a in 0..2 {
+            made.origin[a] = made.origin[a] * scale + translate[a];
+            made.spacing[a] *= scale;
+        }
+        for height in &mut made.heights {
+            *height = *height * scale + translate[2];
+        }
+        Ok(made)
+    }
+
+    /// The node i, j, m.
+    fn node(&self, i: usize, j: usize) -> DVec3 {
+        DVec3::new(
+            self.origin[0] + i as f64 * self.spacing[0],
+            self.origin[1] + j as f64 * self.spacing[1],
+            self.heights[i + self.nodes[0] * j],
+        )
+    }
+
+    /// The rectangles that lie at least in part between two corners in x and y (m), each with its nodes against the clock.
+    fn rectangles(&self, min: [f64; 2], max: [f64; 2]) -> impl Iterator<Item = [DVec3; 4]> + '_ {
+        let range = |a: usize| {
+            // Float to integer casts saturate, so that what lies outside drops out.
+            let at = |x: f64| (x - self.origin[a]) / self.spacing[a];
+            let last = (self.nodes[a] - 1).min(at(max[a]).ceil().max(0.0) as usize);
+            at(min[a]).floor() as usize..last
+        };
+        let (across, along) = (range(0), range(1));
+        along.flat_map(move |j| {
+            across.clone().map(move |i| {
+                [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[di, dj]| self.node(i + di, j + dj))
+            })
+        })
+    }
+
+    /// The triangles of the surface that lie at least in part between two corners in x and y (m), against the clock seen from above;
+    /// those with a node without a height are left out.
+    pub fn triangles(&self, min: [f64; 2], max: [f64; 2]) -> Vec<[DVec3; 3]> {
+        let halves = |[a, b, c, d]: [DVec3; 4]| [[a, b, c], [a, c, d]];
+        let all = self.rectangles(min, max).flat_map(halves);
+        all.filter(|corners| corners.iter().all(|p| p.z.is_finite()))
+            .collect()
+    }
+
+    /// The height at a place (m); none beside the surface.
+    pub fn height(&self, x: f64, y: f64) -> Option<f64> {
+        let [u, v] = [(x, 0), (y, 1)].map(|(x, a)| (x - self.origin[a]) / self.spacing[a]);
+        let inside = |u: f64, a: usize| u >= 0.0 && u <= (self.nodes[a] - 1) as f64;
+        if !(inside(u, 0) && inside(v, 1)) {
+            return None;
+        }
+        let cell = |u: f64, a: usize| (u as usize).min(self.nodes[a] - 2);
+        let (i, j) = (cell(u, 0), cell(v, 1));
+        let (u, v) = (u - i as f64, v - j as f64);
+        let [a, b, c, d] =
+            [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[di, dj]| self.node(i + di, j + dj).z);
+        let height = match u >= v {
+            true => a + u * (b - a) + v * (c - b),
+            false => a + v * (d - a) + u * (c - d),
+        };
+        height.is_finite().then_some(height)
+    }
+
+    /// What blocks touch between two corners in x and y (m), and its centroid (m): a prism below each triangle, and one below
+    /// the two of a plane rectangle.
+    ///
+    /// # Errors
+    /// If that is nothing, or too much.
+    pub(crate) fn shape(&self, min: [f64; 2], max: [f64; 2]) -> Result<(Shape, DVec3)> {
+        let mut parts = Vec::new();
+        let refused = |message: String| Err(Error::argument("file", message));
+        for corners in self.rectangles(min, max) {
+            let [a, b, c, d] = corners;
+            let size = (c - a).length().max((d - b).length());
+            let flat = (a.z - b.z + c.z - d.z).abs() < 1e-9 * size;
+            let halves = [[a, b, c, c], [a, c, d, d]];
+            let pieces = if flat { &[corners][..] } else { &halves[..] };
+            for top in pieces
+                .iter()
+                .filter(|top| top.iter().all(|p| p.z.is_finite()))
+            {
+                if parts.len() == MOST_PRISMS {
+                    return refused(format!(
+                        "the terrain has over {MOST_PRISMS} triangles in the domain, too many for blocks to touch; resample it \
+                         to a coarser grid"
+                    ));
+                }
+                let base = top.iter().map(|p| p.z).fold(f64::INFINITY, f64::min) - size;
+                let below = top.iter().map(|p| DVec3::new(p.x, p.y, base));
+                let points: Vec<DVec3> = top.iter().copied().chain(below).collect();
+                let (form, offset) = Polyhedron::from_vertices(&points)?;
+                parts.push(Part {
+                    form: Form::Convex(form),
+                    offset,
+                });
+            }
+        }
+        if parts.is_empty() {
+            return refused("no rectangle of the terrain with heights lies in the domain".into());
+        }
+        Ok(Shape::disjoint(parts))
+    }
+}

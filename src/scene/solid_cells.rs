@@ -1,0 +1,252 @@
+//! Which part of each cell static solids fill.
+
+use super::{Boundary, Domain, Face, Scene, Shape, Solid, SolidSurface, static_solids::Mask};
+use crate::{
+    error::{Error, Result},
+    geometry::{HalfSpace, Polyhedron, Terrain, TriangleMesh, volumes_below},
+};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// A cell of which this part is solid or fluid is so altogether: above the rounding of decimal coordinates.
+const WHOLE: f64 = 1e-4;
+
+/// What the solids of a scene fill.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidCells {
+    /// The cells that are solid altogether.
+    pub mask: Mask,
+    /// The places of those that are solid in part, x fastest, and that part, in ascending order.
+    pub partly: Vec<(u32, f32)>,
+}
+
+impl Scene {
+    /// The cells that the solids of the scene fill, in whole and in part. Where several solids cut a cell their parts add up to one at most;
+    /// cells at pressure faces are solid altogether from one half on, and fluid below.
+    ///
+    /// # Errors
+    /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a part of
+    /// the domain without heights, or no fluid is left.
+    pub fn solid_cells(&self) -> Result<SolidCells> {
+        let mut mask = Mask::new(self.cells())?;
+        let mut partly = Vec::new();
+        if self.solids.iter().any(Solid::is_exact) {
+            let mut filled = vec![0f32; mask.as_slice().len()];
+            self.fill_solids(|solid, cell, part| {
+                let filled = &mut filled[mask.index(cell)];
+                *filled = match solid.void {
+                    false => (*filled + part as f32).min(1.0),
+                    true => filled.min(1.0 - part as f32),
+                };
+            })?;
+            let cells = self.domain.cells();
+            for (n, part) in (0..).zip(filled) {
+                let cell = place(cells, n);
+                // What leaves through a pressure face is carried on from the cells there, and grows in those with solid.
+                let whole = if self.is_at_outlet(cell) { 0.5 } else { WHOLE };
+                if f64::from(part) >= 1.0 - whole {
+                    mask.set(cell, true);
+                } else if f64::from(part) > whole {
+                    partly.push((n, part));
+                }
+            }
+        } else {
+            self.fill_solids(|solid, cell, _| mask.set(cell, !solid.void))?;
+        }
+        if mask.solid_count() == mask.as_slice().len() {
+            return Err(Error::scene(
+                "solids",
+                "the solids fill the whole domain; leave some fluid, for example turn a half \
+                 space by reversing its normal (it points out of the solid)",
+            ));
+        }
+        Ok(SolidCells { mask, partly })
+    }
+
+    /// Whether a pressure face is next to a cell.
+    fn is_at_outlet(&self, cell: [u32; 3]) -> bool {
+        let cells = self.domain.cells();
+        let at = |face: Face| {
+            let axis = face.axis().index();
+            cell[axis] == if face.is_max() { cells[axis] - 1 } else { 0 }
+        };
+        let mut faces = self.boundaries.iter();
+        faces.any(|(face, boundary)| matches!(boundary, Boundary::Pressure { .. }) && at(face))
+    }
+
+    /// Calls `mark` for each cell of each solid and hole, in their order, with the part of it that they fill.
+    pub(super) fn fill_solids(&self, mut mark: impl FnMut(&Solid, [u32; 3], f64)) -> Result<()> {
+        for (index, solid) in self.solids.iter().enumerate() {
+            let key = format!("solids[{index}]");
+            if solid.is_exact() {
+                let triangles = self.surface_of(&key, &solid.shape)?;
+                let terrain = matches!(solid.shape, Shape::Terrain { .. });
+                let gap = fill(&triangles, &self.domain, terrain, |cell, part| {
+                    mark(solid, cell, part)
+                });
+                self.check_covered(&key, gap)?;
+            } else {
+                self.fill_by_centres(&key, solid, |cell| mark(solid, cell, 1.0))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The mesh of a solid, which must be closed and reach into the domain.
+    pub(super) fn solid_mesh(&self, key: &str, shape: &Shape) -> Result<Option<TriangleMesh>> {
+        let Shape::Mesh {
+            file,
+            scale,
+            translate,
+        } = shape
+        else {
+            return Ok(None);
+        };
+        let path = self.dir().join(file);
+        let mesh = TriangleMesh::read(&path, *scale, *translate)?;
+        let (min, max) = mesh.bounds();
+        self.check_reach(&format!("{key} ({})", file.display()), min, max)?;
+        mesh.closed()
+            .map_err(|message| Error::file(path, message))?;
+        Ok(Some(mesh))
+    }
+
+    /// The terrain of a solid, if it is one.
+    pub(crate) fn terrain(&self, shape: &Shape) -> Result<Option<Terrain>> {
+        match shape {
+            Shape::Terrain {
+                file,
+                scale,
+                translate,
+            } => Terrain::read(&self.dir().join(file), *scale, *translate).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// The triangles of a solid, m; of a terrain those of its heights alone.
+    fn surface_of(&self, key: &str, shape: &Shape) -> Result<Vec<[DVec3; 3]>> {
+        if let Some(terrain) = self.terrain(shape)? {
+            let (origin, end) = (self.domain.origin, self.domain.end());
+            return Ok(terrain.triangles([origin[0], origin[1]], [end[0], end[1]]));
+        }
+        if let Some(mesh) = self.solid_mesh(key, shape)? {
+            return Ok((0..mesh.triangles.len()).map(|n| mesh.corners(n)).collect());
+        }
+        let faces = |planes: &[HalfSpace]| {
+            let (shape, centre) = Polyhedron::from_half_spaces(planes)
+                .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
+            Ok(triangles_of(&shape, centre))
+        };
+        match shape {
+            Shape::Box { min, max } => {
+                let (min, max) = (DVec3::from(*min), DVec3::from(*max));
+                let made = Polyhedron::cuboid(max - min)
+                    .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
+                Ok(triangles_of(&made, 0.5 * (min + max)))
+            }
+            Shape::HalfSpace { point, normal } => {
+                let mut planes = self.domain.beyond().to_vec();
+                planes.push(HalfSpace::through(
+                    DVec3::from(*point),
+                    DVec3::from(*normal),
+                ));
+                faces(&planes)
+            }
+            Shape::Sphere { center, radius } => {
+                Ok(sphere(DVec3::from(*center), *radius, self.domain.cell))
+            }
+            Shape::Mesh { .. } | Shape::Terrain { .. } => Ok(Vec::new()),
+        }
+    }
+
+    /// A terrain has heights over all of the domain: `gap` is a column where it has not.
+    pub(super) fn check_covered(&self, key: &str, gap: Option<[u32; 2]>) -> Result<()> {
+        let Some([i, j]) = gap else {
+            return Ok(());
+        };
+        let [x, y, _] = self.domain.centre([i, j, 0]);
+        Err(Error::scene(
+            format!("{key}.file"),
+            format!(
+                "the terrain has no height at x = {x}, y = {y} m, which is in the domain; move it with `translate`, shrink the \
+                 domain, or fill the gap"
+            ),
+        ))
+    }
+}
+
+impl Solid {
+    /// Whether the fluid has its surface where it is, and not as a staircase of cells.
+    pub(super) fn is_exact(&self) -> bool {
+        let usual = match self.shape {
+            Shape::Terrain { .. } => SolidSurface::Exact,
+            _ => SolidSurface::Staircase,
+        };
+        self.surface.unwrap_or(usual) == SolidSurface::Exact
+    }
+}
+
+/// The parts of cells inside a closed surface, or below a terrain; the first column without a height of that.
+fn fill(
+    triangles: &[[DVec3; 3]],
+    domain: &Domain,
+    terrain: bool,
+    mut mark: impl FnMut([u32; 3], f64),
+) -> Option<[u32; 2]> {
+    let origin = DVec3::from(domain.origin);
+    let in_cells = |corners: &[DVec3; 3]| corners.map(|p| (p - origin) / domain.cell);
+    let triangles: Vec<_> = triangles.iter().map(in_cells).collect();
+    let mut gap = None;
+    volumes_below(&triangles, domain.cells(), |[i, j], volumes, covered| {
+        if terrain && covered < 1.0 - WHOLE {
+            gap = gap.or(Some([i, j]));
+        }
+        for (k, volume) in (0..).zip(volumes) {
+            // A mesh turned inside out has −1 inside.
+            let part = volume.abs().min(1.0);
+            if part > 0.0 {
+                mark([i, j, k], part);
+            }
+        }
+    });
+    gap
+}
+
+/// Where cell n of a grid is, x fastest.
+fn place([nx, ny, _]: [u32; 3], n: u32) -> [u32; 3] {
+    [n % nx, n / nx % ny, n / (nx * ny)]
+}
+
+/// The triangles of a polyhedron about `centre`, against the clock seen from outside.
+fn triangles_of(shape: &Polyhedron, centre: DVec3) -> Vec<[DVec3; 3]> {
+    let corner = |n: u32| shape.vertices()[n as usize] + centre;
+    let fan = |face: &Vec<u32>| {
+        let (first, rest) = (face[0], face[1..].to_vec());
+        (1..rest.len()).map(move |n| [first, rest[n - 1], rest[n]])
+    };
+    let all = shape.loops().iter().flat_map(fan);
+    all.map(|corners| corners.map(corner)).collect()
+}
+
+/// A sphere of triangles with edges of at most a quarter of a cell (m), of the volume of the sphere.
+fn sphere(centre: DVec3, radius: f64, cell: f64) -> Vec<[DVec3; 3]> {
+    let rings = ((PI * radius / (0.25 * cell)).ceil() as usize).clamp(24, 2000);
+    let step = PI / rings as f64;
+    let at = |ring: usize, n: usize| {
+        let (polar, turn) = ((step * ring as f64).sin_cos(), (step * n as f64).sin_cos());
+        DVec3::new(polar.0 * turn.1, polar.0 * turn.0, polar.1)
+    };
+    let mut all = Vec::with_capacity(4 * rings * rings);
+    for ring in 0..rings {
+        for n in 0..2 * rings {
+            let (a, b) = (at(ring, n), at(ring + 1, n));
+            let (c, d) = (at(ring + 1, n + 1), at(ring, n + 1));
+            all.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let six_volumes: f64 = all.iter().map(|[a, b, c]| a.dot(b.cross(*c))).sum();
+    let grown = radius * (8.0 * PI / six_volumes).cbrt();
+    all.iter()
+        .map(|corners| corners.map(|p| centre + grown * p))
+        .collect()
+}

@@ -1,0 +1,203 @@
+//! Static solids where they are: the part of each cell that they fill, and terrain from the files of surveys.
+
+use crate::refused;
+use kit::assert_near;
+use riprap::{
+    Result,
+    geometry::Terrain,
+    scene::{Scene, SolidCells},
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Cells of 0.1 m, 12 × 10 × 8.
+fn scene(dir: &Path, solids: &str) -> Result<Scene> {
+    let text = format!(
+        "domain = {{ size = [1.2, 1.0, 0.8], cell = 0.1 }}\nfluid.viscosity = 1e-3\nnumerics.time_step = 1e-3\nrun.steps = 1\n{solids}"
+    );
+    Scene::from_toml(&text, dir, "bed.toml")
+}
+
+fn cells(solids: &str) -> SolidCells {
+    scene(Path::new(""), solids).unwrap().solid_cells().unwrap()
+}
+
+/// Solid cells in all.
+fn volume(cells: &SolidCells) -> f64 {
+    let partly = cells.partly.iter().map(|(_, part)| f64::from(*part));
+    cells.mask.solid_count() as f64 + partly.sum::<f64>()
+}
+
+#[test]
+fn a_half_space_fills_what_is_below_its_plane() {
+    let found = cells(
+        "[[solids]]\nkind = \"half_space\"\npoint = [0.6, 0.5, 0.4]\nnormal = [1, -0.5, 3]\nsurface = \"exact\"",
+    );
+    // The plane goes through the middle of the domain and meets its sides alone.
+    assert_near(volume(&found), 0.5 * 960.0, 1e-3);
+    assert!(found.partly.len() > 120);
+    assert!(found.partly.is_sorted_by_key(|(cell, _)| *cell));
+    let staircase =
+        cells("[[solids]]\nkind = \"half_space\"\npoint = [0.6, 0.5, 0.4]\nnormal = [1, -0.5, 3]");
+    assert!(staircase.partly.is_empty());
+}
+
+#[test]
+fn a_box_along_the_grid_is_the_same_either_way() {
+    let solid = "[[solids]]\nkind = \"box\"\nmin = [0.3, 0.1, 0]\nmax = [0.7, 0.6, 0.5]\n";
+    let (exact, staircase) = (cells(&format!("{solid}surface = \"exact\"")), cells(solid));
+    assert_eq!(exact, staircase);
+    let shifted = cells(
+        "[[solids]]\nkind = \"box\"\nmin = [0.33, 0.1, 0]\nmax = [0.7, 0.6, 0.57]\nsurface = \"exact\"",
+    );
+    assert_near(volume(&shifted), 3.7 * 5.0 * 5.7, 1e-3);
+}
+
+#[test]
+fn a_sphere_and_a_hole_in_it_have_their_volumes() {
+    let sphere = |radius: f64| {
+        format!(
+            "[[solids]]\nkind = \"sphere\"\ncenter = [0.61, 0.47, 0.42]\nradius = {radius}\nsurface = \"exact\"\n"
+        )
+    };
+    let of = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * (10.0 * radius).powi(3);
+    let whole = cells(&sphere(0.37));
+    assert_near(volume(&whole) / of(0.37), 1.0, 1e-4);
+    let shell = cells(&format!("{}{}void = true", sphere(0.37), sphere(0.25)));
+    assert_near(volume(&shell) / (of(0.37) - of(0.25)), 1.0, 1e-3);
+}
+
+/// A bed whose heights are plane but for a ridge: its volume is that below the triangles.
+fn heights() -> (Vec<f64>, f64) {
+    let mut all = Vec::new();
+    for j in 0..6 {
+        for i in 0..7 {
+            let ridge = if i == 3 { 0.1 } else { 0.0 };
+            all.push(0.2 + 0.03 * f64::from(j) + ridge);
+        }
+    }
+    // Nodes every 0.2 m; the ridge is a roof 0.4 m wide.
+    let plane = (0.2 + 0.03 * 2.5) * 1.2 * 1.0;
+    (all, (plane + 0.1 * 0.2) * 1e3)
+}
+
+/// Writes the bed in each format.
+fn surveys(dir: &Path) -> [&'static str; 4] {
+    fs::create_dir_all(dir).unwrap();
+    let (heights, _) = heights();
+    let row = |j: usize| &heights[7 * j..7 * (j + 1)];
+    let mut xyz = String::from("x y z\n");
+    // In any order.
+    for n in (0..42).map(|n| n * 5 % 42) {
+        let (i, j) = (n % 7, n / 7);
+        xyz += &format!(
+            "{:.1} {:.1} {:.4}\n",
+            0.2 * i as f64,
+            0.2 * j as f64,
+            heights[n]
+        );
+    }
+    fs::write(dir.join("bed.xyz"), xyz.replace(' ', ",")).unwrap();
+    let mut grid = String::from(
+        "ncols 7\nnrows 6\nxllcenter 1000\nyllcenter 2000\ncellsize 0.2\nNODATA_value -9999\n",
+    );
+    let mut corners = grid.replace("xllcenter 1000", "xllcorner 999.9");
+    corners = corners.replace("yllcenter 2000", "yllcorner 1999.9");
+    for j in (0..6).rev() {
+        let words: Vec<String> = row(j).iter().map(f64::to_string).collect();
+        grid += &format!("{}\n", words.join(" "));
+        corners += &format!("{}\n", words.join(" "));
+    }
+    fs::write(dir.join("bed.asc"), grid).unwrap();
+    fs::write(dir.join("corners.asc"), corners).unwrap();
+    let file = fs::File::create(dir.join("bed.tif")).unwrap();
+    let mut tiff = tiff::encoder::TiffEncoder::new(file).unwrap();
+    let mut image = tiff
+        .new_image::<tiff::encoder::colortype::Gray32Float>(7, 6)
+        .unwrap();
+    let tags = image.encoder();
+    let tag = tiff::tags::Tag::ModelPixelScaleTag;
+    tags.write_tag(tag, &[0.2f64, 0.2, 0.0][..]).unwrap();
+    // The corner of the first pixel, in the north-west.
+    let tie = [0.0f64, 0.0, 0.0, 999.9, 2001.1, 0.0];
+    tags.write_tag(tiff::tags::Tag::ModelTiepointTag, &tie[..])
+        .unwrap();
+    let values: Vec<f32> = (0..6).rev().flat_map(row).map(|h| *h as f32).collect();
+    image.write_data(&values).unwrap();
+    ["bed.xyz", "bed.asc", "corners.asc", "bed.tif"]
+}
+
+#[test]
+fn terrain_of_every_format_fills_what_is_below_its_heights() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("terrain_formats");
+    let (_, expected) = heights();
+    let mut all = Vec::new();
+    for file in surveys(&dir) {
+        let translate = if file == "bed.xyz" {
+            "[0, 0, 0]"
+        } else {
+            "[-1000, -2000, 0]"
+        };
+        let solids =
+            format!("[[solids]]\nkind = \"terrain\"\nfile = \"{file}\"\ntranslate = {translate}");
+        let found = scene(&dir, &solids).unwrap().solid_cells().unwrap();
+        assert_near(volume(&found), expected, 1e-3 * expected);
+        all.push(found);
+        let staircase = scene(&dir, &format!("{solids}\nsurface = \"staircase\"")).unwrap();
+        let staircase = staircase.solid_cells().unwrap();
+        assert!(staircase.partly.is_empty());
+        assert_near(volume(&staircase), expected, 0.2 * expected);
+    }
+    assert!(
+        all.iter()
+            .all(|cells| cells.partly.len() == all[0].partly.len())
+    );
+    let terrain = Terrain::read(&dir.join("bed.xyz"), 2.0, [0.5, 0.0, 1.0]).unwrap();
+    // Half-way up the ridge, on the line between two rows.
+    assert_near(
+        terrain.height(0.5 + 2.0 * 0.5, 2.0 * 0.2).unwrap(),
+        2.0 * (0.23 + 0.05) + 1.0,
+        1e-9,
+    );
+    assert_eq!(terrain.height(0.49, 0.2), None);
+}
+
+#[test]
+fn terrain_that_is_none_is_refused() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("terrain_refused");
+    surveys(&dir);
+    let write = |name: &str, text: &str| fs::write(dir.join(name), text).unwrap();
+    let of = |file: &str, more: &str| {
+        let solids = format!("[[solids]]\nkind = \"terrain\"\nfile = \"{file}\"\n{more}");
+        scene(&dir, &solids).and_then(|scene| scene.solid_cells())
+    };
+    refused(of("none.xyz", ""), &["none.xyz", "check the path"]);
+    write("bed.dem", "");
+    refused(of("bed.dem", ""), &["bed.dem", ".xyz, .asc or .tif"]);
+    write("words.xyz", "0 0 1\n1 0 b\n");
+    refused(of("words.xyz", ""), &["words.xyz", "line 2"]);
+    write("scattered.xyz", "0 0 1\n1 0 1\n0 1 1\n1.37 1 1\n");
+    refused(of("scattered.xyz", ""), &["scattered.xyz", "resample"]);
+    write("line.xyz", "0 0 1\n1 0 1\n");
+    refused(of("line.xyz", ""), &["line.xyz", "the same y"]);
+    write(
+        "short.asc",
+        "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4 5\n",
+    );
+    refused(of("short.asc", ""), &["short.asc", "5 heights"]);
+    write("header.asc", "ncols 3\nnrows 2\ncellsize 1\n1 2 3 4 5 6\n");
+    refused(of("header.asc", ""), &["header.asc", "xllcorner"]);
+    write("noise.tif", "no TIFF at all");
+    refused(of("noise.tif", ""), &["noise.tif", "TIFF"]);
+    refused(
+        of("bed.xyz", "translate = [0.1, 0, 0]"),
+        &["solids[0].file", "x = 0.05", "translate"],
+    );
+    write(
+        "hole.asc",
+        "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\nnodata_value -1\n1 -1 1\n1 1 1\n",
+    );
+    refused(of("hole.asc", ""), &["solids[0].file", "no height"]);
+}

@@ -1,0 +1,90 @@
+//! Static solids whose surface the fluid meets where it is, beside blocks; blocks on terrain.
+
+use kit::{Rig, assert_near};
+use riprap::scene::Scene;
+use std::{fs, path::PathBuf};
+
+/// Flow through a periodic channel over a bed 0.24 m high and past a block that hovers so low that both share cells.
+fn over_bed(bed: &str) -> Scene {
+    kit::scene::read(&format!(
+        r#"
+        domain = {{ size = [2.4, 1.2, 1.2], cell = 0.1 }}
+        fluid = {{ viscosity = 0.05, density = 1000, acceleration = [0.05, 0, 0] }}
+        numerics.time_step = 0.02
+        run.steps = 1200
+        boundaries = {{ z_min = {{ kind = "wall" }}, z_max = {{ kind = "wall" }} }}
+        [[materials]]
+        name = "rock"
+        density = 2650
+        normal_stiffness = 1e6
+        friction = 30
+        [[blocks]]
+        name = "hovers"
+        kind = "box"
+        size = [0.6, 0.5, 0.4]
+        position = [1.0, 0.6, 0.47]
+        motion = "driven"
+        velocity = [0, 0, 0]
+        {bed}
+        "#
+    ))
+    .unwrap()
+}
+
+#[test]
+fn a_block_above_a_static_bed_bears_what_it_bears_above_a_block() {
+    let rig = Rig::new();
+    let load = |bed: &str| {
+        let mut simulation = rig.simulation(&over_bed(bed)).unwrap();
+        rig.wait(simulation.advance(1200)).unwrap();
+        simulation.coupled().unwrap().external_load()[0].flow
+    };
+    let block = load(
+        "[[blocks]]\nname = \"bed\"\nkind = \"box\"\nsize = [4.8, 4.8, 1]\nposition = [1.2, 0.6, -0.26]\nmotion = \"fixed\"",
+    );
+    let solid = load(
+        "[[solids]]\nkind = \"box\"\nmin = [-9, -9, -1]\nmax = [9, 9, 0.24]\nsurface = \"exact\"",
+    );
+    assert!(block.force.x > 0.0);
+    assert_near(solid.force.x / block.force.x, 1.0, 0.01);
+    assert_near(solid.torque().y / block.torque().y, 1.0, 0.03);
+}
+
+/// Over the edges between the triangles of a survey as over one plane: v = g (sin 30° − tan 20° cos 30°) t.
+#[test]
+fn a_block_slides_over_terrain_as_over_a_plane() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("slides_over_terrain");
+    fs::create_dir_all(&dir).unwrap();
+    let mut survey = String::new();
+    for (i, j) in (0..20).flat_map(|j| (0..30).map(move |i| (i, j))) {
+        // So little that the block does not feel it, and enough that no two triangles are one plane.
+        let height = 1e-6 * f64::from((7 * i + 3 * j) % 5);
+        survey += &format!("{} {} {height:e}\n", 0.1 * f64::from(i), 0.1 * f64::from(j));
+    }
+    fs::write(dir.join("bed.xyz"), survey).unwrap();
+    let scene = r#"
+        rock.gravity = [4.905, 0, -8.4957]
+        run.duration = 0.6
+        [[materials]]
+        name = "rock"
+        density = 2600
+        normal_stiffness = 1e8
+        friction = 20
+        [[solids]]
+        kind = "terrain"
+        file = "bed.xyz"
+        [[blocks]]
+        kind = "box"
+        size = [0.33, 0.27, 0.2]
+        position = [0.5, 1.0, 0.1]
+        "#;
+    let scene = Scene::from_toml(scene, &dir, "slide.toml").unwrap();
+    let rig = Rig::new();
+    let mut simulation = rig.simulation(&scene).unwrap();
+    rig.wait(simulation.advance(1000)).unwrap();
+    let pose = simulation.rock().unwrap().poses()[0];
+    let expected = (4.905 - 20f64.to_radians().tan() * 8.4957) * simulation.time();
+    assert!(expected > 0.5);
+    assert_near(pose.velocity.x, expected, 0.005 * expected);
+    assert!(pose.deformation_rate.abs_diff_eq(glam::DMat3::ZERO, 1e-3));
+}

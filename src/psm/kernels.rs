@@ -137,7 +137,10 @@ impl Kernels {
             program::reduce_blocks(),
         ];
         let mut constants = program::constants(grid);
-        constants.push(("SPHERE_GROWTH", program::sphere_growth(lattice.setup())));
+        constants.push((
+            "SPHERE_GROWTH",
+            program::sphere_growth(lattice.setup().weight(), lattice.setup().tau()),
+        ));
         let kernel = |((entry, _), program): (&(&str, Option<&str>), Program)| {
             let linked = program.link()?;
             Kernel::new(device, &linked, entry, &linked.constants_of(&constants))

@@ -71,6 +71,7 @@ pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 pub(crate) use near_cells::{near_cells, outline};
+pub(crate) use program::sphere_growth;
 #[doc(hidden)]
 pub use program::{
     Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, Walk, combine_parts, constants, reduce_blocks,

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::link::Program,
-    lattice::{Grid, Lattice, PsmAccess, Setup, SolidWeight, psm_storage},
+    lattice::{Grid, Lattice, PsmAccess, SolidWeight, psm_storage},
 };
 
 /// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
@@ -97,9 +97,9 @@ fn effective(weight: SolidWeight) -> &'static str {
 
 /// c, cells², of a sphere of R cells, whose effective radius is R + c/R: fitted to the drag of a cubic array of
 /// concentration 0.125, D = 5 and 10, and to the torque on a sphere of D = 8.
-pub fn sphere_growth(setup: &Setup) -> f64 {
-    let excess = setup.tau() - 0.5;
-    match setup.weight() {
+pub fn sphere_growth(weight: SolidWeight, tau: f64) -> f64 {
+    let excess = tau - 0.5;
+    match weight {
         SolidWeight::Exact => 1.0 / 12.0 + 0.4 * excess / (excess + 0.06),
         SolidWeight::Standard => 0.0,
     }

@@ -132,7 +132,7 @@ impl SolidCells {
         let parts = first_face.len() - 1;
         Ok(Self {
             face_sums,
-            sphere_growth: program::sphere_growth(lattice.setup()),
+            sphere_growth: program::sphere_growth(lattice.setup().weight(), lattice.setup().tau()),
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),

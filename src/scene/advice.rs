@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene};
+use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene, WallModel};
 use crate::error::{Error, Result};
 use crate::units::Units;
 
@@ -71,6 +71,7 @@ impl Scene {
         adviser.bgk();
         adviser.cell_reynolds();
         adviser.weight();
+        adviser.friction_of_surfaces();
         adviser.pressures()?;
         Ok(adviser.advice)
     }
@@ -251,6 +252,23 @@ impl Adviser<'_> {
                     self.speed,
                     HIGH_CELL_REYNOLDS * nu / self.speed
                 ),
+            );
+        }
+    }
+
+    /// A wall model needs walls along the sides of cells.
+    fn friction_of_surfaces(&mut self) {
+        let scene = self.scene;
+        if scene.numerics.wall_model == WallModel::None {
+            return;
+        }
+        let mut solids = scene.solids.iter();
+        if let Some(index) = solids.position(|solid| solid.is_exact()) {
+            self.warn(
+                &format!("solids[{index}].surface"),
+                "is exact, and the wall model does not act on surfaces that cut cells: their friction is that of the grid, whatever their \
+                 roughness; use surface = \"staircase\" where friction matters more than place"
+                    .into(),
             );
         }
     }

@@ -55,7 +55,7 @@ pub enum Field {
     QCriterion,
     /// Vorticity, 1/s.
     Vorticity,
-    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
+    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid, and between where an exact surface of a solid cuts a cell.
     Solid,
     /// Mean of the velocity over time, m/s; this and those below need `statistics`, and are NaN before its first sample.
     MeanVelocity,
@@ -139,7 +139,7 @@ pub enum SliceField {
     EddyViscosity,
     /// Q-criterion ½(|Ω|² − |S|²), 1/s².
     QCriterion,
-    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid.
+    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid, and between where an exact surface of a solid cuts a cell.
     Solid,
     /// Magnitude of the mean velocity, m/s; this and those below need `statistics`.
     MeanSpeed,

@@ -10,6 +10,8 @@ use std::f64::consts::PI;
 
 /// A cell of which this part is solid or fluid is so altogether: above the rounding of decimal coordinates.
 const WHOLE: f64 = 1e-4;
+/// Radius below which the growth of a sphere is no more, cells.
+const LEAST_RADIUS: f64 = 2.0;
 
 /// What the solids of a scene fill.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,11 +30,16 @@ impl Scene {
     /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a part of
     /// the domain without heights, or no fluid is left.
     pub fn solid_cells(&self) -> Result<SolidCells> {
+        self.solid_cells_grown(0.0)
+    }
+
+    /// The same with spheres of R cells that have `growth`/R cells more in their radius, which the exact weight lacks on them.
+    pub(crate) fn solid_cells_grown(&self, growth: f64) -> Result<SolidCells> {
         let mut mask = Mask::new(self.cells())?;
         let mut partly = Vec::new();
         if self.solids.iter().any(Solid::is_exact) {
             let mut filled = vec![0f32; mask.as_slice().len()];
-            self.fill_solids(|solid, cell, part| {
+            self.fill_solids(growth, |solid, cell, part| {
                 let filled = &mut filled[mask.index(cell)];
                 *filled = match solid.void {
                     false => (*filled + part as f32).min(1.0),
@@ -51,7 +58,7 @@ impl Scene {
                 }
             }
         } else {
-            self.fill_solids(|solid, cell, _| mask.set(cell, !solid.void))?;
+            self.fill_solids(growth, |solid, cell, _| mask.set(cell, !solid.void))?;
         }
         if mask.solid_count() == mask.as_slice().len() {
             return Err(Error::scene(
@@ -75,11 +82,16 @@ impl Scene {
     }
 
     /// Calls `mark` for each cell of each solid and hole, in their order, with the part of it that they fill.
-    pub(super) fn fill_solids(&self, mut mark: impl FnMut(&Solid, [u32; 3], f64)) -> Result<()> {
+    pub(super) fn fill_solids(
+        &self,
+        growth: f64,
+        mut mark: impl FnMut(&Solid, [u32; 3], f64),
+    ) -> Result<()> {
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
             if solid.is_exact() {
-                let triangles = self.surface_of(&key, &solid.shape)?;
+                let growth = if solid.void { 0.0 } else { growth };
+                let triangles = self.surface_of(&key, &solid.shape, growth)?;
                 let terrain = matches!(solid.shape, Shape::Terrain { .. });
                 let gap = fill(&triangles, &self.domain, terrain, |cell, part| {
                     mark(solid, cell, part)
@@ -124,7 +136,7 @@ impl Scene {
     }
 
     /// The triangles of a solid, m; of a terrain those of its heights alone.
-    fn surface_of(&self, key: &str, shape: &Shape) -> Result<Vec<[DVec3; 3]>> {
+    fn surface_of(&self, key: &str, shape: &Shape, growth: f64) -> Result<Vec<[DVec3; 3]>> {
         if let Some(terrain) = self.terrain(shape)? {
             let (origin, end) = (self.domain.origin, self.domain.end());
             return Ok(terrain.triangles([origin[0], origin[1]], [end[0], end[1]]));
@@ -153,7 +165,9 @@ impl Scene {
                 faces(&planes)
             }
             Shape::Sphere { center, radius } => {
-                Ok(sphere(DVec3::from(*center), *radius, self.domain.cell))
+                let cell = self.domain.cell;
+                let radius = radius + growth * cell * cell / radius.max(LEAST_RADIUS * cell);
+                Ok(sphere(DVec3::from(*center), radius, cell))
             }
             Shape::Mesh { .. } | Shape::Terrain { .. } => Ok(Vec::new()),
         }

@@ -116,7 +116,7 @@ impl Scene {
         }
         let mask = Mask::new(self.cells())?;
         let mut roughness = vec![0.0; mask.as_slice().len()];
-        self.fill_solids(|solid, cell, part| {
+        self.fill_solids(0.0, |solid, cell, part| {
             if part >= 0.5 && mask.has(cell) {
                 roughness[mask.index(cell)] = solid.roughness;
             }

@@ -178,14 +178,18 @@ impl LatticeFluid {
         Ok(values)
     }
 
-    /// 1 in solid cells, and in those whose centres are in a block.
+    /// 1 in solid cells and in those whose centres are in a block, and what static solids fill of a cell that their surface cuts.
     fn solid_values(&self, coupled: Option<Coupled<'_>>, cells: Option<&[u32]>) -> Vec<f32> {
-        let solid = self.solid();
+        let (solid, surface) = (self.solid(), &self.lattice.setup().surface);
         let blocks = coupled.map_or_else(Vec::new, |coupled| coupled.cells_near_blocks(0.0));
         let value = |cell: usize| {
             let in_block = || blocks.binary_search_by_key(&cell, |found| found.cell.index as usize);
             let is_solid = solid.get(cell).is_some_and(|solid| *solid) || in_block().is_ok();
-            f32::from(u8::from(is_solid))
+            let cut = || surface.binary_search_by_key(&cell, |found| found.cell as usize);
+            match is_solid {
+                true => 1.0,
+                false => cut().map_or(0.0, |place| surface[place].fraction),
+            }
         };
         match cells {
             Some(cells) => cells.iter().map(|cell| value(*cell as usize)).collect(),

@@ -4,7 +4,7 @@ use riprap::Result;
 use riprap::scene::Advice;
 use riprap::units::Units;
 
-use crate::read;
+use crate::{channel, read};
 
 /// A block in a fluid that weighs along z, as the block does.
 pub const STONE: &str = r#"
@@ -81,6 +81,35 @@ fn water_that_given_pressures_compress_is_warned_of() {
     let waves = "pressure = \"0.005*sin(100*pi*x)\"";
     warned(duct(0.0, waves).0, &["initial.pressure", "time_step ≤"]);
     warned(duct(0.01, waves).0, &["boundaries"]);
+}
+
+/// Friction of a surface that cuts cells is no wall's.
+#[test]
+fn a_wall_model_without_effect_on_an_exact_surface_is_told() {
+    let bed = |surface: &str| {
+        let scene = channel(&format!(
+            "
+            [numerics]
+            eddy_viscosity = \"wale\"
+            wall_model = \"reichardt\"
+            velocity_scale = 0.05
+            [boundaries]
+            y_min = {{ kind = \"wall\" }}
+            y_max = {{ kind = \"wall\" }}
+            [[solids]]
+            kind = \"box\"
+            min = [0, 0, 0]
+            max = [2e-3, 2.5e-3, 2e-3]
+            surface = \"{surface}\"
+            "
+        ))
+        .unwrap();
+        scene.advise(&Units::of(&scene).unwrap()).unwrap()
+    };
+    assert_eq!(bed("staircase"), []);
+    let found = bed("exact");
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].place, "solids[0].surface");
 }
 
 /// A sphere of radius R under water, (ρ − 1000) 4/3 π R³ g = k π u² (2R − u) at rest; u = 1.3 % of R at 1.63e7 Pa/m.

@@ -156,6 +156,7 @@ pub const CASES: &[Case] = &[
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),
     short("stability/taylor-green", "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps", stability::taylor_green),
     short("surfaces/planes", "where planes of static solids lie along the grid and across it, exact and as staircases", surfaces::planes),
+    short("surfaces/array", "drag of a simple cubic array of spheres that are static solids (Zick & Homsy 1982)", solids::array::at_rest),
     short("solids/volume", "solid fractions of cells add up to the volume of the block", solids::conservation::volume),
     short("solids/plates", "flow between two plates that are blocks", solids::plates::run),
     short("solids/surfaces", "where the surfaces of plates lie along the grid and across it", solids::plates::places),

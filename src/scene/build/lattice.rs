@@ -6,6 +6,7 @@ use crate::{
         Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
         Storage, SurfaceCell, SyntheticTurbulence, WallModel,
     },
+    psm::sphere_growth,
     scene::{self, BodyForce, Boundary, Numerics, Scene, SolidCells},
     units::{SOUND_SPEED_SQUARED, Units},
 };
@@ -151,7 +152,13 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         None => setup.suit_gpu(),
     }
     if !scene.solids.is_empty() {
-        let SolidCells { mask, partly } = scene.solid_cells()?;
+        // That of blocks, or of the operator that solids have without blocks.
+        let weight = setup.solid_weight.unwrap_or(match setup.solid_operator {
+            None | Some(SolidOperator::Holdych) => SolidWeight::Exact,
+            Some(_) => SolidWeight::Standard,
+        });
+        let growth = sphere_growth(weight, setup.tau());
+        let SolidCells { mask, partly } = scene.solid_cells_grown(growth)?;
         let cells = partly.into_iter();
         setup.surface = cells
             .map(|(cell, fraction)| SurfaceCell { cell, fraction })

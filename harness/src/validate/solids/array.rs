@@ -4,8 +4,8 @@
 use super::periodic_flow::{Body, Drag, PeriodicFlow};
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{Method, Outcome, Record, Stand};
-use riprap::scene::{BlockShape, Rotation};
-use std::f64::consts::PI;
+use riprap::scene::{BlockShape, Rotation, Scene, Solid, SolidSurface};
+use std::{f64::consts::PI, path::Path};
 
 /// Concentrations and K of their table 2.
 const K: [(f64, f64); 4] = [
@@ -28,6 +28,8 @@ pub struct Array {
     tau: f64,
     method: Method,
     offset: [f64; 3],
+    /// The surface of spheres that are static solids; none: they are blocks.
+    surface: Option<SolidSurface>,
 }
 
 impl Array {
@@ -39,6 +41,7 @@ impl Array {
             tau,
             method: Method::DEFAULT,
             offset: [0.0; 3],
+            surface: None,
         }
     }
 
@@ -68,12 +71,18 @@ impl Array {
     /// # Errors
     /// If the flow does not become steady, or leaves the range of the method.
     pub fn measure(&self, stand: &Stand) -> anyhow::Result<Measured> {
-        let shape = BlockShape::Sphere {
-            radius: 0.5 * self.diameter(),
+        let radius = 0.5 * self.diameter();
+        let body = match self.surface {
+            Some(surface) => Body::Cells(static_sphere(self.edge, radius, surface)?),
+            None => Body::Block(
+                BlockShape::Sphere { radius },
+                self.offset,
+                Rotation::default(),
+            ),
         };
         let expected = self.resistance();
         let flow = PeriodicFlow {
-            body: Body::Block(shape, self.offset, Rotation::default()),
+            body,
             size: self.diameter(),
             edge: self.edge,
             tau: self.tau,
@@ -127,6 +136,51 @@ pub fn drag(stand: &Stand) -> Outcome {
         let quantity = "force on the sphere / push on the fluid − 1";
         let balance = found.drag.balance.abs();
         records.push(found.drag.trial.at_most(quantity, balance, 1e-3));
+    }
+    Ok(records)
+}
+
+/// A static solid in the middle of a cube.
+fn static_sphere(edge: u32, radius: f64, surface: SolidSurface) -> anyhow::Result<Vec<Solid>> {
+    let middle = 0.5 * f64::from(edge);
+    let kind = match surface {
+        SolidSurface::Exact => "exact",
+        SolidSurface::Staircase => "staircase",
+    };
+    let text = format!(
+        r#"
+        domain = {{ size = [{edge}, {edge}, {edge}], cell = 1 }}
+        fluid = {{ density = 1, viscosity = 1 }}
+        numerics = {{ time_step = 1 }}
+        run = {{ steps = 1 }}
+        [[solids]]
+        kind = "sphere"
+        center = [{middle}, {middle}, {middle}]
+        radius = {radius}
+        surface = "{kind}"
+        "#
+    );
+    Ok(Scene::from_toml(&text, Path::new("."), "sphere")?.solids)
+}
+
+/// Spheres that are static solids, of 10 cells: exact ones as blocks, and staircases.
+pub fn at_rest(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    for tau in [0.6, 1.0, 1.5] {
+        for (surface, name, limit) in [
+            (SolidSurface::Exact, "exact", Some(1e-2)),
+            (SolidSurface::Staircase, "staircase", None),
+        ] {
+            let array = Array {
+                surface: Some(surface),
+                ..Array::new(USUAL, 16, tau)
+            };
+            let found = array.measure(stand)?;
+            let diameter = array.diameter();
+            let quantity = format!("{name}: K / K(Z&H), D = {diameter:.1}, τ = {tau}");
+            let trial = &found.drag.trial;
+            records.push(trial.relative(quantity, found.ratio, 1.0, limit));
+        }
     }
     Ok(records)
 }

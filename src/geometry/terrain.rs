@@ -15,16 +15,55 @@ const MOST_PRISMS: usize = 200_000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terrain {
     /// The node of least x and y, m.
-    pub origin: [f64; 2],
+    pub(super) origin: [f64; 2],
     /// Between nodes along x and y, m.
-    pub spacing: [f64; 2],
+    pub(super) spacing: [f64; 2],
     /// Nodes along x and y, at least two each.
-    pub nodes: [usize; 2],
+    pub(super) nodes: [usize; 2],
     /// Height of each node, m, x fastest; NaN where there is none.
-    pub heights: Vec<f64>,
+    pub(super) heights: Vec<f64>,
 }
 
 impl Terrain {
+    /// Heights (m, x fastest, NaN where there is none) of so many nodes along x and y, of which the one of least x and y is at `origin` (m),
+    /// `spacing` (m) apart.
+    ///
+    /// # Errors
+    /// If there are fewer than two nodes along an axis, another number of heights, or no positive spacing.
+    pub fn new(
+        origin: [f64; 2],
+        spacing: [f64; 2],
+        nodes: [usize; 2],
+        heights: Vec<f64>,
+    ) -> Result<Self> {
+        let made = Self {
+            origin,
+            spacing,
+            nodes,
+            heights,
+        };
+        let made = made.checked();
+        made.map_err(|message| Error::argument("heights", message))
+    }
+
+    fn checked(self) -> Result<Self, String> {
+        let [nx, ny] = self.nodes;
+        if nx < 2 || ny < 2 || nx.checked_mul(ny) != Some(self.heights.len()) {
+            return Err(format!(
+                "it has {} heights for {nx} × {ny} nodes; a surface needs two along x and y",
+                self.heights.len()
+            ));
+        }
+        let positive = |spacing: &f64| *spacing > 0.0 && spacing.is_finite();
+        if !(self.spacing.iter().all(positive) && self.origin.iter().all(|x| x.is_finite())) {
+            let ([x, y], [dx, dy]) = (self.origin, self.spacing);
+            return Err(format!(
+                "its nodes begin at ({x}, {y}) and are {dx} and {dy} apart; give finite numbers and positive distances"
+            ));
+        }
+        Ok(self)
+    }
+
     /// Reads an XYZ file of a regular grid, an ESRI ASCII grid or a GeoTIFF; its unit becomes `scale` m and its origin goes to
     /// `translate` m.
     ///
@@ -49,16 +88,7 @@ impl Terrain {
             }
             _ => Err("a terrain is an .xyz, .asc or .tif file; convert it".into()),
         };
-        let mut made = read.map_err(refused)?;
-        let enough = made.nodes.iter().all(|&n| n >= 2)
-            && made.spacing.iter().all(|&s| s > 0.0 && s.is_finite())
-            && made.nodes[0] * made.nodes[1] == made.heights.len();
-        if !enough {
-            return Err(refused(format!(
-                "it has {} × {} nodes; a surface needs two along x and y",
-                made.nodes[0], made.nodes[1]
-            )));
-        }
+        let mut made = read.and_then(Self::checked).map_err(refused)?;
         for a in 0..2 {
             made.origin[a] = made.origin[a] * scale + translate[a];
             made.spacing[a] *= scale;

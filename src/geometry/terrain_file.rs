@@ -9,6 +9,8 @@ use tiff::{
 
 /// Distances that differ by less than this part of the spacing are the same.
 const REGULAR: f64 = 1e-3;
+/// Nodes of a grid for each that has a height: where there are more, the points are scattered.
+const SPARSE: usize = 100;
 
 /// x, y and z of each node in any order, in lines, between spaces, commas or semicolons; lines before the first that are not numbers are
 /// names, those that begin with # are comments.
@@ -62,6 +64,12 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
     };
     let ((dx, nx), (dy, ny)) = (axis("x", &xs)?, axis("y", &ys)?);
     let (x0, y0) = (xs[0], ys[0]);
+    if nx * ny > SPARSE * points.len() {
+        return Err(format!(
+            "its {} points are not on a regular grid: the least distances, {dx} and {dy}, would make one of {nx} × {ny} nodes; resample it",
+            points.len()
+        ));
+    }
     let mut heights = vec![f64::NAN; nx * ny];
     for [x, y, z] in &points {
         let place = |at: f64, first: f64, spacing: f64| {

@@ -180,6 +180,8 @@ fn terrain_that_is_none_is_refused() {
     refused(of("words.xyz", ""), &["words.xyz", "line 2"]);
     write("scattered.xyz", "0 0 1\n1 0 1\n0 1 1\n1.37 1 1\n");
     refused(of("scattered.xyz", ""), &["scattered.xyz", "resample"]);
+    write("sparse.xyz", "0 0 1\n0.01 0.01 1\n1 1 1\n2 2 1\n");
+    refused(of("sparse.xyz", ""), &["sparse.xyz", "regular grid"]);
     write("line.xyz", "0 0 1\n1 0 1\n");
     refused(of("line.xyz", ""), &["line.xyz", "the same y"]);
     write(
@@ -187,6 +189,12 @@ fn terrain_that_is_none_is_refused() {
         "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4 5\n",
     );
     refused(of("short.asc", ""), &["short.asc", "5 heights"]);
+    write(
+        "spacing.asc",
+        "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4\n",
+    );
+    refused(of("spacing.asc", ""), &["spacing.asc", "0 and 0 apart"]);
+    assert!(Terrain::new([0.0; 2], [1.0; 2], [2, 2], vec![0.0; 3]).is_err());
     write("header.asc", "ncols 3\nnrows 2\ncellsize 1\n1 2 3 4 5 6\n");
     refused(of("header.asc", ""), &["header.asc", "xllcorner"]);
     write("noise.tif", "no TIFF at all");

@@ -1,4 +1,4 @@
-// Gardner & Sitar 2018, eq. 8, of solids that stand still: the part of a cell that they fill, in the bricks that hold a surface.
+// Gardner & Sitar 2018, eq. 8, of solids at rest: the part of a cell that they fill, in the bricks that hold a surface.
 // needs $lanes, $bricks, $reals, workgroup
 
 // Of each brick its place in `surface_fractions`, from 1; 0 without a surface.

@@ -1,4 +1,4 @@
-// No cell is filled in part by a solid that stands still.
+// No cell is filled in part by a solid at rest.
 
 fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {
     return psm;

@@ -1,6 +1,6 @@
 //! What a fluid takes on a device, and over how many bindings it is spread.
 
-use super::{Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q};
+use super::{Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q, surface};
 use crate::{Error, Result, gpu::kernel::largest_binding};
 
 /// Bytes and bindings of a fluid.
@@ -199,7 +199,9 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         vectors,
         psm_planes,
     } = bindings;
+    let [slots, fractions] = surface::bytes(setup, grid);
     let others = [
+        (!setup.surface.is_empty(), slots + fractions),
         (setup.wale.is_some(), 24 * scalars),
         (!setup.is_all_fluid(), 4 * u64::from(grid.element_count())),
         (setup.wall_model.is_some(), 4 * scalars),
@@ -222,7 +224,10 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
             .filter(|(used, _)| *used)
             .map(|(_, bytes)| bytes)
             .sum(),
-        largest_binding: (direction * u64::from(Q.div_ceil(populations))).max(widest),
+        largest_binding: (direction * u64::from(Q.div_ceil(populations)))
+            .max(widest)
+            .max(slots)
+            .max(fractions),
         most_bindings: step.max(of_blocks),
     })
 }

@@ -52,6 +52,17 @@ fn marked<'a>(setup: &'a Setup, grid: &'a Grid) -> impl Iterator<Item = ([u32; 3
         .chain(own.map(move |surface| (at(surface.cell), surface.fraction)))
 }
 
+/// Bytes of what [`Surface`] has on a device: of the slots, and of the fractions.
+pub(super) fn bytes(setup: &Setup, grid: &Grid) -> [u64; 2] {
+    if setup.surface.is_empty() {
+        return [0; 2];
+    }
+    let product = |of: [u32; 3]| of.iter().map(|&n| u64::from(n)).product::<u64>();
+    let cells = product(grid.brick) * u64::from(grid.lanes);
+    let count = bricks(setup, grid).len() as u64;
+    [4 * product(grid.bricks()), 4 * count * cells]
+}
+
 impl Surface {
     /// Those of a setup; none without such cells.
     pub fn new(device: &wgpu::Device, setup: &Setup, grid: &Grid) -> Option<Self> {

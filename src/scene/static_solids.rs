@@ -101,9 +101,9 @@ impl Scene {
     /// The cells that the solids of the scene fill altogether.
     ///
     /// # Errors
-    /// Those of [`Scene::solid_cells`].
+    /// Those of [`Scene::solid_fractions`].
     pub fn solid_mask(&self) -> Result<Mask> {
-        Ok(self.solid_cells()?.mask)
+        Ok(self.solid_fractions()?.mask)
     }
 
     /// Roughness of each solid cell, m, x fastest; empty if all are smooth.

@@ -5,7 +5,12 @@ use kit::{
     Rig, assert_contains, assert_near,
     twin::of_setup::{layouts, noise, walled},
 };
-use riprap::lattice::{Collision, Face, Force, Lattice, Setup, SolidOperator, State, SurfaceCell};
+use riprap::{
+    lattice::{
+        Collision, Face, Force, Grid, Lattice, Setup, SolidOperator, State, SurfaceCell, memory,
+    },
+    wgpu,
+};
 
 /// A bump on the walls of every kind, with its surface in the fluid cells beside its solid ones.
 fn bumpy(lanes: u32, storage: riprap::lattice::Storage) -> Setup {
@@ -96,6 +101,22 @@ fn planes_along_the_grid_lie_where_they_should() {
             assert_near(0.5 * (8.0 - apparent), 0.0, 0.03);
         }
     }
+}
+
+#[test]
+fn what_a_surface_takes_is_counted() {
+    let limits = wgpu::Limits::default();
+    let mut setup = Setup::periodic([32, 4, 4], 0.1);
+    let of = |setup: &Setup| memory(setup, &Grid::new(setup).unwrap(), &limits).unwrap();
+    let before = of(&setup);
+    let cell = 16;
+    setup.surface = vec![SurfaceCell {
+        cell,
+        fraction: 0.5,
+    }];
+    let after = of(&setup);
+    // Eight bricks of 16 × 2 × 2 elements; the cell and its six neighbours lie in four of them. Elements have flags as well.
+    assert_eq!(after.others - before.others, 4 * (8 + 4 * 64 + 512));
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod formulas;
 mod particles;
 mod refusals;
 mod sampling;
-mod solid_cells;
+mod solid_fractions;
 mod solids;
 mod units;
 mod warnings;

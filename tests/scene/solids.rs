@@ -23,7 +23,7 @@ fn scratch(test: &str) -> PathBuf {
 }
 
 /// Writes triangles as binary STL.
-fn write_stl(path: &PathBuf, triangles: &[[DVec3; 3]]) {
+pub(crate) fn write_stl(path: &PathBuf, triangles: &[[DVec3; 3]]) {
     let faces: Vec<_> = triangles
         .iter()
         .map(|corners| stl_io::Triangle {
@@ -35,7 +35,7 @@ fn write_stl(path: &PathBuf, triangles: &[[DVec3; 3]]) {
 }
 
 /// The twelve triangles of a box, counter-clockwise seen from outside.
-fn cuboid(min: DVec3, max: DVec3) -> Vec<[DVec3; 3]> {
+pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for axis in 0..3 {
         for (end, outward) in [(min, false), (max, true)] {

@@ -7,7 +7,7 @@ use crate::{
         Storage, SurfaceCell, SyntheticTurbulence, WallModel,
     },
     psm::sphere_growth,
-    scene::{self, BodyForce, Boundary, Numerics, Scene, SolidCells},
+    scene::{self, BodyForce, Boundary, Numerics, Scene, SolidFractions},
     units::{SOUND_SPEED_SQUARED, Units},
 };
 
@@ -158,8 +158,8 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             Some(_) => SolidWeight::Standard,
         });
         let growth = sphere_growth(weight, setup.tau());
-        let SolidCells { mask, partly } = scene.solid_cells_grown(growth)?;
-        let cells = partly.into_iter();
+        let SolidFractions { mask, partial } = scene.solid_fractions_grown(growth)?;
+        let cells = partial.into_iter();
         setup.surface = cells
             .map(|(cell, fraction)| SurfaceCell { cell, fraction })
             .collect();

@@ -1,11 +1,11 @@
 //! Drag of a simple cubic array of spheres (Zick & Homsy 1982): F = 6πμaKU, F the whole force on a sphere and U
 //! the mean velocity over fluid and spheres.
 
-use super::periodic_flow::{Body, Drag, PeriodicFlow};
+use super::periodic_flow::{Body, Drag, PeriodicFlow, static_solids};
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{Method, Outcome, Record, Stand};
-use riprap::scene::{BlockShape, Rotation, Scene, Solid, SolidSurface};
-use std::{f64::consts::PI, path::Path};
+use riprap::scene::{BlockShape, Rotation, Solid, SolidSurface};
+use std::f64::consts::PI;
 
 /// Concentrations and K of their table 2.
 const K: [(f64, f64); 4] = [
@@ -147,20 +147,12 @@ fn static_sphere(edge: u32, radius: f64, surface: SolidSurface) -> anyhow::Resul
         SolidSurface::Exact => "exact",
         SolidSurface::Staircase => "staircase",
     };
-    let text = format!(
-        r#"
-        domain = {{ size = [{edge}, {edge}, {edge}], cell = 1 }}
-        fluid = {{ density = 1, viscosity = 1 }}
-        numerics = {{ time_step = 1 }}
-        run = {{ steps = 1 }}
-        [[solids]]
-        kind = "sphere"
-        center = [{middle}, {middle}, {middle}]
-        radius = {radius}
-        surface = "{kind}"
-        "#
-    );
-    Ok(Scene::from_toml(&text, Path::new("."), "sphere")?.solids)
+    static_solids(
+        edge,
+        &format!(
+            "kind = \"sphere\"\ncenter = [{middle}, {middle}, {middle}]\nradius = {radius}\nsurface = \"{kind}\""
+        ),
+    )
 }
 
 /// Spheres that are static solids, of 10 cells: exact ones as blocks, and staircases.

@@ -2,15 +2,14 @@
 
 use super::{
     array::{Array, USUAL},
-    periodic_flow::{Body, PeriodicFlow},
+    periodic_flow::{Body, PeriodicFlow, static_solids},
 };
 use crate::validate::{Method, Outcome, Stand, tank};
 use glam::DVec3;
 use riprap::{
     geometry::Polyhedron,
-    scene::{BlockShape, Rotation, Scene, Solid},
+    scene::{BlockShape, Rotation, Solid},
 };
-use std::path::Path;
 
 /// Places of the middle of a cube, from the corner of a cell, cells.
 const OFFSETS: [[f64; 3]; 4] = [
@@ -99,19 +98,10 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
 /// Solid cells where a cube is whose edge is half of `edge`.
 fn cells(edge: u32) -> anyhow::Result<Vec<Solid>> {
     let [low, high] = [0.25, 0.75].map(|part| part * f64::from(edge));
-    let text = format!(
-        r#"
-        domain = {{ size = [{edge}, {edge}, {edge}], cell = 1 }}
-        fluid = {{ density = 1, viscosity = 1 }}
-        numerics = {{ time_step = 1 }}
-        run = {{ steps = 1 }}
-        [[solids]]
-        kind = "box"
-        min = [{low}, {low}, {low}]
-        max = [{high}, {high}, {high}]
-        "#
-    );
-    Ok(Scene::from_toml(&text, Path::new("."), "cube")?.solids)
+    static_solids(
+        edge,
+        &format!("kind = \"box\"\nmin = [{low}, {low}, {low}]\nmax = [{high}, {high}, {high}]"),
+    )
 }
 
 /// An icosahedron whose faces are divided in four, with an eighth of the volume of the cube of `edge` cells.

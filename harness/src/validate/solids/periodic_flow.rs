@@ -4,8 +4,8 @@ use crate::validate::{
     Method, Stand, Trial,
     tank::{self, Tank, block, numbers},
 };
-use riprap::scene::{BlockShape, Motion, Rotation, Solid};
-use std::f64::consts::TAU;
+use riprap::scene::{BlockShape, Motion, Rotation, Scene, Solid};
+use std::{f64::consts::TAU, path::Path};
 
 /// U D/ν: the drag of inertia grows with its square and is below 1e-4 of the whole.
 const REYNOLDS: f64 = 0.05;
@@ -47,6 +47,15 @@ pub struct Drag {
     pub balance: f64,
     /// What was run.
     pub trial: Trial,
+}
+
+/// A static solid in a cube of `edge` cells, by its keys in a scene.
+pub fn static_solids(edge: u32, keys: &str) -> anyhow::Result<Vec<Solid>> {
+    let text = format!(
+        "domain = {{ size = [{edge}, {edge}, {edge}], cell = 1 }}\nfluid = {{ density = 1, viscosity = 1 }}\n\
+         numerics.time_step = 1\nrun.steps = 1\n[[solids]]\n{keys}"
+    );
+    Ok(Scene::from_toml(&text, Path::new("."), "solids")?.solids)
 }
 
 impl PeriodicFlow {

@@ -1,11 +1,14 @@
 //! Static solids where they are: the part of each cell that they fill, and terrain from the files of surveys.
 
-use crate::refused;
+use crate::{
+    refused,
+    solids::{cuboid, write_stl},
+};
 use kit::assert_near;
 use riprap::{
     Result,
     geometry::Terrain,
-    scene::{Scene, SolidCells},
+    scene::{Scene, SolidFractions},
 };
 use std::{
     fs,
@@ -20,14 +23,17 @@ fn scene(dir: &Path, solids: &str) -> Result<Scene> {
     Scene::from_toml(&text, dir, "bed.toml")
 }
 
-fn cells(solids: &str) -> SolidCells {
-    scene(Path::new(""), solids).unwrap().solid_cells().unwrap()
+fn cells(solids: &str) -> SolidFractions {
+    scene(Path::new(""), solids)
+        .unwrap()
+        .solid_fractions()
+        .unwrap()
 }
 
 /// Solid cells in all.
-fn volume(cells: &SolidCells) -> f64 {
-    let partly = cells.partly.iter().map(|(_, part)| f64::from(*part));
-    cells.mask.solid_count() as f64 + partly.sum::<f64>()
+fn volume(cells: &SolidFractions) -> f64 {
+    let partial = cells.partial.iter().map(|(_, part)| f64::from(*part));
+    cells.mask.solid_count() as f64 + partial.sum::<f64>()
 }
 
 #[test]
@@ -37,11 +43,11 @@ fn a_half_space_fills_what_is_below_its_plane() {
     );
     // The plane goes through the middle of the domain and meets its sides alone.
     assert_near(volume(&found), 0.5 * 960.0, 1e-3);
-    assert!(found.partly.len() > 120);
-    assert!(found.partly.is_sorted_by_key(|(cell, _)| *cell));
+    assert!(found.partial.len() > 120);
+    assert!(found.partial.is_sorted_by_key(|(cell, _)| *cell));
     let staircase =
         cells("[[solids]]\nkind = \"half_space\"\npoint = [0.6, 0.5, 0.4]\nnormal = [1, -0.5, 3]");
-    assert!(staircase.partly.is_empty());
+    assert!(staircase.partial.is_empty());
 }
 
 #[test]
@@ -53,6 +59,34 @@ fn a_box_along_the_grid_is_the_same_either_way() {
         "[[solids]]\nkind = \"box\"\nmin = [0.33, 0.1, 0]\nmax = [0.7, 0.6, 0.57]\nsurface = \"exact\"",
     );
     assert_near(volume(&shifted), 3.7 * 5.0 * 5.7, 1e-3);
+}
+
+/// Whichever way its triangles turn.
+#[test]
+fn a_mesh_of_a_box_fills_what_the_box_does() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("exact_mesh");
+    fs::create_dir_all(&dir).unwrap();
+    let (min, max) = (
+        [0.328125, 0.109375, 0.046875],
+        [0.7265625, 0.6015625, 0.5703125],
+    );
+    let triangles = cuboid(min.into(), max.into());
+    write_stl(&dir.join("out.stl"), &triangles);
+    let inside_out: Vec<_> = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+    write_stl(&dir.join("in.stl"), &inside_out);
+    let expected = cells(&format!(
+        "[[solids]]\nkind = \"box\"\nmin = {min:?}\nmax = {max:?}\nsurface = \"exact\""
+    ));
+    for file in ["out.stl", "in.stl"] {
+        let solids = format!("[[solids]]\nkind = \"mesh\"\nfile = \"{file}\"\nsurface = \"exact\"");
+        let found = scene(&dir, &solids).unwrap().solid_fractions().unwrap();
+        assert_eq!(found.mask, expected.mask);
+        assert_eq!(found.partial.len(), expected.partial.len());
+        for (found, expected) in found.partial.iter().zip(&expected.partial) {
+            assert_eq!(found.0, expected.0);
+            assert_near(found.1, expected.1, 1e-6);
+        }
+    }
 }
 
 #[test]
@@ -142,17 +176,17 @@ fn terrain_of_every_format_fills_what_is_below_its_heights() {
         };
         let solids =
             format!("[[solids]]\nkind = \"terrain\"\nfile = \"{file}\"\ntranslate = {translate}");
-        let found = scene(&dir, &solids).unwrap().solid_cells().unwrap();
+        let found = scene(&dir, &solids).unwrap().solid_fractions().unwrap();
         assert_near(volume(&found), expected, 1e-3 * expected);
         all.push(found);
         let staircase = scene(&dir, &format!("{solids}\nsurface = \"staircase\"")).unwrap();
-        let staircase = staircase.solid_cells().unwrap();
-        assert!(staircase.partly.is_empty());
+        let staircase = staircase.solid_fractions().unwrap();
+        assert!(staircase.partial.is_empty());
         assert_near(volume(&staircase), expected, 0.2 * expected);
     }
     assert!(
         all.iter()
-            .all(|cells| cells.partly.len() == all[0].partly.len())
+            .all(|cells| cells.partial.len() == all[0].partial.len())
     );
     let terrain = Terrain::read(&dir.join("bed.xyz"), 2.0, [0.5, 0.0, 1.0]).unwrap();
     // Half-way up the ridge, on the line between two rows.
@@ -171,7 +205,7 @@ fn terrain_that_is_none_is_refused() {
     let write = |name: &str, text: &str| fs::write(dir.join(name), text).unwrap();
     let of = |file: &str, more: &str| {
         let solids = format!("[[solids]]\nkind = \"terrain\"\nfile = \"{file}\"\n{more}");
-        scene(&dir, &solids).and_then(|scene| scene.solid_cells())
+        scene(&dir, &solids).and_then(|scene| scene.solid_fractions())
     };
     refused(of("none.xyz", ""), &["none.xyz", "check the path"]);
     write("bed.dem", "");

@@ -15,11 +15,11 @@ const LEAST_RADIUS: f64 = 2.0;
 
 /// What the solids of a scene fill.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SolidCells {
+pub struct SolidFractions {
     /// The cells that are solid altogether.
     pub mask: Mask,
     /// The places of those that are solid in part, x fastest, and that part, in ascending order.
-    pub partly: Vec<(u32, f32)>,
+    pub partial: Vec<(u32, f32)>,
 }
 
 impl Scene {
@@ -29,14 +29,14 @@ impl Scene {
     /// # Errors
     /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a part of
     /// the domain without heights, or no fluid is left.
-    pub fn solid_cells(&self) -> Result<SolidCells> {
-        self.solid_cells_grown(0.0)
+    pub fn solid_fractions(&self) -> Result<SolidFractions> {
+        self.solid_fractions_grown(0.0)
     }
 
     /// The same with spheres of R cells that have `growth`/R cells more in their radius, which the exact weight lacks on them.
-    pub(crate) fn solid_cells_grown(&self, growth: f64) -> Result<SolidCells> {
+    pub(crate) fn solid_fractions_grown(&self, growth: f64) -> Result<SolidFractions> {
         let mut mask = Mask::new(self.cells())?;
-        let mut partly = Vec::new();
+        let mut partial = Vec::new();
         if self.solids.iter().any(Solid::is_exact) {
             let mut filled = vec![0f32; mask.as_slice().len()];
             self.fill_solids(growth, |solid, cell, part| {
@@ -47,14 +47,15 @@ impl Scene {
                 };
             })?;
             let cells = self.domain.cells();
-            for (n, part) in (0..).zip(filled) {
+            let some = (0..).zip(filled).filter(|(_, part)| *part > 0.0);
+            for (n, part) in some {
                 let cell = place(cells, n);
-                // What leaves through a pressure face is carried on from the cells there, and grows in those with solid.
+                // An outflow face carries on what its cells have, and that grows in cells with solid.
                 let whole = if self.is_at_outlet(cell) { 0.5 } else { WHOLE };
                 if f64::from(part) >= 1.0 - whole {
                     mask.set(cell, true);
                 } else if f64::from(part) > whole {
-                    partly.push((n, part));
+                    partial.push((n, part));
                 }
             }
         } else {
@@ -67,7 +68,7 @@ impl Scene {
                  space by reversing its normal (it points out of the solid)",
             ));
         }
-        Ok(SolidCells { mask, partly })
+        Ok(SolidFractions { mask, partial })
     }
 
     /// Whether a pressure face is next to a cell.

@@ -2,9 +2,10 @@
 
 use super::{
     CellPass, Face, Grid, Lattice, Link, OpenFace, Setup,
+    buffers::{storage, wall_velocities},
     cell_kernels::CellDispatch,
     check::finite,
-    fluid::{Dispatch, face_name, storage, wall_velocities},
+    fluid::{Dispatch, face_name},
     stages::LAST_STAGE,
 };
 use crate::{Error, Result};

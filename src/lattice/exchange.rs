@@ -1,6 +1,10 @@
 //! Populations in canonical order: what a checkpoint holds.
 
-use super::{CellPass, Lattice, cell_kernels::uniform, fluid, fluid::GUARD_START};
+use super::{
+    CellPass, Lattice,
+    buffers::{self, GUARD_START},
+    cell_kernels::uniform,
+};
 use crate::{
     Error, Result,
     gpu::{kernel::Kernel, readback::Readback},
@@ -43,12 +47,12 @@ impl Lattice {
         queue: &wgpu::Queue,
     ) -> Result<Populations> {
         let cells = self.grid.cell_count();
-        let buffer = fluid::result_buffer(device, "canonical", 4 * cells as u64);
+        let buffer = buffers::result_buffer(device, "canonical", 4 * cells as u64);
         let mut readback = Readback::default();
         let mut values = Vec::with_capacity(27 * cells);
         let out = self.exchange(device, "take_out", 0)?;
         for q in 0..27u32 {
-            let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
+            let direction = buffers::storage(device, "direction", bytemuck::bytes_of(&q));
             let mut encoder = device.create_command_encoder(&Default::default());
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -169,8 +173,8 @@ impl Lattice {
             .map(|half| self.exchange(device, "bring_in", half))
             .collect::<Result<_>>()?;
         for (q, values) in (0..27u32).zip(state.values.chunks(cells)) {
-            let direction = fluid::storage(device, "direction", bytemuck::bytes_of(&q));
-            let buffer = fluid::storage(device, "canonical", bytemuck::cast_slice(values));
+            let direction = buffers::storage(device, "direction", bytemuck::bytes_of(&q));
+            let buffer = buffers::storage(device, "canonical", bytemuck::cast_slice(values));
             let mut encoder = device.create_command_encoder(&Default::default());
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());

@@ -1,6 +1,6 @@
 //! Reading the values of listed cells.
 
-use super::{Lattice, fluid};
+use super::{Lattice, buffers};
 use crate::{
     Error, Result,
     gpu::{kernel::Kernel, readback::Readback},
@@ -39,8 +39,8 @@ impl Gather {
             let message = format!("there is no cell {bad}, only {count}");
             return Err(Error::argument("cells", message));
         }
-        let list = fluid::storage(device, "listed cells", bytemuck::cast_slice(cells));
-        let out = fluid::result_buffer(device, "gathered", 4 * cells.len() as u64);
+        let list = buffers::storage(device, "listed cells", bytemuck::cast_slice(cells));
+        let out = buffers::result_buffer(device, "gathered", 4 * cells.len() as u64);
         let buffers = [
             ("gather_from", field),
             ("listed", &list),

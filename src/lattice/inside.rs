@@ -1,6 +1,6 @@
 //! Velocities in cells with solid, from one run to the next.
 
-use super::{Grid, Lattice, Observer, fluid::storage, observe::VELOCITY_OUT};
+use super::{Grid, Lattice, Observer, buffers::storage, observe::VELOCITY_OUT};
 use crate::{Error, Result, gpu::kernel::Kernel};
 use std::sync::Arc;
 

@@ -35,6 +35,7 @@
 //! ```
 
 mod boundary;
+mod buffers;
 mod bytes;
 mod cell_kernels;
 mod check;

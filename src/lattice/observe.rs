@@ -1,11 +1,8 @@
 //! Density, velocity and what follows from them: fields, sums, the guard.
 
 use super::{
-    CellPass, Lattice, State,
-    cell_kernels::CellDispatch,
-    fluid::{Dispatch, result_buffer},
-    gather::Gather,
-    inside::Kept,
+    CellPass, Lattice, State, buffers::result_buffer, cell_kernels::CellDispatch, fluid::Dispatch,
+    gather::Gather, inside::Kept,
 };
 use crate::{
     Error, Result,

@@ -1,6 +1,10 @@
 //! The first state of a fluid.
 
-use super::{CellPass, Lattice, cell_kernels::CellDispatch, fluid, fluid::GUARD_START};
+use super::{
+    CellPass, Lattice,
+    buffers::{self, GUARD_START},
+    cell_kernels::CellDispatch,
+};
 use crate::{Error, Result};
 
 /// Density and velocity on the domain cells, lattice units, x fastest.
@@ -58,7 +62,7 @@ impl Lattice {
         self.write_mean_velocities(queue);
         self.set_travelled(queue, &[]);
         let input =
-            |field: &[f32]| fluid::storage(device, "initial state", bytemuck::cast_slice(field));
+            |field: &[f32]| buffers::storage(device, "initial state", bytemuck::cast_slice(field));
         let density = input(&state.excess);
         let [x, y, z] = state.velocity.each_ref().map(|field| input(field));
         let buffers = [
@@ -114,7 +118,7 @@ impl Lattice {
             return;
         };
         let of = |n: usize| [0, 1, 2].map(|a: usize| velocity[a][n]);
-        let values = fluid::vectors(&self.grid, self.bindings.vectors, of);
+        let values = buffers::vectors(&self.grid, self.bindings.vectors, of);
         for (buffer, values) in buffers[self.parity()].iter().zip(values) {
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
         }

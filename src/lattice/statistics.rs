@@ -2,8 +2,9 @@
 
 use super::{
     CellPass, Lattice, Observer,
+    buffers::result_buffer,
     cell_kernels::{CellDispatch, uniform},
-    fluid::{Dispatch, result_buffer},
+    fluid::Dispatch,
     gather::Gather,
 };
 use crate::{

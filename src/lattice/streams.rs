@@ -2,7 +2,7 @@
 
 use super::{
     Bindings, Geometry, Grid, PSM_PLANES, Setup,
-    fluid::{Buffers, result_buffer, storage},
+    buffers::{Buffers, result_buffer, storage},
     program::{self, BrickKind},
     spread::{PSM_NAMES, planes},
 };

@@ -1,6 +1,6 @@
 //! Cells that solids at rest fill in part, as the device has them.
 
-use super::{C, Grid, Setup, fluid::storage};
+use super::{C, Grid, Setup, buffers::storage};
 
 /// In a fluid cell next to one that is filled in part.
 const NEAR: f32 = -1.0;

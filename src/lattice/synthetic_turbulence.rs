@@ -3,8 +3,9 @@
 use super::{
     Face, Grid, Lattice, MovingCell, Setup,
     boundary::cell_pass,
+    buffers::{moving_side, result_buffer, storage},
     cell_kernels::CellDispatch,
-    fluid::{Dispatch, in_plane, moving_side, result_buffer, storage},
+    fluid::{Dispatch, in_plane},
 };
 use crate::{
     Error, Result,

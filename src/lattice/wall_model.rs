@@ -3,8 +3,9 @@
 use super::{
     Grid, Lattice, Link, Setup,
     boundary::cell_pass,
+    buffers::{result_buffer, storage},
     cell_kernels::CellDispatch,
-    fluid::{Dispatch, in_plane, result_buffer, storage},
+    fluid::{Dispatch, in_plane},
     geometry::{Beyond, C, Survey, opposite},
 };
 use crate::{Result, gpu::kernel::largest_binding, gpu::readback::Readback};

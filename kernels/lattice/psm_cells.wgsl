@@ -3,11 +3,14 @@
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
 // needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface
 
-// Largest B in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations in
-// such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
-// the momentum between them. With this B fluid flows along the joint, and blocks slide on it: only the momentum of the solid
-// acts on the fluid there, so that its shear is that of its viscosity. As the joint opens, the cells become ordinary ones.
+// B of the momentum in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations
+// in such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
+// the momentum between them. With this B fluid flows along the joint, and blocks slide on it. As the joint opens, the cells
+// become ordinary ones; but while both faces are in a cell, B is at least this, since the weight of a cell without friction is zero.
 const JOINT_WEIGHT = 0.25;
+// The same for all other moments. Full cells throw back what leaves a joint, after two steps, and blocks feel it late: what nothing
+// damps here grows between blocks of few cells, with a period of four steps.
+const JOINT_DAMPING = 0.0625;
 
 struct PsmCell {
     // e, and the sum over the parts, of which each has its part of the force; more than 1 where blocks overlap.
@@ -18,6 +21,8 @@ struct PsmCell {
     adjacent: Mask,
     interior: Mask,
     joint: Mask,
+    // Whether several blocks meet in it.
+    several: Mask,
 }
 
 fn psm_cell(slot: u32, local: u32) -> PsmCell {
@@ -28,7 +33,7 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
         get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
     let fraction = get_reals(read_psm(PLANE_FRACTION, slot, local));
-    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint);
+    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint, sum.several);
     return with_surface(blocks, slot, local);
 }
 
@@ -80,8 +85,12 @@ fn collide_with_solid(
         lost = lost_to_wall(face, here, h, lost);
     }
     let joint = select(Real(0.0), closure, psm.joint | at_wall);
-    let closed = open + joint * (min(open, Real(JOINT_WEIGHT)) - open);
-    let weight = select(closed, Real(1.0), psm.interior);
+    // 1 from half a cell on that is full.
+    let in_one = select(Real(0.0), min(2.0 * e, Real(1.0)), psm.several);
+    let momentum = max(open, in_one * JOINT_WEIGHT);
+    let others = max(open, in_one * JOINT_DAMPING);
+    let weight = select(momentum + joint * (JOINT_WEIGHT - momentum), Real(1.0), psm.interior);
+    let higher = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;
     let excess = (*h)[0u];
     var s = equilibrium(rho, v);
@@ -101,7 +110,7 @@ fn collide_with_solid(
     write_psm(PLANE_G, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));
     write_psm(PLANE_G + 1u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
     write_psm(PLANE_G + 2u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
-    return SolidWeights(weight, (1.0 - joint) * weight);
+    return SolidWeights(weight, higher);
 }
 
 // Draws the change by the collision to that by the solid.

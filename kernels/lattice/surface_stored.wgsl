@@ -16,5 +16,6 @@ fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {
         psm.adjacent,
         psm.interior,
         psm.joint | (block & (e > Real(0.0))),
+        psm.several | (block & (e > Real(0.0))),
     );
 }

@@ -120,13 +120,14 @@ fn with_part(before: Sums, number: u32, tile: Tile, motion: Motion, place: u32) 
 fn write(lane: u32, place: u32, sums: Sums) {
     let shares = sums.solid.w;
     let some = shares > 0.0;
-    let closure = select(0.0, joint_closure(sums.fraction), sums.several && !sums.interior);
+    let several = sums.several && !sums.interior;
+    let closure = select(0.0, joint_closure(sums.fraction), several);
     let joint = closure > 0.0;
     let slot = lane / LANES_OF_ELEMENT;
     let at = place * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let all = sums.solid + closure * sums.touching;
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    write_psm(PLANE_SUM, slot, at, encode_sum(shares, sums.near, sums.interior, joint));
+    write_psm(PLANE_SUM, slot, at, encode_sum(shares, sums.near, sums.interior, joint, several));
     write_psm(PLANE_FRACTION, slot, at, min(max(sums.fraction, sums.largest), 1.0));
     write_psm(PLANE_VELOCITY, slot, at, u.x);
     write_psm(PLANE_VELOCITY + 1u, slot, at, u.y);

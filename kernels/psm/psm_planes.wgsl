@@ -15,8 +15,10 @@ const PLANE_FRACTION = 9u;
 
 // Added to the sum in a cell that is in the interior of one of the blocks.
 const INTERIOR_SUM = 8.0;
-// Added to the sum in a cell of a closed joint, in which several blocks meet.
+// Added to the sum in a cell of a joint that closes, in which several blocks meet.
 const JOINT_SUM = 16.0;
+// In place of that where they leave more of it.
+const SHARED_SUM = 32.0;
 // The sum of an empty cell next to one that is not.
 const NEAR_SUM = -1.0;
 
@@ -29,17 +31,21 @@ struct SolidSum {
     adjacent: Mask,
     interior: Mask,
     joint: Mask,
+    // Whether several blocks meet in it.
+    several: Mask,
 }
 
-fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask) -> Real {
-    let code = select(Real(0.0), Real(INTERIOR_SUM), interior) + select(Real(0.0), Real(JOINT_SUM), joint);
+fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask, several: Mask) -> Real {
+    let open = select(Real(0.0), Real(SHARED_SUM), several);
+    let code = select(select(open, Real(JOINT_SUM), joint), Real(INTERIOR_SUM), interior);
     let empty = select(Real(0.0), Real(NEAR_SUM), near);
     return select(empty, fraction + code, fraction > Real(0.0));
 }
 
 fn decode_sum(kept: Real) -> SolidSum {
-    let joint = kept >= Real(JOINT_SUM);
-    let interior = (kept >= Real(INTERIOR_SUM)) & !joint;
-    let sum = kept - select(select(Real(0.0), Real(INTERIOR_SUM), interior), Real(JOINT_SUM), joint);
-    return SolidSum(max(sum, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, joint);
+    let several = kept >= Real(JOINT_SUM);
+    let open = kept >= Real(SHARED_SUM);
+    let interior = (kept >= Real(INTERIOR_SUM)) & !several;
+    let code = select(select(Real(0.0), Real(INTERIOR_SUM), interior), select(Real(JOINT_SUM), Real(SHARED_SUM), open), several);
+    return SolidSum(max(kept - code, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, several & !open, several);
 }

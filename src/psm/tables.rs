@@ -17,6 +17,8 @@ pub const INTERIOR_SUM: f32 = 8.0;
 
 /// Added to it in a full cell of a closed joint, in which several blocks meet.
 pub const JOINT_SUM: f32 = 16.0;
+/// See the kernel.
+pub const SHARED_SUM: f32 = 32.0;
 
 /// Numbers that each cell of a brick with blocks has on the device.
 pub const PLANES: usize = crate::lattice::PSM_PLANES as usize;

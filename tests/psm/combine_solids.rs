@@ -7,8 +7,8 @@ use crate::{
 use glam::{DMat3, DVec3};
 use kit::{POISON, Random, Workbench, assert_near};
 use riprap::psm::{
-    INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, TOUCHES, Tile, WHOLE, Walk,
-    combine_parts, constants,
+    INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, SHARED_SUM, TOUCHES, Tile, WHOLE,
+    Walk, combine_parts, constants,
 };
 use std::collections::BTreeSet;
 
@@ -141,6 +141,7 @@ fn twin(
             let mean = (flux + tight * touching) / (sum + tight * touched);
             (sum + f64::from(JOINT_SUM), mean)
         }
+        (true, _) if met.len() > 1 => (sum + f64::from(SHARED_SUM), flux / sum),
         (true, _) => (sum, flux / sum),
         (false, true) => (f64::from(NEAR), DVec3::ZERO),
         (false, false) => (0.0, DVec3::ZERO),

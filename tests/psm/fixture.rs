@@ -75,17 +75,15 @@ fn random_solid(cell: usize) -> Solid {
     // Parts that are flush with each other have more shares than their planes leave.
     let flush = unit(6) > 0.5 && !deep;
     let fraction = f64::min(if flush { coarse(0.8 * shares) } else { shares }, 1.0);
+    let shared = unit(5) > 0.5 && !deep;
     Solid {
         fraction,
         shares,
         velocity: [2, 3, 4].map(|n| f64::from((0.02 * (unit(n) - 0.5)) as f32)),
         beside: false,
         deep,
-        tight: if !deep && unit(5) > 0.5 {
-            tightness(fraction)
-        } else {
-            0.0
-        },
+        tight: if shared { tightness(fraction) } else { 0.0 },
+        shared,
     }
 }
 
@@ -95,6 +93,7 @@ pub fn planes(solid: &Solid) -> [(usize, f32); 5] {
         Solid { beside: true, .. } => -1.0,
         Solid { deep: true, .. } => solid.shares + 8.0,
         Solid { tight, .. } if *tight > 0.0 => solid.shares + 16.0,
+        Solid { shared: true, .. } => solid.shares + 32.0,
         _ => solid.shares,
     };
     let [x, y, z] = solid.velocity;

@@ -125,6 +125,7 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
     solid.beside &= solid.shares == 0.0;
     if met.len() > 1 && !solid.deep {
         solid.tight = tightness(filled);
+        solid.shared = true;
     }
     if solid.shares > 0.0 {
         solid.velocity = (flux / solid.shares).to_array();

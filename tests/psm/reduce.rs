@@ -6,7 +6,9 @@ use crate::{
 };
 use glam::DVec3;
 use kit::{POISON, Random, Workbench};
-use riprap::psm::{JOINT_SUM, PLANES, WRENCH, Walk, constants, reduce_blocks, reduce_tiles};
+use riprap::psm::{
+    JOINT_SUM, PLANES, SHARED_SUM, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
+};
 
 const BLOCKS: u32 = 9;
 
@@ -47,7 +49,8 @@ impl Case {
                     let joint = noise.unit() > 0.7;
                     // Half of them are only half closed.
                     let sum = if noise.unit() > 0.5 { 1.0 } else { 0.951 };
-                    saturation[at(0)] = if joint { sum + JOINT_SUM } else { sum };
+                    let shared = if noise.unit() > 0.5 { SHARED_SUM } else { 0.0 };
+                    saturation[at(0)] = sum + if joint { JOINT_SUM } else { shared };
                     // Nobody may use the mean velocity elsewhere.
                     for plane in 1..4 {
                         let any = 0.1 * noise.unit() as f32;
@@ -89,7 +92,9 @@ impl Case {
                 let own = moving.at(point);
                 let mean = DVec3::new(at(1), at(2), at(3));
                 let u = match at(0) - f64::from(JOINT_SUM) {
-                    sum if sum >= 0.0 => own.lerp(mean, ((sum - 0.9) / 0.098).clamp(0.0, 1.0)),
+                    sum if (0.0..16.0).contains(&sum) => {
+                        own.lerp(mean, ((sum - 0.9) / 0.098).clamp(0.0, 1.0))
+                    }
                     _ => own,
                 };
                 let u = u.to_array();

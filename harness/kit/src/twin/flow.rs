@@ -208,12 +208,11 @@ impl Twin {
         let b = solid.weight(&self.config, tau);
         let change = self.solid_change(cell, solid.velocity, tau);
         let f = &self.f[cell];
-        let tight = if solid.deep { 0.0 } else { solid.tight };
-        let more: [f64; Q] = std::array::from_fn(|i| b * (change[i] - (fluid[i] - f[i])));
-        // In closed joints the momentum alone.
+        let others = solid.higher_weight(&self.config, tau);
+        let more: [f64; Q] = std::array::from_fn(|i| change[i] - (fluid[i] - f[i]));
         let momentum = [0, 1, 2].map(|a| (0..Q).map(|i| more[i] * f64::from(C[i][a])).sum::<f64>());
         std::array::from_fn(|i| {
-            fluid[i] + (1.0 - tight) * more[i] + tight * 3.0 * W[i] * c_dot(i, momentum)
+            fluid[i] + others * more[i] + (b - others) * 3.0 * W[i] * c_dot(i, momentum)
         })
     }
 

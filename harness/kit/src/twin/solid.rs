@@ -39,10 +39,14 @@ pub struct Solid {
     pub deep: bool,
     /// How closely blocks that meet in it, or one and a wall, fill it: [`tightness`], 0 where they do not.
     pub tight: f64,
+    /// Whether several blocks meet in it.
+    pub shared: bool,
 }
 
-/// Most of B in a full cell of a closed joint, through which water seeps.
+/// B in a cell of a closed joint, through which water seeps, and least B in one that blocks share.
 const SEEPS: f64 = 0.25;
+/// The same for all moments but mass and momentum.
+const DAMPS: f64 = 1.0 / 16.0;
 
 /// 1 for a closed joint, which leaves up to 0.002 of a cell, 0 for an open one, which leaves a tenth.
 pub fn tightness(share: f64) -> f64 {
@@ -55,11 +59,32 @@ impl Solid {
         self.beside || self.shares > 0.0
     }
 
-    /// B at the relaxation time `tau`; 1 deep inside, at most a quarter in closed joints. In an open cell ε (τ − ½) / ((1 − ε) +
-    /// (τ − ½)), or that of docs/src/theory/solids.md.
+    /// B of the momentum at the relaxation time `tau`: 1 deep inside, a quarter in closed joints and no less in a cell that blocks
+    /// fill by half and share. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of docs/src/theory/solids.md.
     pub fn weight(&self, config: &Config, tau: f64) -> f64 {
+        self.in_joint(config, tau, SEEPS)
+    }
+
+    /// The same for all moments but mass and momentum.
+    pub fn higher_weight(&self, config: &Config, tau: f64) -> f64 {
+        self.in_joint(config, tau, DAMPS)
+    }
+
+    fn in_joint(&self, config: &Config, tau: f64, closed: f64) -> f64 {
+        if self.deep {
+            return 1.0;
+        }
+        let least = if self.shared {
+            (2.0 * self.fraction).min(1.0) * closed
+        } else {
+            0.0
+        };
+        (1.0 - self.tight) * self.open_weight(config, tau).max(least) + self.tight * closed
+    }
+
+    fn open_weight(&self, config: &Config, tau: f64) -> f64 {
         let (e, excess) = (self.fraction, tau - 0.5);
-        let open = match config.solid_weight {
+        match config.solid_weight {
             SolidWeight::Standard => e * excess / ((1.0 - e) + excess),
             SolidWeight::Exact => {
                 let s = third_order_rate(config, tau);
@@ -67,10 +92,6 @@ impl Solid {
                 let b = s * (1.0 + 2.0 * x) - 3.0 * (2.0 - s) * e;
                 2.0 * s * e / (b + (b * b + 12.0 * (2.0 - s) * (1.0 + x) * s * e).sqrt())
             }
-        };
-        match self.deep {
-            true => 1.0,
-            false => (1.0 - self.tight) * open + self.tight * open.min(SEEPS),
         }
     }
 

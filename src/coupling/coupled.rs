@@ -8,7 +8,10 @@ use crate::{
     Result,
     lattice::{Lattice, State},
     psm::{CellWork, NearCell, SolidBlock, SolidCells, imaged, near_cells, outline},
-    rock::{Block, Blocks, Motion, law::Film},
+    rock::{
+        Block, Blocks, Motion,
+        law::{Film, LoadDelay},
+    },
     scene::{Advice, Boundary, Domain, Face, Scene, Warning, build::BlockSetup},
     units::Units,
 };
@@ -339,7 +342,27 @@ const CURVED_GAP: f64 = 2.0 / 3.0;
 /// a cell, 0.21 at half a cell, and 0.04 at a quarter.
 const PLANE_GAP: f64 = 0.8;
 
-/// The lubrication film in unresolved gaps; `None` without `coupling.lubrication`, and for an inviscid fluid.
+/// Gap of plane faces, cells, below which both may lie in a cell, whose water then is a spring between them.
+const SHARED_CELL: f64 = 1.0;
+/// Exchanges over which velocities are averaged: nearly a period of the oscillations that late loads would drive, 20 steps
+/// for blocks three cells thick.
+const DELAY_MEMORY: f64 = 16.0;
+
+/// What the loads of a lattice lack in shared cells because blocks feel them late. Pressure answers to a constant velocity of the
+/// blocks in the middle of an exchange; the loads are those before a step, so half a step later, and half a step
+/// more where the mean of two is taken.
+fn load_delay(scene: &Scene, units: &Units) -> LoadDelay {
+    let interval = f64::from(scene.coupling.interval);
+    let steps = 0.5 * interval + if scene.coupling.average { 1.0 } else { 0.5 };
+    LoadDelay {
+        // ρ c² t/Δx with c² = (Δx/Δt)²/3.
+        impedance: scene.fluid.density * units.cell / units.time_step * steps / 3.0,
+        range: SHARED_CELL * units.cell,
+        memory: DELAY_MEMORY * interval * units.time_step,
+    }
+}
+
+/// The film in unresolved gaps; `None` without `coupling.lubrication`.
 fn lubrication_film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Film> {
     let faces = scene.boundaries.iter();
     let free_slip = faces.filter(|(_, boundary)| matches!(boundary, Boundary::FreeSlip));
@@ -348,12 +371,12 @@ fn lubrication_film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Fi
         .filter_map(|name| blocks.iter().position(|block| block.name == name))
         .collect();
     slip.sort_unstable();
-    let viscous = scene.fluid.viscosity > 0.0;
-    (scene.coupling.lubrication && viscous).then_some(Film {
+    scene.coupling.lubrication.then_some(Film {
         viscosity: scene.fluid.density * scene.fluid.viscosity,
         round: CURVED_GAP * units.cell,
         flat: PLANE_GAP * units.cell,
         roughness: ROUGHNESS * units.cell,
+        delay: Some(load_delay(scene, units)),
         slip,
     })
 }

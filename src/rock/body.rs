@@ -140,6 +140,8 @@ pub(super) struct State {
     pub load: DVec3,
     /// External torque, N m.
     pub load_torque: DVec3,
+    /// Mean velocity and spin over the time that [`LoadDelay`](super::law::LoadDelay) says; else as at the start.
+    pub mean: [DVec3; 2],
     /// Time for which it has been slow, s.
     pub slow: f64,
     pub asleep: bool,
@@ -189,6 +191,14 @@ impl State {
         if self.asleep && changed {
             self.asleep = false;
             self.slow = 0.0;
+        }
+    }
+
+    /// Updates the means over the time `memory` (s) at the end of a step of `dt` (s).
+    pub fn update_mean(&mut self, memory: f64, dt: f64) {
+        let share = dt / (memory + dt);
+        for (mean, now) in self.mean.iter_mut().zip([self.velocity, self.spin]) {
+            *mean += share * (now - *mean);
         }
     }
 
@@ -385,6 +395,7 @@ fn start(body: &Body, block: &Block) -> State {
         Drive::Nothing => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
         Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
     }
+    state.mean = [state.velocity, state.spin];
     state
 }
 

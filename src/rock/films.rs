@@ -3,7 +3,8 @@
 //! A film takes from the relative motion u of a pair along one direction at the rate c u, with c that grows beyond
 //! all bounds as the gap closes. Its impulses are those of the implicit Euler step for all films together,
 //! λ = −c (Δt/2) u(λ), on the velocities in the middle of a step and on those at its end: whatever the step, they are
-//! equal and opposite, take energy only, and let a load W press a gap together at W/c.
+//! equal and opposite, take energy only, and let a load W press a gap together at W/c. The part of c that stands for loads
+//! that come late (see [`law::LoadDelay`]) acts on u less its mean over the last steps.
 
 use super::{
     Body,
@@ -34,6 +35,8 @@ pub(super) struct Film {
     pub arms: [DVec3; 2],
     /// N s/m, or N m s.
     pub resistance: f64,
+    /// Its part that acts on changes of the velocity only.
+    pub delayed: f64,
 }
 
 impl Film {
@@ -49,21 +52,30 @@ impl Film {
         // Where fluid slips along one side of a gap, twice as wide a one would be symmetric about it.
         let share = if slips[0] == slips[1] { 1.0 } else { 0.25 };
         let normal = thin_gap.normal;
+        let delay = law.delay.map(|delay| delay.resistance(thin_gap));
+        let (delayed, delayed_tilts) = delay.unwrap_or_default();
         let pushed = Self {
             blocks,
             normal,
             arms: centres.map(|centre| (thin_gap.point - centre).cross(normal)),
-            resistance: share * law.resistance(thin_gap),
+            resistance: share * law.resistance(thin_gap) + delayed,
+            delayed,
         };
         let tilts = law.tilting(thin_gap);
         let tilted = (0..2).map(move |k| Self {
             blocks,
             normal: DVec3::ZERO,
             arms: [thin_gap.axis(k); 2],
-            resistance: share * tilts[k],
+            resistance: share * tilts[k] + delayed_tilts[k],
+            delayed: delayed_tilts[k],
         });
         let all = std::iter::once(pushed).chain(tilted.collect::<Vec<_>>());
         all.filter(|film| film.resistance > 0.0)
+    }
+
+    /// Velocity, or rate of tilt, at which its gap opens, of the velocities and spins of the two blocks.
+    fn opening(&self, [[v, spin], [other_v, other_spin]]: [[DVec3; 2]; 2]) -> f64 {
+        self.normal.dot(other_v - v) + self.arms[1].dot(other_spin) - self.arms[0].dot(spin)
     }
 }
 
@@ -84,6 +96,8 @@ struct FilmBody {
     block: usize,
     velocity: DVec3,
     spin: DVec3,
+    /// Mean velocity and spin over the last steps.
+    mean: [DVec3; 2],
     /// 1/kg; 0 of what impulses do not move.
     inverse_mass: f64,
     /// Change of velocity and spin by a direction of the impulses.
@@ -91,7 +105,7 @@ struct FilmBody {
     push: FilmImpulse,
 }
 
-/// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −u, κ = c Δt/2, solved by conjugate gradients, whose every step takes
+/// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −(u − s ū), κ = c Δt/2, s being the delayed part of c and ū the mean velocity, solved by conjugate gradients, whose every step takes
 /// energy (Hestenes & Stiefel 1952).
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -100,6 +114,8 @@ struct Row {
     ends: [usize; 2],
     /// Relative velocity at the start of the half step.
     before: f64,
+    /// What of that its resistance does not act on.
+    steady: f64,
     /// What a unit of impulse does to the spin of each block.
     spin_response: [DVec3; 2],
     /// Its place on the diagonal, without 1/κ.
@@ -199,6 +215,7 @@ impl Films {
                     .blocks
                     .map(|block| self.film_body(block as usize, bodies, states)),
                 before: 0.0,
+                steady: 0.0,
                 spin_response: [DVec3::ZERO; 2],
                 yielding: 0.0,
                 impulse: 0.0,
@@ -221,6 +238,8 @@ impl Films {
                 }
             }
             row.before = self.relative(&row);
+            let means = row.ends.map(|end| self.film_bodies[end].mean);
+            row.steady = film.delayed / film.resistance * film.opening(means);
             self.rows.push(row);
         }
     }
@@ -242,6 +261,7 @@ impl Films {
                     true => integrate::spin(&body.inertia, state.rotation, state.momentum),
                     false => state.spin,
                 },
+                mean: state.mean,
                 inverse_mass,
                 ..FilmBody::default()
             });
@@ -251,9 +271,9 @@ impl Films {
 
     /// Velocity, or rate of tilt, at which the gap of a film opens.
     fn relative(&self, row: &Row) -> f64 {
-        let [a, b] = row.ends.map(|end| &self.film_bodies[end]);
-        let Film { normal, arms, .. } = row.film;
-        normal.dot(b.velocity - a.velocity) + arms[1].dot(b.spin) - arms[0].dot(a.spin)
+        let ends = row.ends.map(|end| &self.film_bodies[end]);
+        row.film
+            .opening(ends.map(|body| [body.velocity, body.spin]))
     }
 
     /// Solves for the impulses of half a step, and returns the energy that they take, J.
@@ -266,8 +286,9 @@ impl Films {
         let diagonal = |row: &Row| row.yielding + 1.0 / (row.film.resistance * half);
         let mut size = 0.0;
         for n in 0..self.rows.len() {
-            let residual = -self.relative(&self.rows[n]);
+            let relative = self.relative(&self.rows[n]);
             let row = &mut self.rows[n];
+            let residual = row.steady - relative;
             (row.residual, row.impulse) = (residual, 0.0);
             row.direction = residual / diagonal(row);
             size += residual * row.direction;

@@ -208,6 +208,11 @@ impl Blocks {
         self.deforming
             .second_kick(&self.bodies, params, &mut self.states);
         self.film_work += self.films.second_half(&self.bodies, &mut self.states);
+        if let Some(delay) = self.film.as_ref().and_then(|film| film.delay) {
+            let moving = self.bodies.iter().zip(&mut self.states);
+            let moving = moving.filter(|(body, _)| !body.is_fixed());
+            moving.for_each(|(_, state)| state.update_mean(delay.memory, dt));
+        }
         self.wake_by_films();
         self.work_sums.film += self.film_work;
         self.add_work(params);

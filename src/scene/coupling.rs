@@ -25,7 +25,8 @@ pub struct Coupling {
     pub hold: f64,
     /// Whether rigid blocks less than a cell from each other, from solids and from walls feel what the grid does not
     /// resolve of the fluid between them: the resistance of a film that is squeezed out, by lubrication theory with
-    /// the viscosity of the fluid, down to gaps of a tenth of a cell. Only on the lattice: particles have none.
+    /// the viscosity of the fluid, down to gaps of a tenth of a cell; and what loads that come late lack between faces. Only on the
+    /// lattice: particles have none.
     /// Default true.
     pub lubrication: bool,
 }

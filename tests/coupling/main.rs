@@ -8,6 +8,7 @@ mod faults;
 mod fixture;
 mod inlets;
 mod joint_seal;
+mod joint_stability;
 mod periodic_images;
 mod places;
 mod processors;

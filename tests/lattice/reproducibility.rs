@@ -216,7 +216,7 @@ fn broken_checkpoints_are_refused() {
         (&bytes[..14], "cut short"),
         (&bytes[..3], "not a checkpoint"),
         (&changed(middle, !bytes[middle]), "damaged"),
-        (&changed(17, 11), "version 11 of its format"),
+        (&changed(17, 12), "version 12 of its format"),
         (&b"riprap state  4\n"[..], "version 4 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {

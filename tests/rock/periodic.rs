@@ -40,6 +40,7 @@ fn strike(at: DVec3, period: Option<Period>) -> Setup {
             round: 0.05,
             flat: 0.05,
             roughness: 1e-3,
+            delay: None,
             slip: Vec::new(),
         }),
         ..setup(vec![left, right, ball], joint(3e7, 30.0))

@@ -35,6 +35,10 @@ pub enum GapShape {
     },
     /// Two faces.
     Flat {
+        /// Area that faces the gap, m².
+        area: f64,
+        /// Second moments of this area about each axis, m⁴.
+        moments: [f64; 2],
         /// Torsion constant J of the area that faces the gap, m⁴: πR⁴/2 of a disc.
         torsion: f64,
         /// Axes in the plane about which the gap may tilt.
@@ -230,6 +234,8 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<ThinGap> {
         point: face_pair.lift(seconds.centre) + face_pair.out * (0.5 * gap),
         gap,
         shape: GapShape::Flat {
+            area,
+            moments: [large, least],
             // St. Venant's A⁴/(4π² I_p), exact for ellipses, 8 % too much for a square, 9 % too little for a strip.
             torsion: area.powi(4) / (4.0 * PI * PI * (large + least)),
             axes: [face_pair.out.cross(along), along],
@@ -291,6 +297,8 @@ mod tests {
         );
         assert!((found.gap - 0.1).abs() < 1e-12);
         let GapShape::Flat {
+            area,
+            moments,
             torsion,
             axes,
             tilts,
@@ -300,6 +308,9 @@ mod tests {
             panic!("{found:?}");
         };
         let polar = (1.5 * 8.0 + 2.0 * 1.5f64.powi(3)) / 12.0;
+        assert!((area - 3.0).abs() < 1e-12);
+        // About x, along which the area is short, and about y.
+        assert!((moments[0] - 1.0).abs() < 1e-12 && (moments[1] - 0.5625).abs() < 1e-12);
         assert!((torsion - 81.0 / (4.0 * PI * PI * polar)).abs() < 1e-12);
         assert_eq!(flatness, 1.0);
         // The longer side is along y: a tilt about x is resisted most.

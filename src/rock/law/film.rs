@@ -2,6 +2,7 @@
 //! nothing narrower than h₀: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
 //! less its value at that gap (Nguyen & Ladd 2002, Phys. Rev. E 66:046708).
 
+use super::LoadDelay;
 use crate::{
     Error, Result,
     rock::contact::{GapShape, ThinGap},
@@ -11,7 +12,7 @@ use std::f64::consts::PI;
 /// A fluid between blocks whose flow in thin gaps is not resolved by the fluid solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// Dynamic viscosity μ, Pa s.
+    /// Dynamic viscosity μ, Pa s; 0 without friction.
     pub viscosity: f64,
     /// Gap h₀ from which on the flow is resolved where one side is a sphere, m.
     pub round: f64,
@@ -19,6 +20,8 @@ pub struct Film {
     pub flat: f64,
     /// Gap below which the resistance no longer grows, the roughness of the faces, m.
     pub roughness: f64,
+    /// Of the loads of the fluid; `None` if they come at once.
+    pub delay: Option<LoadDelay>,
     /// Blocks along which the fluid slips, ascending: between one of them and another the resistance is a quarter.
     pub slip: Vec<usize>,
 }
@@ -29,8 +32,11 @@ impl Film {
     /// # Errors
     /// [`Error::Argument`] naming the number and its range.
     pub fn check(&self) -> Result<()> {
+        if !(self.viscosity >= 0.0 && self.viscosity.is_finite()) {
+            let message = format!("{} must not be negative Pa s", self.viscosity);
+            return Err(Error::argument("film.viscosity", message));
+        }
         for (name, value, unit) in [
-            ("viscosity", self.viscosity, "Pa s"),
             ("round", self.round, "m"),
             ("flat", self.flat, "m"),
             ("roughness", self.roughness, "m"),
@@ -40,12 +46,13 @@ impl Film {
                 return Err(Error::argument(format!("film.{name}"), message));
             }
         }
-        Ok(())
+        self.delay.iter().try_for_each(LoadDelay::check)
     }
 
     /// Widest gap that is looked at, m.
     pub fn reach(&self) -> f64 {
-        self.round.max(self.flat)
+        let delay = self.delay.map_or(0.0, |delay| delay.range);
+        self.round.max(self.flat).max(delay)
     }
 
     /// Normal force over the velocity at which the gap closes, N s/m: 6πμR²(1/h − 1/h₀) of spheres,
@@ -97,6 +104,7 @@ mod tests {
             round: 1.0,
             flat: 1.0,
             roughness: 1e-3,
+            delay: None,
             slip: Vec::new(),
         }
     }
@@ -148,6 +156,8 @@ mod tests {
     fn discs_meet_reynolds() {
         let (film, r, h) = (film(), 8.0f64, 0.1f64);
         let shape = GapShape::Flat {
+            area: PI * r * r,
+            moments: [0.25 * PI * r.powi(4); 2],
             torsion: 0.5 * PI * r.powi(4),
             axes: [DVec3::X, DVec3::Y],
             tilts: [PI / 8.0 * r.powi(6); 2],

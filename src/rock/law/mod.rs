@@ -4,6 +4,7 @@
 mod elastic;
 mod film;
 mod hart;
+mod load_delay;
 
 pub(crate) use crate::geometry::inner;
 pub(crate) use elastic::trace;
@@ -13,3 +14,4 @@ pub use hart::{
     Force, History, Joint, LARGEST_SHARE, Motion, Section, Stiffness, USUAL_SHARE, force,
     longest_step,
 };
+pub use load_delay::LoadDelay;

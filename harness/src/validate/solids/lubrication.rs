@@ -96,6 +96,7 @@ impl Body {
             round: 2.0 / 3.0,
             flat: 0.8,
             roughness: 0.1,
+            delay: None,
             slip: Vec::new(),
         };
         let cuboid = |size: f64, z: f64| -> anyhow::Result<Placed> {

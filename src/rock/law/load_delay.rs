@@ -1,0 +1,59 @@
+//! Loads of a fluid that come late: what they lack in the film between two faces.
+//!
+//! A fluid that is advanced in turns with its blocks returns the loads of a step when it is over. Water in a joint is stiff:
+//! a gap that closes by dh raises its pressure by ρ c² dh/H, H being the thickness of the water that is compressed. A
+//! spring k whose force comes late by t_d pushes in the direction of the motion, F = −k x(t − t_d) ≈ −k x + k t_d dx/dt, and the blocks on
+//! its sides oscillate with a growth rate of k t_d/2m: about as fast as the waves in it for blocks a few cells thick. The damping
+//! k t_d cancels this. It is due only while the pressure follows the gap; where water flows out of a gap as fast as it
+//! closes, the pressure stays, and its delay means nothing. So it acts on the velocity less a mean over the last steps.
+
+use super::super::contact::{GapShape, ThinGap};
+use crate::{Error, Result};
+
+/// The loads of a fluid that come late.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadDelay {
+    /// Pressure that the loads lack, over the velocity at which a gap closes, Pa s/m: ρ c² t_d/H.
+    pub impedance: f64,
+    /// Gap from which on they lack nothing, m. From its half on they lack ever less.
+    pub range: f64,
+    /// Time over which velocities are averaged, s.
+    pub memory: f64,
+}
+
+impl LoadDelay {
+    /// Whether the numbers can be computed with.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] naming the number and its range.
+    pub fn check(&self) -> Result<()> {
+        for (name, value, unit) in [
+            ("impedance", self.impedance, "Pa s/m"),
+            ("range", self.range, "m"),
+            ("memory", self.memory, "s"),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                let message = format!("{value} must be greater than 0 {unit}");
+                return Err(Error::argument(format!("film.delay.{name}"), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Normal force over the velocity at which the gap closes, N s/m, and moment over the rate at which it tilts about each
+    /// axis, N m s; zero where one side is a sphere.
+    pub fn resistance(&self, thin_gap: &ThinGap) -> (f64, [f64; 2]) {
+        let GapShape::Flat {
+            area,
+            moments,
+            flatness,
+            ..
+        } = &thin_gap.shape
+        else {
+            return (0.0, [0.0; 2]);
+        };
+        let share = (2.0 - 2.0 * thin_gap.gap / self.range).clamp(0.0, 1.0);
+        let pressure = self.impedance * flatness * share;
+        (pressure * area, moments.map(|moment| pressure * moment))
+    }
+}

@@ -1,0 +1,74 @@
+//! Blocks a few cells thick in water of hardly any viscosity come to rest in their joints, closed or thinner than a cell. Full
+//! cells throw back what leaves a joint, and loads come late: what nothing damps grows, until the water in the joint is faster
+//! than sound.
+
+use crate::fixture::World;
+
+/// Water of 1e-5 m²/s in cells of 0.05 m and steps of 0.48 ms, and rock of 2650 kg/m³.
+fn water(size: [f64; 3], gravity: f64, more: &str) -> World {
+    World::new(&format!(
+        r#"
+        domain = {{ size = {size:?}, cell = 0.05 }}
+        fluid = {{ viscosity = 1e-5 }}
+        numerics = {{ velocity_scale = 6 }}
+        rock = {{ gravity = [0, 0, {gravity}] }}
+        run = {{ steps = 1 }}
+        materials = [{{ name = "rock", density = 2650, normal_stiffness = 4e8, friction = 35, damping = 0.2 }}]
+        {more}"#
+    ))
+}
+
+fn block(size: [f64; 3], position: [f64; 3], velocity: [f64; 3]) -> String {
+    format!(
+        "[[blocks]]\nkind = \"box\"\nsize = {size:?}\nposition = {position:?}\nvelocity = {velocity:?}\n"
+    )
+}
+
+/// Speed of the fastest of so many blocks, m/s.
+fn fastest(world: &World, blocks: usize) -> f64 {
+    let speeds = (0..blocks).map(|n| world.velocity(n).length());
+    speeds.fold(0.0, f64::max)
+}
+
+/// Both faces lie in one row of cells. Loads that come late and water between full cells, which nothing but the joint damps, each
+/// would drive the plates apart at 10 m/s.
+#[test]
+fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {
+    let (gap, thickness) = (0.015, 0.1);
+    let plate = |side: f64| {
+        let y = 0.525 + 0.5 * side * (thickness + gap);
+        block(
+            [0.6, thickness, 0.6],
+            [0.5, y, 0.5],
+            [0.0, 0.02 * side, 0.0],
+        )
+    };
+    let mut world = water([1.0; 3], 0.0, &(plate(-1.0) + &plate(1.0)));
+    world.advance(900);
+    let speed = fastest(&world, 2);
+    println!("{speed} m/s");
+    assert!(speed < 1e-3, "{speed}");
+}
+
+/// Nine cubes of four cells on a floor, each kicked in another direction.
+#[test]
+fn blocks_of_a_jointed_slab_come_to_rest() {
+    let mut scene = String::from(
+        r#"
+        [boundaries]
+        z_min = { kind = "wall" }
+        z_max = { kind = "free_slip" }
+        "#,
+    );
+    for n in 0..9 {
+        let [x, y] = [n % 3, n / 3].map(|k| 0.325 + 0.2 * f64::from(k));
+        let phase = 2.3 * f64::from(n);
+        let kick = [phase.sin(), phase.cos(), 0.3].map(|v| 0.08 * v);
+        scene += &block([0.2; 3], [x, y, 0.1], kick);
+    }
+    let mut world = water([1.0, 1.0, 0.5], -9.81, &scene);
+    world.advance(500);
+    let speed = fastest(&world, 9);
+    println!("{speed} m/s");
+    assert!(speed < 1e-3, "{speed}");
+}

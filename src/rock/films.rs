@@ -4,7 +4,7 @@
 //! all bounds as the gap closes. Its impulses are those of the implicit Euler step for all films together,
 //! λ = −c (Δt/2) u(λ), on the velocities in the middle of a step and on those at its end: whatever the step, they are
 //! equal and opposite, take energy only, and let a load W press a gap together at W/c. The part of c that stands for loads
-//! that come late (see [`law::LoadDelay`]) acts on u less its mean over the last steps.
+//! that come late (see [`law::LoadDelay`]) acts on u less its mean over the last steps, and may give energy for that long.
 
 use super::{
     Body,
@@ -105,8 +105,8 @@ struct FilmBody {
     push: FilmImpulse,
 }
 
-/// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −(u − s ū), κ = c Δt/2, s being the delayed part of c and ū the mean velocity, solved by conjugate gradients, whose every step takes
-/// energy (Hestenes & Stiefel 1952).
+/// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −(u − s ū), κ = c Δt/2, s being the delayed share of c and ū the mean velocity, solved
+/// by conjugate gradients (Hestenes & Stiefel 1952).
 #[derive(Clone, Copy, Debug)]
 struct Row {
     film: Film,

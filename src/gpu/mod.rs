@@ -40,7 +40,7 @@
 //! ```
 
 pub mod bins;
-pub(crate) mod filled;
+pub(crate) mod buffers;
 pub mod kernel;
 pub mod layout;
 pub mod link;

@@ -11,7 +11,7 @@ use super::{
     synthetic_turbulence::Inlet,
     wall_model::WallPart,
 };
-use crate::gpu::filled::filled;
+use crate::gpu::buffers::{filled, zeroed};
 
 /// The device memory of a fluid; what a setup does not use is not there.
 #[derive(Debug)]
@@ -93,18 +93,6 @@ pub(super) fn storage(device: &wgpu::Device, label: &str, contents: &[u8]) -> wg
     filled(device, label, contents, usage)
 }
 
-/// A storage buffer that can be read back.
-pub(super) fn result_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: bytes,
-        usage: wgpu::BufferUsages::STORAGE
-            | wgpu::BufferUsages::COPY_DST
-            | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    })
-}
-
 /// Those of a setup.
 pub(super) fn make_buffers(
     device: &wgpu::Device,
@@ -118,7 +106,7 @@ pub(super) fn make_buffers(
     let spread = |label, count, bindings, bytes| {
         let planes = planes(count, bindings).into_iter();
         planes
-            .map(|own| result_buffer(device, label, own.len() as u64 * bytes))
+            .map(|own| zeroed(device, label, own.len() as u64 * bytes))
             .collect::<Vec<_>>()
     };
     let populations = spread(
@@ -158,7 +146,7 @@ pub(super) fn make_buffers(
         // A face that solids close entirely keeps one entry that no direction enters.
         let none = [FaceCell::default()];
         let cells = if cells.is_empty() { &none[..] } else { cells };
-        let carried = result_buffer(device, "carried", 108 * cells.len() as u64);
+        let carried = zeroed(device, "carried", 108 * cells.len() as u64);
         (
             storage(device, "face cells", bytemuck::cast_slice(cells)),
             carried,
@@ -199,15 +187,14 @@ pub(super) fn make_buffers(
             )
         }),
         inlets: Inlet::all(device, setup, grid, &geometry.moving),
-        // New buffers hold zeros.
         near_wall_viscosity: setup
             .wall_model
-            .map(|_| result_buffer(device, "near-wall viscosity", 4 * scalars)),
+            .map(|_| zeroed(device, "near-wall viscosity", 4 * scalars)),
         surface: Surface::new(device, setup, grid),
         walls: WallPart::all(device, setup, &geometry.walls),
         psm_slots: (setup.wall_model.is_some() && setup.solid_operator.is_some()).then(|| {
             let bricks: u32 = grid.bricks().iter().product();
-            result_buffer(device, "slots of bricks", 4 * u64::from(bricks))
+            zeroed(device, "slots of bricks", 4 * u64::from(bricks))
         }),
     }
 }

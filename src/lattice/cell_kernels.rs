@@ -4,7 +4,7 @@ use super::{Lattice, Storage, fluid::Dispatch, program};
 use crate::{
     Result,
     gpu::{
-        filled::filled,
+        buffers::filled,
         kernel::{Kernel, Shader},
         link::Program,
     },

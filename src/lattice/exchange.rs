@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{kernel::Kernel, readback::Readback},
+    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
 };
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ impl Lattice {
         queue: &wgpu::Queue,
     ) -> Result<Populations> {
         let cells = self.grid.cell_count();
-        let buffer = buffers::result_buffer(device, "canonical", 4 * cells as u64);
+        let buffer = zeroed(device, "canonical", 4 * cells as u64);
         let mut readback = Readback::default();
         let mut values = Vec::with_capacity(27 * cells);
         let out = self.exchange(device, "take_out", 0)?;

@@ -3,7 +3,7 @@
 use super::{Lattice, buffers};
 use crate::{
     Error, Result,
-    gpu::{kernel::Kernel, readback::Readback},
+    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
 };
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ impl Gather {
             return Err(Error::argument("cells", message));
         }
         let list = buffers::storage(device, "listed cells", bytemuck::cast_slice(cells));
-        let out = buffers::result_buffer(device, "gathered", 4 * cells.len() as u64);
+        let out = zeroed(device, "gathered", 4 * cells.len() as u64);
         let buffers = [
             ("gather_from", field),
             ("listed", &list),

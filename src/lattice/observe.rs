@@ -1,12 +1,12 @@
 //! Density, velocity and what follows from them: fields, sums, the guard.
 
 use super::{
-    CellPass, Lattice, State, buffers::result_buffer, cell_kernels::CellDispatch, fluid::Dispatch,
-    gather::Gather, inside::Kept,
+    CellPass, Lattice, State, cell_kernels::CellDispatch, fluid::Dispatch, gather::Gather,
+    inside::Kept,
 };
 use crate::{
     Error, Result,
-    gpu::{kernel::Kernel, readback::Readback},
+    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
 };
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ impl Observer {
     /// If the device does not hold them.
     pub fn new(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
         let cells = lattice.grid.cell_count();
-        let field = |label| result_buffer(device, label, 4 * cells as u64);
+        let field = |label| zeroed(device, label, 4 * cells as u64);
         let density = field("density");
         let velocity = ["velocity x", "velocity y", "velocity z"].map(field);
         let mut buffers = vec![("density_out", &density)];
@@ -315,7 +315,7 @@ impl Observer {
         let cells = lattice.grid.cell_count();
         let buffer = match &self.derived {
             Some(kept) => kept.clone(),
-            None => result_buffer(device, "derived", 4 * cells as u64),
+            None => zeroed(device, "derived", 4 * cells as u64),
         };
         let at = match self.derive.iter().position(|(made, _)| *made == quantity) {
             Some(at) => at,
@@ -381,7 +381,7 @@ impl Observer {
         let (buffer, dispatch) = match self.sums.take() {
             Some(made) => made,
             None => {
-                let buffer = result_buffer(device, "partial sums", 32 * turns as u64);
+                let buffer = zeroed(device, "partial sums", 32 * turns as u64);
                 let mut buffers = vec![("partial_sums", &buffer), ("density", &self.density)];
                 buffers.extend(VELOCITY_IN.into_iter().zip(&self.velocity));
                 let program = lattice.cell_program("sums");

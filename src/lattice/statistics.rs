@@ -2,14 +2,13 @@
 
 use super::{
     CellPass, Lattice, Observer,
-    buffers::result_buffer,
     cell_kernels::{CellDispatch, uniform},
     fluid::Dispatch,
     gather::Gather,
 };
 use crate::{
     Error, Result,
-    gpu::{kernel::largest_binding, link::Program, readback::Readback},
+    gpu::{buffers::zeroed, kernel::largest_binding, link::Program, readback::Readback},
 };
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -183,7 +182,7 @@ impl Statistics {
         let program = lattice.cell_program("statistics").slot("sample", sample);
         let make = |first: usize| {
             let cells = first as u32..cells.min(first + most) as u32;
-            let buffer = result_buffer(
+            let buffer = zeroed(
                 device,
                 "statistics",
                 bytes * cells.len().next_multiple_of(GROUP) as u64,
@@ -316,7 +315,7 @@ impl Statistics {
         }
         let field = match self.field.take() {
             Some(field) => field,
-            None => result_buffer(device, "statistic", 4 * self.cells as u64),
+            None => zeroed(device, "statistic", 4 * self.cells as u64),
         };
         let mut encoder = device.create_command_encoder(&Default::default());
         {

@@ -2,13 +2,16 @@
 
 use super::{
     Bindings, Geometry, Grid, PSM_PLANES, Setup,
-    buffers::{Buffers, result_buffer, storage},
+    buffers::{Buffers, storage},
     program::{self, BrickKind},
     spread::{PSM_NAMES, planes},
 };
 use crate::{
     Error, Result,
-    gpu::kernel::{Kernel, Shader, largest_binding},
+    gpu::{
+        buffers::zeroed,
+        kernel::{Kernel, Shader, largest_binding},
+    },
 };
 
 /// The dispatches of one kind of brick.
@@ -261,7 +264,7 @@ fn bind(
 fn psm_buffers(device: &wgpu::Device, brick_bytes: &[u64], slots: u64) -> Vec<wgpu::Buffer> {
     let bytes = brick_bytes.iter();
     bytes
-        .map(|bytes| result_buffer(device, "psm_planes", slots * bytes))
+        .map(|bytes| zeroed(device, "psm_planes", slots * bytes))
         .collect()
 }
 

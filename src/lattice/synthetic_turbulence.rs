@@ -3,13 +3,16 @@
 use super::{
     Face, Grid, Lattice, MovingCell, Setup,
     boundary::cell_pass,
-    buffers::{moving_side, result_buffer, storage},
+    buffers::{moving_side, storage},
     cell_kernels::CellDispatch,
     fluid::{Dispatch, in_plane},
 };
 use crate::{
     Error, Result,
-    gpu::{filled::filled, readback::Readback},
+    gpu::{
+        buffers::{filled, zeroed},
+        readback::Readback,
+    },
     random::uniform,
 };
 use bytemuck::{Pod, Zeroable};
@@ -260,14 +263,14 @@ impl Inlet {
                 axis,
                 side,
                 cells: storage(device, "turbulent cells", bytemuck::cast_slice(&listed)),
-                mean_velocity: result_buffer(device, "mean velocity", bytes),
+                mean_velocity: zeroed(device, "mean velocity", bytes),
                 uniform: filled(
                     device,
                     "turbulent face",
                     bytemuck::bytes_of(&content),
                     usage,
                 ),
-                travelled: result_buffer(device, "travelled", 8),
+                travelled: zeroed(device, "travelled", 8),
                 places,
             })
         });

@@ -3,12 +3,15 @@
 use super::{
     Grid, Lattice, Link, Setup,
     boundary::cell_pass,
-    buffers::{result_buffer, storage},
+    buffers::storage,
     cell_kernels::CellDispatch,
     fluid::{Dispatch, in_plane},
     geometry::{Beyond, C, Survey, opposite},
 };
-use crate::{Result, gpu::kernel::largest_binding, gpu::readback::Readback};
+use crate::{
+    Result,
+    gpu::{buffers::zeroed, kernel::largest_binding, readback::Readback},
+};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashSet;
 
@@ -164,7 +167,7 @@ impl WallPart {
             let links: Vec<Link> = (0..LINKS)
                 .flat_map(|j| own.iter().map(move |links| links[j]))
                 .collect();
-            let result = |label, bytes| result_buffer(device, label, bytes * cells.len() as u64);
+            let result = |label, bytes| zeroed(device, label, bytes * cells.len() as u64);
             Self {
                 cells: storage(device, "wall cells", bytemuck::cast_slice(cells)),
                 links: storage(device, "wall links", bytemuck::cast_slice(&links)),

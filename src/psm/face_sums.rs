@@ -2,11 +2,15 @@
 
 use super::{
     FACE_LOAD, FaceJob, Plan, Tile,
-    kernels::{Growing, Kernels, made},
+    kernels::{Growing, Kernels},
     program,
     tiles::{Outline, SKIN, imaged},
 };
-use crate::{Result, gpu::kernel::Kernel, lattice::Lattice};
+use crate::{
+    Result,
+    gpu::{buffers::zeroed, kernel::Kernel},
+    lattice::Lattice,
+};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -98,7 +102,7 @@ impl FaceSums {
         // Their lengths say how many jobs and faces there are.
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes).take(2) {
             if buffer.buffer.size() != bytes && bytes > 0 {
-                buffer.buffer = made(device, buffer.label, bytes);
+                buffer.buffer = zeroed(device, buffer.label, bytes);
             }
         }
         let own = || {

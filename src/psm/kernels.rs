@@ -5,6 +5,7 @@ use crate::{
     Error, Result,
     gpu::{
         Processor,
+        buffers::zeroed,
         kernel::{Kernel, MAX_GROUPS, fold, largest_binding},
         link::Program,
     },
@@ -21,7 +22,7 @@ pub(super) struct Growing {
 impl Growing {
     pub fn new(device: &wgpu::Device, label: &'static str) -> Self {
         Self {
-            buffer: made(device, label, 256),
+            buffer: zeroed(device, label, 256),
             label,
         }
     }
@@ -42,7 +43,7 @@ impl Growing {
                         .into(),
             });
         }
-        self.buffer = made(device, self.label, (bytes + bytes / 2).min(most) / 4 * 4);
+        self.buffer = zeroed(device, self.label, (bytes + bytes / 2).min(most) / 4 * 4);
         Ok(true)
     }
 }
@@ -53,17 +54,6 @@ fn loop_iterations(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));
     let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
     3 * faces + columns * (1 + columns * (1 + faces))
-}
-
-pub(super) fn made(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: bytes,
-        usage: wgpu::BufferUsages::STORAGE
-            | wgpu::BufferUsages::COPY_DST
-            | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    })
 }
 
 /// Names of the buffers in WGSL.
@@ -201,7 +191,7 @@ impl Kernels {
         // Its length says how many blocks there are.
         let first = &mut self.buffers[8];
         if first.buffer.size() != words(loaded + 1) {
-            first.buffer = made(device, first.label, words(loaded + 1));
+            first.buffer = zeroed(device, first.label, words(loaded + 1));
         }
         self.bind(device, lattice)
     }

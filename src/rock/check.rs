@@ -9,15 +9,18 @@ use crate::{Error, Result, geometry::Form, rock::law::Joint};
 use glam::DVec3;
 
 /// # Errors
+/// [`Error::Argument`] with the place of a number that is not finite and greater than 0.
+pub(super) fn positive(place: &str, value: f64, unit: &str) -> Result<()> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    let message = format!("{value} must be greater than 0 {unit}");
+    Err(Error::argument(place, message))
+}
+
+/// # Errors
 /// [`Error::Argument`] naming the first number that cannot be used.
 pub(super) fn check(setup: &Setup) -> Result<()> {
-    let positive = |place: &str, value: f64, unit: &str| {
-        if value > 0.0 && value.is_finite() {
-            return Ok(());
-        }
-        let message = format!("{value} must be greater than 0 {unit}");
-        Err(Error::argument(place, message))
-    };
     if !setup.gravity.is_finite() {
         let message = format!("{} must be finite", setup.gravity);
         return Err(Error::argument("gravity", message));

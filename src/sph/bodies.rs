@@ -8,10 +8,7 @@ use super::{
 use crate::{
     Error, Result,
     geometry::Pose,
-    gpu::{
-        bins::{WORKGROUP, uniform},
-        kernel::Kernel,
-    },
+    gpu::{bins::WORKGROUP, buffers::uniform, kernel::Kernel},
     rock::{Block, Motion},
 };
 use glam::{DMat3, DVec3};

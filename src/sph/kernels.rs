@@ -11,7 +11,8 @@ use super::{
 use crate::{
     Result,
     gpu::{
-        bins::{WORKGROUP, at_most, storage},
+        bins::{WORKGROUP, at_most},
+        buffers::zeroed,
         kernel::Kernel,
     },
 };
@@ -99,7 +100,7 @@ impl Kernels {
         let buffer = |label, count: u32, one: usize| {
             let bytes = u64::from(count.max(1)) * one as u64;
             at_most(device, label, bytes, FEWER_PARTICLES)?;
-            Ok::<_, crate::Error>(storage(device, label, bytes))
+            Ok::<_, crate::Error>(zeroed(device, label, bytes))
         };
         let reference_positions = buffer(
             "reference positions of boundary particles",

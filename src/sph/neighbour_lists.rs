@@ -7,7 +7,8 @@ use super::{
 use crate::{
     Result,
     gpu::{
-        bins::{Scan, ScanOf, WORKGROUP, at_most, storage, uniform},
+        bins::{Scan, ScanOf, WORKGROUP, at_most},
+        buffers::{uniform, zeroed},
         kernel::Kernel,
     },
 };
@@ -122,7 +123,7 @@ impl NeighbourLists {
             });
         }
         let lists = kernel(passes.kernels.lists)?;
-        let counts = storage(device, "neighbour counts", 8 * u64::from(count.max(1)));
+        let counts = zeroed(device, "neighbour counts", 8 * u64::from(count.max(1)));
         let limits = device.limits();
         let most = limits
             .max_storage_buffer_binding_size
@@ -138,7 +139,7 @@ impl NeighbourLists {
         while start < count.max(1) {
             let end = start.saturating_add(longest).min(count.max(1));
             let groups = (end - start).div_ceil(WORKGROUP);
-            let list = storage(device, "neighbour lists", group * u64::from(groups));
+            let list = zeroed(device, "neighbour lists", group * u64::from(groups));
             let range = uniform(device, "range of particles", 8);
             queue.write_buffer(&range, 0, bytemuck::cast_slice(&[start, end]));
             let mut all = buffers.to_vec();
@@ -251,12 +252,12 @@ impl CountingSort {
         let cells = 4 * (grid.cell_count() + 2);
         at_most(device, "particles", bytes, FEWER_PARTICLES)?;
         at_most(device, "cells of particles", cells, FEWER_PARTICLES)?;
-        let unsorted = storage(device, "unsorted particles", bytes);
-        let sorted = storage(device, "sorted particles", bytes);
-        let counts = storage(device, "particle counts of cells", cells);
-        let starts = storage(device, "first particles of cells", cells);
-        let arrivals = storage(device, "arrival order in cells", 4 * u64::from(count));
-        let list = storage(device, "particles of cells", 4 * u64::from(count));
+        let unsorted = zeroed(device, "unsorted particles", bytes);
+        let sorted = zeroed(device, "sorted particles", bytes);
+        let counts = zeroed(device, "particle counts of cells", cells);
+        let starts = zeroed(device, "first particles of cells", cells);
+        let arrivals = zeroed(device, "arrival order in cells", 4 * u64::from(count));
+        let list = zeroed(device, "particles of cells", 4 * u64::from(count));
         let buffers = [
             ("unsorted", &unsorted),
             ("sorted", &sorted),

@@ -4,7 +4,8 @@ use super::{Setup, Side, Wendland, kernels::FEWER_PARTICLES, neighbour_lists::Bu
 use crate::{
     Result,
     gpu::{
-        bins::{WORKGROUP, at_most, storage},
+        bins::{WORKGROUP, at_most},
+        buffers::zeroed,
         kernel::Kernel,
     },
 };
@@ -210,8 +211,8 @@ impl PressureProbes {
                 .min(limits.max_buffer_size)
                 / 16;
             let capacity = (2 * u64::from(self.count)).min(most);
-            let buffer = storage(device, "pressure probes", 16 * capacity);
-            let pressures = storage(device, "probe pressures", 4 * capacity);
+            let buffer = zeroed(device, "pressure probes", 16 * capacity);
+            let pressures = zeroed(device, "probe pressures", 4 * capacity);
             let own = [("probes", &buffer), ("pressures", &pressures)];
             self.memory = Some(Memory {
                 capacity: capacity as u32,

@@ -1,6 +1,7 @@
 //! Williams, Perkins & Cook 2004, CGRID: boxes sorted into buckets of cells by count, scan and scatter.
 
-use super::{DeviceBox, FEWER_BOXES, Level, MAX_LEVELS, Scan, ScanOf, WORKGROUP, at_most, storage};
+use super::{DeviceBox, FEWER_BOXES, Level, MAX_LEVELS, Scan, ScanOf, WORKGROUP, at_most};
+use crate::gpu::buffers::zeroed;
 use crate::{
     Result,
     gpu::{kernel::Kernel, link::Program},
@@ -61,12 +62,12 @@ impl Bins {
         at_most(device, "boxes", bytes, FEWER_BOXES)?;
         at_most(device, "buckets", 8 * buckets, FEWER_BOXES)?;
         let levels = (MAX_LEVELS * size_of::<Level>()) as u64;
-        let boxes = storage(device, "boxes", bytes);
-        let levels = storage(device, "levels", levels);
-        let starts = storage(device, "starts of buckets", 4 * (buckets + 1));
-        let ranks = storage(device, "ranks in buckets", 4 * n);
-        let groups = storage(device, "groups of buckets", 8 * buckets);
-        let entries = storage(device, "sorted boxes", bytes);
+        let boxes = zeroed(device, "boxes", bytes);
+        let levels = zeroed(device, "levels", levels);
+        let starts = zeroed(device, "starts of buckets", 4 * (buckets + 1));
+        let ranks = zeroed(device, "ranks in buckets", 4 * n);
+        let groups = zeroed(device, "groups of buckets", 8 * buckets);
+        let entries = zeroed(device, "sorted boxes", bytes);
         let buffers = [
             ("boxes", &boxes),
             ("levels", &levels),

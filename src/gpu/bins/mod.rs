@@ -7,7 +7,7 @@ mod scan;
 
 pub use boxes::{DeviceBox, Level};
 pub(crate) use boxes::{MAX_LEVELS, NUMBER_BITS};
-pub(crate) use buffers::{FEWER_BOXES, at_most, storage, uniform};
+pub(crate) use buffers::{FEWER_BOXES, at_most};
 pub(crate) use cells::buckets;
 pub use cells::{Bins, BinsOf};
 pub use scan::{Scan, ScanOf};

@@ -1,6 +1,7 @@
 //! Merrill & Grimshaw 2009, reduce-then-scan: replaces each value by the sum of all before it.
 
-use super::{WORKGROUP, storage};
+use super::WORKGROUP;
+use crate::gpu::buffers::zeroed;
 use crate::{
     Result,
     gpu::{kernel::Kernel, link::Program},
@@ -48,11 +49,11 @@ impl Scan {
         }
         let sums = lengths[1..]
             .iter()
-            .map(|&n| storage(device, "sums of runs", 4 * u64::from(n)));
+            .map(|&n| zeroed(device, "sums of runs", 4 * u64::from(n)));
         let levels: Vec<_> = std::iter::once(values.clone()).chain(sums).collect();
         let total = levels[levels.len() - 1].clone();
         // Nothing is before the last run; the total keeps its place.
-        let nothing = storage(device, "nothing", 4);
+        let nothing = zeroed(device, "nothing", 4);
         let steps = (1..levels.len()).map(|k| {
             let (values, sums) = (&levels[k - 1], &levels[k]);
             let starts = if k + 1 == levels.len() {

@@ -4,7 +4,8 @@ use super::{Aabb, Boxes, Broadphase, exact_pairs};
 use crate::{
     Error, Result,
     gpu::{
-        bins::{Bins, BinsOf, FEWER_BOXES, Scan, ScanOf, WORKGROUP, at_most, storage, uniform},
+        bins::{Bins, BinsOf, FEWER_BOXES, Scan, ScanOf, WORKGROUP, at_most},
+        buffers::{uniform, zeroed},
         kernel::Kernel,
         link::Program,
         readback::Readback,
@@ -229,7 +230,7 @@ impl Comparison {
             count: pairs("found_count")?,
             write: pairs("found_write")?,
             search: uniform(device, "search", size_of::<Search>() as u64),
-            header: storage(device, "header", size_of::<Header>() as u64),
+            header: zeroed(device, "header", size_of::<Header>() as u64),
         })
     }
 
@@ -245,7 +246,7 @@ impl Comparison {
         let invocations = u64::from(sorted.items) * u64::from(slices);
         let bytes = 4 * (invocations + 1);
         at_most(device, "counts of pairs", bytes, FEWER_BOXES)?;
-        let counts = storage(device, "counts of pairs", bytes);
+        let counts = zeroed(device, "counts of pairs", bytes);
         let mut buffers = self.buffers(sorted);
         buffers.extend([("hits", &counts), ("header", &self.header)]);
         Ok(Hits {
@@ -266,7 +267,7 @@ impl Comparison {
         pairs: u32,
     ) -> Result<List> {
         let capacity = pairs.min(most(device));
-        let list = storage(device, "pairs", 8 * u64::from(capacity));
+        let list = zeroed(device, "pairs", 8 * u64::from(capacity));
         let mut buffers = self.buffers(sorted);
         buffers.extend([("pair_starts", &hits.counts), ("pair_list", &list)]);
         Ok(List {

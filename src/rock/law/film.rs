@@ -5,7 +5,10 @@
 use super::LoadDelay;
 use crate::{
     Error, Result,
-    rock::contact::{GapShape, ThinGap},
+    rock::{
+        check::positive,
+        contact::{GapShape, ThinGap},
+    },
 };
 use std::f64::consts::PI;
 
@@ -36,16 +39,9 @@ impl Film {
             let message = format!("{} must not be negative Pa s", self.viscosity);
             return Err(Error::argument("film.viscosity", message));
         }
-        for (name, value, unit) in [
-            ("round", self.round, "m"),
-            ("flat", self.flat, "m"),
-            ("roughness", self.roughness, "m"),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                let message = format!("{value} must be greater than 0 {unit}");
-                return Err(Error::argument(format!("film.{name}"), message));
-            }
-        }
+        positive("film.round", self.round, "m")?;
+        positive("film.flat", self.flat, "m")?;
+        positive("film.roughness", self.roughness, "m")?;
         self.delay.iter().try_for_each(LoadDelay::check)
     }
 

@@ -7,8 +7,13 @@
 //! k t_d cancels this. It is due only while the pressure follows the gap; where water flows out of a gap as fast as it
 //! closes, the pressure stays, and its delay means nothing. So it acts on the velocity less a mean over the last steps.
 
-use super::super::contact::{GapShape, ThinGap};
-use crate::{Error, Result};
+use crate::{
+    Result,
+    rock::{
+        check::positive,
+        contact::{GapShape, ThinGap},
+    },
+};
 
 /// The loads of a fluid that come late.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,19 +30,11 @@ impl LoadDelay {
     /// Whether the numbers can be computed with.
     ///
     /// # Errors
-    /// [`Error::Argument`] naming the number and its range.
+    /// [`crate::Error::Argument`] naming the number and its range.
     pub fn check(&self) -> Result<()> {
-        for (name, value, unit) in [
-            ("impedance", self.impedance, "Pa s/m"),
-            ("range", self.range, "m"),
-            ("memory", self.memory, "s"),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                let message = format!("{value} must be greater than 0 {unit}");
-                return Err(Error::argument(format!("film.delay.{name}"), message));
-            }
-        }
-        Ok(())
+        positive("film.delay.impedance", self.impedance, "Pa s/m")?;
+        positive("film.delay.range", self.range, "m")?;
+        positive("film.delay.memory", self.memory, "s")
     }
 
     /// Normal force over the velocity at which the gap closes, N s/m, and moment over the rate at which it tilts about each

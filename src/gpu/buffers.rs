@@ -1,4 +1,4 @@
-//! Buffers that begin with a content.
+//! Buffers on a device.
 
 /// A buffer with this content, padded with zeros to whole words.
 ///
@@ -26,4 +26,26 @@ pub(crate) fn filled(
         buffer.unmap();
     }
     buffer
+}
+
+/// A storage buffer of `bytes`, all zero, that can be written, read back and cleared.
+pub(crate) fn zeroed(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+/// A uniform buffer of `bytes`.
+pub(crate) fn uniform(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }

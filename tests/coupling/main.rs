@@ -7,6 +7,7 @@ mod faces;
 mod faults;
 mod fixture;
 mod inlets;
+mod joint_modes;
 mod joint_seal;
 mod joint_stability;
 mod periodic_images;

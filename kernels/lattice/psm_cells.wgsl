@@ -5,9 +5,13 @@
 
 // B of the momentum in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations
 // in such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
-// the momentum between them. With this B fluid flows along the joint, and blocks slide on it. As the joint opens, the cells
-// become ordinary ones; but while both faces are in a cell, B is at least this, since the weight of a cell without friction is zero.
-const JOINT_WEIGHT = 0.25;
+// the momentum between them. With less fluid flows along the joint, and blocks slide on it.
+override JOINT_WEIGHT: f32;
+// The same in joints with two rows of cells, which let through as much.
+override FACING_WEIGHT: f32;
+// As the joint opens, the cells become ordinary ones; but while both faces are in a cell, B is at least this, since the weight of a
+// cell without friction is zero.
+const SHARED_WEIGHT = 0.25;
 // The same for all other moments. Full cells throw back what leaves a joint, after two steps, and blocks feel it late: what nothing
 // damps here grows between blocks of few cells, with a period of four steps.
 const JOINT_DAMPING = 0.0625;
@@ -21,6 +25,7 @@ struct PsmCell {
     adjacent: Mask,
     interior: Mask,
     joint: Mask,
+    facing: Mask,
     // Whether several blocks meet in it.
     several: Mask,
 }
@@ -33,7 +38,7 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
         get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
     let fraction = get_reals(read_psm(PLANE_FRACTION, slot, local));
-    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint, sum.several);
+    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint, sum.facing, sum.several);
     return with_surface(blocks, slot, local);
 }
 
@@ -87,9 +92,10 @@ fn collide_with_solid(
     let joint = select(Real(0.0), closure, psm.joint | at_wall);
     // 1 from half a cell on that is full.
     let in_one = select(Real(0.0), min(2.0 * e, Real(1.0)), psm.several);
-    let momentum = max(open, in_one * JOINT_WEIGHT);
+    let momentum = max(open, in_one * SHARED_WEIGHT);
+    let closed = select(Real(JOINT_WEIGHT), Real(FACING_WEIGHT), psm.facing & !at_wall);
     let others = max(open, in_one * JOINT_DAMPING);
-    let weight = select(momentum + joint * (JOINT_WEIGHT - momentum), Real(1.0), psm.interior);
+    let weight = select(momentum + joint * (closed - momentum), Real(1.0), psm.interior);
     let higher = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;
     let excess = (*h)[0u];

@@ -16,6 +16,7 @@ fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {
         psm.adjacent,
         psm.interior,
         psm.joint | (block & (e > Real(0.0))),
+        psm.facing & (e == Real(0.0)),
         psm.several | (block & (e > Real(0.0))),
     );
 }

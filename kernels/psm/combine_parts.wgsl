@@ -20,8 +20,9 @@ struct Sums {
     solid: vec4<f32>,
     // The same of parts that touch only, each as one.
     touching: vec4<f32>,
-    // Sum of the solid fractions, the largest effective fraction, and the parts that have one.
+    // Sum of the solid fractions and the largest of them, the largest effective fraction, and the parts that have one.
     fraction: f32,
+    most: f32,
     largest: f32,
     parts: u32,
     // Whether a part is interior, or near.
@@ -108,6 +109,7 @@ fn with_part(before: Sums, number: u32, tile: Tile, motion: Motion, place: u32) 
         before.solid + effective * u,
         before.touching + select(0.0, 1.0, mark == TOUCHES) * u,
         before.fraction + clamp(mark, 0.0, 1.0),
+        max(before.most, mark),
         max(before.largest, effective),
         before.parts + select(0u, 1u, effective > 0.0),
         before.interior || mark == INTERIOR,
@@ -123,11 +125,12 @@ fn write(lane: u32, place: u32, sums: Sums) {
     let several = sums.several && !sums.interior;
     let closure = select(0.0, joint_closure(sums.fraction), several);
     let joint = closure > 0.0;
+    let facing = sums.fraction - sums.most < TOUCHING_GAP;
     let slot = lane / LANES_OF_ELEMENT;
     let at = place * LANES_OF_ELEMENT + lane % LANES_OF_ELEMENT;
     let all = sums.solid + closure * sums.touching;
     let u = select(vec3(0.0), all.xyz / all.w, some);
-    write_psm(PLANE_SUM, slot, at, encode_sum(shares, sums.near, sums.interior, joint, several));
+    write_psm(PLANE_SUM, slot, at, encode_sum(shares, sums.near, sums.interior, joint, facing, several));
     write_psm(PLANE_FRACTION, slot, at, min(max(sums.fraction, sums.largest), 1.0));
     write_psm(PLANE_VELOCITY, slot, at, u.x);
     write_psm(PLANE_VELOCITY + 1u, slot, at, u.y);

@@ -1,8 +1,5 @@
 // Solid fraction of a convex polyhedron in a cell that at most one of its faces cuts.
-// needs tables, faces, one_plane
-
-// Gap between a cell and a face, cells, below which a joint is closed.
-const CLOSED = 1e-3;
+// needs tables, faces, one_plane, joint_gap
 
 // r: the centre of the cell from the part's centroid.
 fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
@@ -51,11 +48,11 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
 // Whether the foot of the cell's centre on a face, normal and height, lies in the face, so close that nothing is
 // between the cell and it.
 fn touches(part: Part, r: vec3<f32>, own: vec4<f32>) -> bool {
-    var here = own.w < half_width(own.xyz) + CLOSED;
+    var here = own.w < half_width(own.xyz) + TOUCHING_GAP;
     let foot = r - own.w * own.xyz;
     for (var k = 0u; k < part.faces && here; k++) {
         let face = faces[part.first_face + k];
-        here = dot(face.xyz, foot) < face.w + CLOSED;
+        here = dot(face.xyz, foot) < face.w + TOUCHING_GAP;
     }
     return here;
 }

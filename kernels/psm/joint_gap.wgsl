@@ -5,3 +5,5 @@ const CLOSED_GAP = 2e-3;
 // From this gap on the joint is open. In a narrower one the fluid of the cell would act as a spring between both bodies that
 // lags by a step: a block that lifts off its bed by this gap would oscillate.
 const OPEN_GAP = 0.1;
+// Gap between a full cell and the face of another block up to which the joint is closed.
+const TOUCHING_GAP = 1e-3;

@@ -17,7 +17,9 @@ const PLANE_FRACTION = 9u;
 const INTERIOR_SUM = 8.0;
 // Added to the sum in a cell of a joint that closes, in which several blocks meet.
 const JOINT_SUM = 16.0;
-// In place of that where they leave more of it.
+// In place of that where the joint has two rows of cells: a block fills the cell, and the other one the next cell.
+const FACING_SUM = 24.0;
+// In place of both where they leave more of it.
 const SHARED_SUM = 32.0;
 // The sum of an empty cell next to one that is not.
 const NEAR_SUM = -1.0;
@@ -31,13 +33,15 @@ struct SolidSum {
     adjacent: Mask,
     interior: Mask,
     joint: Mask,
+    facing: Mask,
     // Whether several blocks meet in it.
     several: Mask,
 }
 
-fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask, several: Mask) -> Real {
+fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask, facing: Mask, several: Mask) -> Real {
     let open = select(Real(0.0), Real(SHARED_SUM), several);
-    let code = select(select(open, Real(JOINT_SUM), joint), Real(INTERIOR_SUM), interior);
+    let closing = select(Real(JOINT_SUM), Real(FACING_SUM), facing);
+    let code = select(select(open, closing, joint), Real(INTERIOR_SUM), interior);
     let empty = select(Real(0.0), Real(NEAR_SUM), near);
     return select(empty, fraction + code, fraction > Real(0.0));
 }
@@ -45,7 +49,9 @@ fn encode_sum(fraction: Real, near: Mask, interior: Mask, joint: Mask, several: 
 fn decode_sum(kept: Real) -> SolidSum {
     let several = kept >= Real(JOINT_SUM);
     let open = kept >= Real(SHARED_SUM);
+    let facing = (kept >= Real(FACING_SUM)) & !open;
     let interior = (kept >= Real(INTERIOR_SUM)) & !several;
-    let code = select(select(Real(0.0), Real(INTERIOR_SUM), interior), select(Real(JOINT_SUM), Real(SHARED_SUM), open), several);
-    return SolidSum(max(kept - code, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, several & !open, several);
+    let met = select(select(Real(JOINT_SUM), Real(FACING_SUM), facing), Real(SHARED_SUM), open);
+    let code = select(select(Real(0.0), Real(INTERIOR_SUM), interior), met, several);
+    return SolidSum(max(kept - code, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, several & !open, facing, several);
 }

@@ -39,6 +39,7 @@ fn solid_cell(tile: Tile, motion: Motion, e: f32, local: u32) -> SolidCell {
     let own = velocity_at(motion, r);
     // decode_sum would give the same number, but drivers round `mix` otherwise behind it.
     let kept = read_psm(PLANE_SUM, tile.slot, at);
-    let u = select(own, mix(own, mean, joint_closure(kept - JOINT_SUM)), kept >= JOINT_SUM && kept < SHARED_SUM);
+    let closure = joint_closure(kept - select(JOINT_SUM, FACING_SUM, kept >= FACING_SUM));
+    let u = select(own, mix(own, mean, closure), kept >= JOINT_SUM && kept < SHARED_SUM);
     return SolidCell(r, e, -e * (a * u + g), read_psm(PLANE_BETA, tile.slot, at));
 }

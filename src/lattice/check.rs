@@ -148,6 +148,7 @@ impl Setup {
             let message = format!("is {constant}; give a number from 0, such as 0.5");
             return Err(Error::argument("wale", message));
         }
+        self.check_joint_aperture()?;
         self.check_wall_model()?;
         let squared = (self.max_speed * self.max_speed) as f32;
         if !(self.max_speed >= 0.0 && squared.is_finite()) {

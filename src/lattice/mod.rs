@@ -39,6 +39,7 @@ mod buffers;
 mod bytes;
 mod cell_kernels;
 mod check;
+mod closed_joint;
 mod exchange;
 mod fluid;
 mod force;

@@ -242,6 +242,8 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("N23", near(rates.s23)),
         ("N26", near(rates.s26)),
     ]);
+    let [joint, facing] = setup.joint_weights();
+    all.extend([("JOINT_WEIGHT", joint), ("FACING_WEIGHT", facing)]);
     if let Some(constant) = setup.wale {
         all.push(("C_WALE", constant));
     }

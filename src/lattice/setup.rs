@@ -186,6 +186,9 @@ pub struct Setup {
     /// Magic parameter of the odd rates in cells with a block and next to them, floored as next to walls;
     /// `None` keeps `rates` there too.
     pub solid_lambda: Option<f64>,
+    /// Hydraulic aperture of the joints of blocks in contact, cells, within [`Setup::joint_aperture_range`]; `None`: what is
+    /// widest for joints with one row of cells and with two, [`Setup::joint_apertures`].
+    pub joint_aperture: Option<f64>,
     /// Equilibrium.
     pub equilibrium: Equilibrium,
     /// WALE constant; `None` is laminar.
@@ -249,6 +252,7 @@ impl Setup {
             solid_operator: None,
             solid_weight: None,
             solid_lambda: Some(0.1),
+            joint_aperture: None,
             equilibrium: Equilibrium::Product,
             wale: None,
             wall_model: None,

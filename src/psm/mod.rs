@@ -80,8 +80,8 @@ pub use program::{
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 #[doc(hidden)]
 pub use tables::{
-    FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part, SHARED_SUM,
-    TOUCHES, Tile, WRENCH,
+    FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part,
+    SHARED_SUM, TOUCHES, Tile, WRENCH,
 };
 pub(crate) use tiles::imaged;
 

@@ -17,7 +17,11 @@ pub const INTERIOR_SUM: f32 = 8.0;
 
 /// Added to it in a full cell of a closed joint, in which several blocks meet.
 pub const JOINT_SUM: f32 = 16.0;
-/// See the kernel.
+
+/// In place of that where one of them fills the cell, and another one the next cell.
+pub const FACING_SUM: f32 = 24.0;
+
+/// In place of both where they leave more of it.
 pub const SHARED_SUM: f32 = 32.0;
 
 /// Numbers that each cell of a brick with blocks has on the device.

@@ -29,6 +29,12 @@ pub struct Coupling {
     /// lattice: particles have none.
     /// Default true.
     pub lubrication: bool,
+    /// Hydraulic aperture of the closed joints of rigid blocks, m: they let through as much water as a slot so wide does (cubic law, with the
+    /// viscosity of the fluid). It depends on cell and viscosity what is possible: `riprap check` says what joints have without this key, and the
+    /// error of one that is too narrow or too wide names the range. A wider joint is an opening between the blocks. Only on the lattice, and
+    /// with `numerics.solid_operator = "holdych"`.
+    /// Default: as wide as possible.
+    pub joint_aperture: Option<f64>,
 }
 
 impl Default for Coupling {
@@ -38,6 +44,7 @@ impl Default for Coupling {
             average: true,
             hold: 0.0,
             lubrication: true,
+            joint_aperture: None,
         }
     }
 }
@@ -55,6 +62,28 @@ impl Scene {
             return refuse(
                 "coupling.hold",
                 format!("is {}; give a time in s from 0 on", coupling.hold),
+            );
+        }
+        if let Some(aperture) = coupling.joint_aperture
+            && !(aperture.is_finite() && aperture > 0.0)
+        {
+            return refuse(
+                "coupling.joint_aperture",
+                format!("is {aperture}; give a width in m greater than 0"),
+            );
+        }
+        if coupling.joint_aperture.is_some() && (self.has_particles() || !self.has_blocks()) {
+            return refuse(
+                "coupling.joint_aperture",
+                "only blocks in a fluid on a lattice have closed joints with water; leave it out",
+            );
+        }
+        if coupling.joint_aperture.is_some()
+            && self.numerics.solid_operator != SolidOperator::Holdych
+        {
+            return refuse(
+                "coupling.joint_aperture",
+                "only joints with numerics.solid_operator = \"holdych\" can be of one aperture; leave it out",
             );
         }
         // Full cells throw back what is in them: a block that answers to single loads pushes itself ever harder.

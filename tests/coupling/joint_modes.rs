@@ -224,10 +224,17 @@ fn what_nothing_stops_grows() {
 
 #[test]
 fn closed_joints_stop_it() {
-    for full in [3, 6, 12] {
-        for along in [Along::Normal, Along::Tangent] {
-            let (found, _) = growth(along, CLOSED, full);
-            assert!(found < 1.0 + 1e-6, "{found}");
+    // Up to the B of the narrowest aperture.
+    for weight in [CLOSED.weights[0], 0.5, 0.75, 0.95] {
+        let joint = Joint {
+            weights: [weight, CLOSED.weights[1]],
+            ..CLOSED
+        };
+        for full in [3, 6, 12] {
+            for along in [Along::Normal, Along::Tangent] {
+                let (found, _) = growth(along, joint, full);
+                assert!(found < 1.0 + 1e-6, "{found}");
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The lattice: kernels against their f64 twin and exact solutions, limits of devices, and equal bits in every layout.
 
+mod closed_joint;
 mod divergence_guard;
 mod force;
 mod kernels;

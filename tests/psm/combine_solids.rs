@@ -7,8 +7,8 @@ use crate::{
 use glam::{DMat3, DVec3};
 use kit::{POISON, Random, Workbench, assert_near};
 use riprap::psm::{
-    INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, SHARED_SUM, TOUCHES, Tile, WHOLE,
-    Walk, combine_parts, constants,
+    FACING_SUM, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, SHARED_SUM, TOUCHES, Tile,
+    WHOLE, Walk, combine_parts, constants,
 };
 use std::collections::BTreeSet;
 
@@ -139,7 +139,13 @@ fn twin(
             // Those that touch count as the joint closes.
             let tight = ((filled - 0.9) / 0.098).min(1.0);
             let mean = (flux + tight * touching) / (sum + tight * touched);
-            (sum + f64::from(JOINT_SUM), mean)
+            let most = parts.iter().map(|(share, _)| *share).fold(0.0, f64::max);
+            let mark = if filled - most < 1e-3 {
+                FACING_SUM
+            } else {
+                JOINT_SUM
+            };
+            (sum + f64::from(mark), mean)
         }
         (true, _) if met.len() > 1 => (sum + f64::from(SHARED_SUM), flux / sum),
         (true, _) => (sum, flux / sum),

@@ -84,6 +84,7 @@ fn random_solid(cell: usize) -> Solid {
         deep,
         tight: if shared { tightness(fraction) } else { 0.0 },
         shared,
+        facing: unit(7) > 0.5,
     }
 }
 
@@ -92,7 +93,9 @@ pub fn planes(solid: &Solid) -> [(usize, f32); 5] {
     let mark = match solid {
         Solid { beside: true, .. } => -1.0,
         Solid { deep: true, .. } => solid.shares + 8.0,
-        Solid { tight, .. } if *tight > 0.0 => solid.shares + 16.0,
+        Solid { tight, facing, .. } if *tight > 0.0 => {
+            solid.shares + if *facing { 24.0 } else { 16.0 }
+        }
         Solid { shared: true, .. } => solid.shares + 32.0,
         _ => solid.shares,
     };

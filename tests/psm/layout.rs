@@ -7,8 +7,8 @@ use riprap::{
         link::{Program, source},
     },
     psm::{
-        FACE_LOAD, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, Part, SHARED_SUM,
-        TOUCHES, Tile, WRENCH, reduce_faces,
+        FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, Part,
+        SHARED_SUM, TOUCHES, Tile, WRENCH, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -79,6 +79,7 @@ fn constants() {
         ("TOUCHES", TOUCHES),
         ("INTERIOR_SUM", INTERIOR_SUM),
         ("JOINT_SUM", JOINT_SUM),
+        ("FACING_SUM", FACING_SUM),
         ("SHARED_SUM", SHARED_SUM),
         ("WRENCH", WRENCH as f32),
         ("FACE_LOAD", FACE_LOAD as f32),

@@ -7,7 +7,7 @@ use crate::{
 use glam::DVec3;
 use kit::{POISON, Random, Workbench};
 use riprap::psm::{
-    JOINT_SUM, PLANES, SHARED_SUM, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
+    FACING_SUM, JOINT_SUM, PLANES, SHARED_SUM, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
 };
 
 const BLOCKS: u32 = 9;
@@ -50,7 +50,12 @@ impl Case {
                     // Half of them are only half closed.
                     let sum = if noise.unit() > 0.5 { 1.0 } else { 0.951 };
                     let shared = if noise.unit() > 0.5 { SHARED_SUM } else { 0.0 };
-                    saturation[at(0)] = sum + if joint { JOINT_SUM } else { shared };
+                    let closed = if noise.unit() > 0.5 {
+                        JOINT_SUM
+                    } else {
+                        FACING_SUM
+                    };
+                    saturation[at(0)] = sum + if joint { closed } else { shared };
                     // Nobody may use the mean velocity elsewhere.
                     for plane in 1..4 {
                         let any = 0.1 * noise.unit() as f32;
@@ -91,9 +96,10 @@ impl Case {
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
                 let own = moving.at(point);
                 let mean = DVec3::new(at(1), at(2), at(3));
+                // Both of its marks lie below that of an open one.
                 let u = match at(0) - f64::from(JOINT_SUM) {
                     sum if (0.0..16.0).contains(&sum) => {
-                        own.lerp(mean, ((sum - 0.9) / 0.098).clamp(0.0, 1.0))
+                        own.lerp(mean, ((sum % 8.0 - 0.9) / 0.098).clamp(0.0, 1.0))
                     }
                     _ => own,
                 };

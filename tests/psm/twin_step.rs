@@ -73,6 +73,9 @@ fn weights_at_any_viscosity() {
             assert_equal_to_twin(&format!("{weight:?}, ν = {nu}"), &setup);
         }
     }
+    let mut setup = box_of(0.01, SolidOperator::Holdych);
+    setup.joint_aperture = Some(0.3);
+    assert_equal_to_twin("joints of an aperture", &setup);
     let mut setup = box_of(0.01, SolidOperator::Noble);
     setup.solid_weight = Some(SolidWeight::Exact);
     let refused = riprap::lattice::Lattice::new(&Rig::new().device, setup);

@@ -1,11 +1,13 @@
 //! Scenes of blocks: every key, the defaults, and what the blocks become.
 
 use glam::{DMat3, DVec3};
+use kit::assert_near;
 use riprap::rock;
-use riprap::scene::build::block_setup;
+use riprap::scene::build::{block_setup, lattice_setup};
 use riprap::scene::*;
+use riprap::units::Units;
 
-use crate::{read, refused};
+use crate::{read, refused, warnings::STONE};
 
 /// A scene of one cube.
 pub const CUBE: &str = r#"
@@ -402,4 +404,27 @@ fn keys_become_deformable_blocks_and_loads() {
         "{mass:?}"
     );
     riprap::rock::Blocks::new(setup).unwrap();
+}
+
+#[test]
+fn joints_have_apertures_that_the_lattice_can_have() {
+    let setup = |aperture: &str| {
+        let scene = read(&STONE.replace("hold = 0", &format!("joint_aperture = {aperture}")));
+        let scene = scene.unwrap();
+        let units = Units::of(&scene).unwrap();
+        (lattice_setup(&scene, &units, None), units.cell)
+    };
+    let (made, cell) = setup("1.5e-3");
+    assert_near(made.unwrap().joint_aperture.unwrap(), 1.5e-3 / cell, 1e-12);
+    let refused = setup("1").0.unwrap_err().to_string();
+    assert!(refused.contains("coupling.joint_aperture"), "{refused}");
+    // The bounds as they are printed are in the range.
+    let bounds: Vec<_> = refused
+        .split_whitespace()
+        .filter(|word| word.contains("e-"))
+        .collect();
+    assert_eq!(bounds.len(), 2, "{refused}");
+    for bound in bounds {
+        assert!(setup(bound).0.is_ok(), "{bound}");
+    }
 }

@@ -166,6 +166,19 @@ pub struct Immersion {
     pub lubrication: bool,
     /// The narrowest of them that do not, at most 20.
     pub narrowest: Vec<Narrow>,
+    /// Water in closed joints.
+    pub closed_joints: ClosedJoints,
+}
+
+/// How closed joints let water through, as their cells lie: between rows of cells or within one.
+#[derive(Debug, Serialize)]
+pub struct ClosedJoints {
+    /// Hydraulic apertures by the cubic law, narrowest and widest, m.
+    pub apertures: [f64; 2],
+    /// Side of a square face as large as those of the largest block are, m.
+    pub face: f64,
+    /// Time after which half of a change of pressure around such a face is in its middle, shortest and longest, s.
+    pub times: [f64; 2],
 }
 
 /// A gap between two blocks.
@@ -187,7 +200,10 @@ impl Immersion {
         let cell = scene.domain.cell;
         let shown = coupled.in_fluid() + scene.solids.len();
         let setup = coupled.setup();
-        let shown = &setup.setup.blocks[..shown];
+        let (shown, wet) = (
+            &setup.setup.blocks[..shown],
+            &setup.setup.blocks[..coupled.in_fluid()],
+        );
         let time_step = simulation.time_step();
         let mut open: Vec<&Gap> = coupled.gaps().iter().collect();
         open.retain(|gap| !gap.is_closed(cell));
@@ -204,6 +220,7 @@ impl Immersion {
                 .take(LISTED)
                 .map(|gap| Narrow::of(&coupled, gap, cell))
                 .collect(),
+            closed_joints: ClosedJoints::of(simulation, wet)?,
         })
     }
 
@@ -239,6 +256,52 @@ impl Immersion {
                 format_args!("{a} and {b}: {width:.3e} m, {cells:.2} cells"),
             );
         }
+        if self.closed_gaps == 0 {
+            return;
+        }
+        let ClosedJoints {
+            apertures,
+            face,
+            times,
+        } = &self.closed_joints;
+        lines.add(
+            "joints",
+            format_args!(
+                "closed ones let water through as slots of {} m; half of a change of pressure around a face of {face:.3} m is in its middle \
+                 after {} s",
+                range(*apertures),
+                range(*times)
+            ),
+        );
+    }
+}
+
+/// One number, or two that differ.
+fn range([low, high]: [f64; 2]) -> String {
+    let [low, high] = [low, high].map(|number| format!("{number:.2e}"));
+    match low == high {
+        true => low,
+        false => format!("{low} to {high}"),
+    }
+}
+
+/// Of the square of the side over the diffusivity, the time after which half of a change of pressure at the four sides of a square
+/// is in its middle.
+const HALF_TIME: f64 = 0.0594;
+
+impl ClosedJoints {
+    fn of(simulation: &Simulation, blocks: &[Block]) -> Option<Self> {
+        let (setup, units) = (simulation.lattice()?.setup(), simulation.units()?);
+        let volumes = blocks.iter().map(|block| block.shape.volume());
+        let face = volumes.fold(0.0, f64::max).cbrt();
+        let cells = (face / units.cell).powi(2);
+        let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
+        let time = |diffusivity| units.time_from_lattice(HALF_TIME * cells / diffusivity);
+        Some(Self {
+            apertures: sorted(setup.joint_apertures().map(|a| a * units.cell)),
+            face,
+            times: sorted(setup.joint_diffusivities().map(time)),
+        })
     }
 }
 

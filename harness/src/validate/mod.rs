@@ -14,6 +14,7 @@ pub mod tank;
 
 pub(crate) mod cavity;
 pub(crate) mod decay;
+mod joint_pressure;
 mod noise_and_shear;
 mod offset_joint;
 mod open_channel;
@@ -152,6 +153,7 @@ pub const CASES: &[Case] = &[
     short("statistics/known-signal", "means and variances on the device of 3·10⁵ samples in f32, against f64", statistics::known_signal),
     short("turbulence/inlet", "turbulence that a velocity face feeds: its intensity on the face and in the fluid", synthetic_turbulence::inlet),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
+    short("joint/pressure", "pressure in joints under a step and a sine at their mouth, against a slot", joint_pressure::run),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),
     short("stability/taylor-green", "Taylor–Green vortices at Mach 0.3 and the lowest viscosity for 10⁴ steps", stability::taylor_green),

@@ -154,6 +154,25 @@ fn the_error_of_the_drag_is_that_of_the_report() {
     assert!(0.0 < low && low <= high && high < 0.5, "{accuracy}");
 }
 
+/// By the cubic law, from what one row of cells lets through at low viscosity and what two do: 0.692 and 2.82 of a cell and step.
+#[test]
+fn the_apertures_of_closed_joints_are_in_metres() {
+    let report = json(&["check", &scene("incline_flow"), "--json"]);
+    let joints = &report["blocks"]["closed_joints"];
+    let pair = |key: &str| [0, 1].map(|n| joints[key][n].as_f64().unwrap());
+    let step = report["numerics"]["time_step"].as_f64().unwrap();
+    let (cell, viscosity) = (0.2 / 12.0, 1e-6);
+    for (found, conductance) in pair("apertures").iter().zip([0.692, 2.82]) {
+        let expected = (12.0 * viscosity * conductance * cell * step).cbrt();
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+    }
+    // The half times are those of D = C/7 in two rows and C/4 in a shared one, in squares of 12 cells.
+    let expected = [7.0 / 2.82, 4.0 / 0.692].map(|slow| 0.0594 * 144.0 * slow * step);
+    for (found, expected) in pair("times").iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+    }
+}
+
 /// Each program once, complete, with the files of its slots.
 #[test]
 fn the_kernels_of_a_scene_are_written() {

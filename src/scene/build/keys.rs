@@ -10,6 +10,7 @@ pub(crate) fn lattice_key(what: &str) -> String {
         "wale" => "numerics.wale_constant".into(),
         "lanes" | "lambda" | "wall_lambda" | "solid_lambda" | "odd_rate_floor"
         | "solid_operator" | "solid_weight" | "wall_model" => format!("numerics.{what}"),
+        "joint_aperture" => "coupling.joint_aperture".into(),
         "excess" => "initial.pressure".into(),
         "solid" => "solids".into(),
         _ => match (what.strip_prefix("faces."), what.strip_prefix("velocity.")) {

@@ -81,6 +81,9 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     }
     // The published operator keeps its rates next to blocks too.
     setup.solid_lambda = (setup.collision == Collision::Hermite).then_some(numerics.solid_lambda);
+    if let Some(aperture) = scene.coupling.joint_aperture {
+        setup.joint_aperture = Some(aperture_to_lattice(aperture, &setup, units)?);
+    }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
     setup.wall_model = match numerics.wall_model {
@@ -182,6 +185,24 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         setup.lanes = preferred[1];
     }
     Ok(setup)
+}
+
+/// Aperture of closed joints, m → cells; refused where cells and viscosity have no such joints.
+fn aperture_to_lattice(aperture: f64, setup: &Setup, units: &Units) -> Result<f64> {
+    let range = setup.joint_aperture_range().map(|cells| cells * units.cell);
+    // Four digits of the range, as the message has them, are enough.
+    if (range[0] * (1.0 - 1e-4)..=range[1] * (1.0 + 1e-4)).contains(&aperture) {
+        let [least, largest] = range;
+        return Ok(aperture.clamp(least, largest) / units.cell);
+    }
+    let [least, largest] = range;
+    Err(Error::scene(
+        "coupling.joint_aperture",
+        format!(
+            "is {aperture} m; closed joints conduct as slots of {least:.4e} to {largest:.4e} m with this cell, time step and viscosity: leave \
+             the key out for the widest, or give blocks an opening of a cell or more"
+        ),
+    ))
 }
 
 /// Roughness of a wall, m → cells; refused where the law of a rough wall does not hold.

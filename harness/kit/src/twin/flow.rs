@@ -92,8 +92,10 @@ impl Twin {
             return Solid::default();
         };
         let own = cells[cell];
+        let at_wall = self.tight_at_wall(cell);
         Solid {
-            tight: own.tight.max(self.tight_at_wall(cell)),
+            tight: own.tight.max(at_wall),
+            facing: own.facing && at_wall == 0.0,
             ..own
         }
     }

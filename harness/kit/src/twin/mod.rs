@@ -9,6 +9,7 @@ pub mod domain;
 pub mod equilibrium;
 pub mod flow;
 pub mod golden;
+pub mod joint;
 pub mod lattice;
 pub mod moments;
 pub mod noise;

@@ -15,6 +15,14 @@ pub fn noise(n: usize) -> f64 {
     ((x >> 11) as f64) / (1u64 << 52) as f64 - 1.0
 }
 
+fn twin_operator(operator: SolidOperator) -> twin::SolidOperator {
+    match operator {
+        SolidOperator::Holdych => twin::SolidOperator::Holdych,
+        SolidOperator::Noble => twin::SolidOperator::Noble,
+        SolidOperator::Superposition => twin::SolidOperator::Superposition,
+    }
+}
+
 /// The twin of a setup; pressure and outflow faces have none.
 pub fn twin_of(setup: &Setup) -> Twin {
     let faces = [0, 1, 2, 3, 4, 5].map(|n| match &setup.faces[n / 2][n % 2] {
@@ -55,6 +63,10 @@ pub fn twin_of(setup: &Setup) -> Twin {
         SolidWeight::Exact => twin::SolidWeight::Exact,
         SolidWeight::Standard => twin::SolidWeight::Standard,
     };
+    if let Some(aperture) = setup.joint_aperture {
+        let operator = setup.solid_operator.unwrap_or(SolidOperator::Holdych);
+        config.joint_weights = twin::joint::weights(&config, twin_operator(operator), aperture);
+    }
     let mut at_rest = vec![twin::Solid::default(); domain.cell_count()];
     for surface in &setup.surface {
         let cell = surface.cell as usize;
@@ -67,11 +79,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
         }
     }
     let mut twin = Twin::new(domain, config);
-    let blocks = |operator| match operator {
-        SolidOperator::Holdych => (twin::SolidOperator::Holdych, at_rest),
-        SolidOperator::Noble => (twin::SolidOperator::Noble, at_rest),
-        SolidOperator::Superposition => (twin::SolidOperator::Superposition, at_rest),
-    };
+    let blocks = |operator| (twin_operator(operator), at_rest);
     twin.wall_model = setup.wall_model.map(|law| twin::WallModel {
         law: match law {
             WallModel::WernerWengle => twin::WallLaw::WernerWengle,

@@ -109,6 +109,8 @@ pub struct Config {
     pub floor: f64,
     /// Weight of the solid in cells of which blocks fill a part.
     pub solid_weight: SolidWeight,
+    /// B of the momentum in closed joints of one row of cells and of two.
+    pub joint_weights: [f64; 2],
     /// WALE's C_w; `None` is laminar.
     pub c_w: Option<f64>,
 }
@@ -127,6 +129,7 @@ impl Config {
             lambda_everywhere: None,
             floor: 0.8,
             solid_weight: SolidWeight::Exact,
+            joint_weights: [0.25; 2],
             c_w: None,
         }
     }

@@ -41,12 +41,14 @@ pub struct Solid {
     pub tight: f64,
     /// Whether several blocks meet in it.
     pub shared: bool,
+    /// Whether its joint has two rows of cells: one block fills it, and another one the next cell.
+    pub facing: bool,
 }
 
-/// B in a cell of a closed joint, through which water seeps, and least B in one that blocks share.
-const SEEPS: f64 = 0.25;
-/// The same for all moments but mass and momentum.
-const DAMPS: f64 = 1.0 / 16.0;
+/// Least B of the momentum in a cell that blocks share.
+const SHARED: f64 = 0.25;
+/// B of all moments but mass and momentum in a cell of a closed joint, and least one in a cell that blocks share.
+pub(super) const DAMPS: f64 = 1.0 / 16.0;
 
 /// 1 for a closed joint, which leaves up to 0.002 of a cell, 0 for an open one, which leaves a tenth.
 pub fn tightness(share: f64) -> f64 {
@@ -59,23 +61,25 @@ impl Solid {
         self.beside || self.shares > 0.0
     }
 
-    /// B of the momentum at the relaxation time `tau`: 1 deep inside, a quarter in closed joints and no less in a cell that blocks
-    /// fill by half and share. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of docs/src/theory/solids.md.
+    /// B of the momentum at the relaxation time `tau`: 1 deep inside, that of the configuration in closed joints, and at least a quarter in
+    /// a cell that blocks fill by half and share. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of docs/src/theory/solids.md.
     pub fn weight(&self, config: &Config, tau: f64) -> f64 {
-        self.in_joint(config, tau, SEEPS)
+        let [one, two] = config.joint_weights;
+        let closed = if self.facing { two } else { one };
+        self.in_joint(config, tau, [SHARED, closed])
     }
 
     /// The same for all moments but mass and momentum.
     pub fn higher_weight(&self, config: &Config, tau: f64) -> f64 {
-        self.in_joint(config, tau, DAMPS)
+        self.in_joint(config, tau, [DAMPS; 2])
     }
 
-    fn in_joint(&self, config: &Config, tau: f64, closed: f64) -> f64 {
+    fn in_joint(&self, config: &Config, tau: f64, [shared, closed]: [f64; 2]) -> f64 {
         if self.deep {
             return 1.0;
         }
         let least = if self.shared {
-            (2.0 * self.fraction).min(1.0) * closed
+            (2.0 * self.fraction).min(1.0) * shared
         } else {
             0.0
         };
@@ -103,7 +107,7 @@ impl Solid {
 }
 
 /// Rate of 120 + 102 in cells with a block.
-fn third_order_rate(config: &Config, tau: f64) -> f64 {
+pub(super) fn third_order_rate(config: &Config, tau: f64) -> f64 {
     match config.operator {
         Operator::Bgk => 1.0 / tau,
         _ => moment_rates(config, 0.0, OddClass::Block)[10],

@@ -50,7 +50,7 @@ mod standing;
 mod toppling;
 
 pub use sliding::{Mode, Plane, Sliding, sliding};
-pub use standing::Standing;
+pub use standing::{Footing, Standing};
 pub use toppling::{Base, Wrench, toppling};
 
 use glam::DVec3;

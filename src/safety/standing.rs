@@ -22,6 +22,16 @@ pub struct Standing {
     pub toppling: f64,
 }
 
+/// What a block stands on and carries, but for the fluid.
+#[derive(Clone, Debug)]
+pub struct Footing {
+    supports: Vec<Support>,
+    weight: DVec3,
+    centre: DVec3,
+    /// What else acts on it.
+    acting: Wrench,
+}
+
 /// Contacts of one plane.
 #[derive(Clone, Debug, Default)]
 struct Support {
@@ -48,17 +58,34 @@ impl Standing {
     /// Of the block `block` of `blocks`, which were made of `setup`, under the `force` (N) and `torque` about its
     /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too,
     /// but no guide of it: one that holds it is left out.
-    pub fn of(setup: &Setup, blocks: &Blocks, block: usize, [force, torque]: [DVec3; 2]) -> Self {
-        let pose = blocks.pose(block);
-        let weight = blocks.mass(block) * blocks.gravity();
-        let supports = supports(setup, blocks, block);
+    pub fn of(setup: &Setup, blocks: &Blocks, block: usize, fluid: [DVec3; 2]) -> Self {
+        Footing::of(setup, blocks, block).under(fluid)
+    }
+}
+
+impl Footing {
+    /// Of the block `block` of `blocks`, which were made of `setup`, where it is now.
+    pub fn of(setup: &Setup, blocks: &Blocks, block: usize) -> Self {
+        let [force, torque] = blocks.applied_load(block);
+        Self {
+            supports: supports(setup, blocks, block),
+            weight: blocks.mass(block) * blocks.gravity(),
+            centre: blocks.pose(block).centre,
+            acting: Wrench { force, torque },
+        }
+    }
+
+    /// How safely the block stands there under the `force` (N) and `torque` about its centroid (N m) of a fluid with its buoyancy.
+    pub fn under(&self, [force, torque]: [DVec3; 2]) -> Standing {
+        let Self {
+            supports,
+            weight,
+            centre,
+            acting,
+        } = self;
+        let (weight, acting) = (*weight, *acting);
         let planes: Vec<Plane> = supports.iter().map(|support| support.plane).collect();
         let fluid = Wrench { force, torque };
-        let [push, turn] = blocks.applied_load(block);
-        let acting = Wrench {
-            force: push,
-            torque: turn,
-        };
         let force = fluid.force + acting.force;
         let resultant = weight + force;
         let pressed = |support: &&Support| -resultant.dot(support.plane.normal);
@@ -75,10 +102,10 @@ impl Standing {
             let mut others = others.clone();
             others.all(|support| support.lets_turn(axis, edge))
         };
-        Self {
+        Standing {
             sliding: sliding(resultant, &planes),
             uplift: uplift(weight, force),
-            toppling: toppling(weight, &[fluid, acting], pose.centre, &base, open),
+            toppling: toppling(weight, &[fluid, acting], *centre, &base, open),
         }
     }
 }

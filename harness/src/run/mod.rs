@@ -34,7 +34,7 @@ pub use estimate::{Estimate, Headline};
 pub use lattice::{Coupling, LatticeSummary};
 pub use left_out::LeftOut;
 pub use recorder::Schedule;
-pub use rock::{Factors, Rocks, Safety};
+pub use rock::{Factors, Rock, Rocks, Safety, block_probe::fluid_wrench};
 pub use statistics::UntilError;
 pub use summary::{Summary, Unfinished};
 pub use water::WaterSummary;

@@ -4,11 +4,13 @@
 //! value at which none moves and one at which one does, the next trial takes the middle.
 
 mod bracket;
+mod equilibrium;
 mod key;
 mod report;
 mod trial;
 
 pub use bracket::Bracket;
+pub use equilibrium::Equilibrium;
 pub use key::Key;
 pub use report::Report;
 pub use trial::{Motion, Trial};
@@ -50,6 +52,10 @@ pub struct Args {
     /// A block has moved when its centroid is as fast as this, m/s, instead
     #[arg(long, value_name = "V", conflicts_with = "distance")]
     pub speed: Option<f64>,
+    /// Also give the value at which block theory says that a block fails: a factor of safety is one under the mean loads of the
+    /// last trial in which none moved, where the loads of the flow grow with the square of the value. For velocities
+    #[arg(long)]
+    pub equilibrium: bool,
     /// Begin every trial with the state after so many seconds at the value --from
     #[arg(long, value_name = "S")]
     pub settle: Option<f64>,

@@ -1,6 +1,6 @@
 //! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
 
-use super::{Args, Motion, Trial, trial::BEGUN};
+use super::{Args, Equilibrium, Motion, Trial, trial::BEGUN};
 use crate::print::percent;
 use riprap::output::replace;
 use serde::Serialize;
@@ -25,6 +25,8 @@ pub struct Report {
     /// Where a block was under way at the still end of the bracket: the nearest value at which none came to a tenth of what
     /// counts as motion.
     pub rest: Option<f64>,
+    /// What block theory says under the mean loads at the still end of the bracket, where it is asked for.
+    pub equilibrium: Option<Equilibrium>,
     /// Whether the bracket is as narrow as was asked for.
     pub complete: bool,
     /// What is uncertain about the bracket.
@@ -41,6 +43,7 @@ impl Report {
             trials: Vec::new(),
             bracket: None,
             rest: None,
+            equilibrium: None,
             complete: false,
             warning: None,
         }
@@ -49,6 +52,9 @@ impl Report {
     /// Takes what the trials leave.
     pub fn end(&mut self, bracket: Option<[f64; 2]>, complete: bool) {
         (self.bracket, self.complete) = (bracket, complete);
+        let at = |value| self.trials.iter().find(|trial| trial.value == value);
+        let still = bracket.and_then(|[still, _]| at(still));
+        self.equilibrium = still.and_then(|trial| trial.equilibrium.clone());
         self.warning = bracket.and_then(|[still, moves]| {
             let ended = self.trials.iter().find(|trial| trial.value == still)?;
             let motion = ended.closest.as_ref().filter(|_| ended.under_way)?;
@@ -112,6 +118,10 @@ impl fmt::Display for Report {
                 self.trials.len(),
                 if self.complete { "" } else { ", stopped" }
             )
+            .and_then(|()| match &self.equilibrium {
+                Some(found) => write!(f, "\n{found}"),
+                None => Ok(()),
+            })
             .and_then(|()| match &self.warning {
                 Some(warning) => write!(f, "\nwarning: {warning}"),
                 None => Ok(()),

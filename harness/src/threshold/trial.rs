@@ -1,6 +1,6 @@
 //! One run of the scene, until a block moves.
 
-use super::Args;
+use super::{Args, Equilibrium, equilibrium::Loads};
 use crate::run::{Batch, SceneRun};
 use anyhow::Result;
 use glam::DVec3;
@@ -76,6 +76,8 @@ pub struct Trial {
     pub moved: Option<Motion>,
     /// The block that came closest to moving, at its end.
     pub closest: Option<Motion>,
+    /// What block theory says of its mean loads, where it is asked for and none moved.
+    pub equilibrium: Option<Equilibrium>,
     /// Whether none had moved at its end, but one was about to: it would have in another such trial.
     pub under_way: bool,
     /// Steps that it took.
@@ -133,6 +135,10 @@ pub fn run(
         })?;
     }
     let watched = Watched::new(&run, args.block.as_deref())?;
+    let mut loads = match args.equilibrium {
+        true => Some(watched.loads(&run)?),
+        false => None,
+    };
     let first = run.step();
     let own = run.scene().run.count(run.time_step());
     let last = first + args.steps.unwrap_or(own).max(1);
@@ -148,10 +154,15 @@ pub fn run(
         let steps = batch.steps().min(next.min(last) - run.step());
         advance(&mut run, &mut batch, steps)?;
         (closest, moved) = watched.look(&run, criterion);
+        if let Some(loads) = &mut loads {
+            loads.look(&run);
+        }
     }
+    let still = loads.filter(|_| moved.is_none());
     let goes_on = |motion: &Motion| motion.goes_on(criterion);
     Ok(Some(Trial {
         value,
+        equilibrium: still.and_then(|loads| loads.equilibrium(value)),
         under_way: moved.is_none() && closest.as_ref().is_some_and(goes_on),
         moved,
         closest,
@@ -194,6 +205,20 @@ impl Watched {
             blocks: watched,
             start: run.time(),
         })
+    }
+
+    /// To be taken on all of them.
+    fn loads(&self, run: &SceneRun) -> riprap::Result<Loads> {
+        let watched = self.blocks.iter().map(|(n, ..)| *n);
+        match run.rock() {
+            Some(rock) if !rock.loads.is_empty() => {
+                Ok(Loads::new(watched, &rock, run.scene().fluid.density))
+            }
+            _ => {
+                let message = "no fluid flows around the blocks; leave it out";
+                Err(Error::argument("--equilibrium", message))
+            }
+        }
     }
 
     /// The block that is closest to moving, and the same once it has moved.

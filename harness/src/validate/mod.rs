@@ -20,6 +20,7 @@ mod offset_joint;
 mod open_channel;
 mod outlet;
 pub(crate) mod plane_walls;
+mod plucking;
 mod repeatability;
 pub(crate) mod rock;
 mod slots;
@@ -153,6 +154,7 @@ pub const CASES: &[Case] = &[
     short("statistics/known-signal", "means and variances on the device of 3·10⁵ samples in f32, against f64", statistics::known_signal),
     short("turbulence/inlet", "turbulence that a velocity face feeds: its intensity on the face and in the fluid", synthetic_turbulence::inlet),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),
+    long("joint/plucking", "velocity that moves the block of the scene plucking, beside block theory", plucking::run),
     short("joint/pressure", "pressure in joints under a step and a sine at their mouth, against a slot", joint_pressure::run),
     short("outlet/pulse", "what an outlet returns of a pulse of sound", outlet::pulse),
     short("stability/quiescent", "noise in fluid at rest calms down at every relaxation time", stability::quiescent),

@@ -151,9 +151,20 @@ fn a_flow_that_is_fast_enough_moves_a_block() {
     let key = "boundaries.x_min.velocity[0]";
     let args = Args {
         settle: Some(0.01),
+        equilibrium: true,
         ..args(&folder, PUSH, &[key], [0.0, 3.0, 1.6])
     };
     let report = go(&args);
+    // Under the mean loads of the trial at half of the fastest, in which it stood, or of none where the flow stood still.
+    let still = report.trials.iter().filter(|trial| trial.moved.is_none());
+    let found: Vec<_> = still.map(|trial| trial.equilibrium.as_ref()).collect();
+    assert!(found[0].is_none(), "{report:?}");
+    let told = report.to_string();
+    assert_eq!(
+        found.len() > 1,
+        told.contains("in limit equilibrium"),
+        "{told}"
+    );
     assert!(report.complete, "{report}");
     assert_eq!(report.trials.len(), 3);
     assert!(report.trials[1].moved.is_some(), "{report:?}");
@@ -209,6 +220,13 @@ fn what_cannot_be_searched_is_refused() {
         (gravity, "7", "8", &[], &["moves at 7 already", "--from"]),
         (gravity, "-1", "2", &[], &["no block moves at 2", "--to"]),
         (gravity, "3", "3", &[], &["nothing between"]),
+        (
+            gravity,
+            "4",
+            "8",
+            &["--equilibrium"],
+            &["--equilibrium", "no fluid"],
+        ),
     ] {
         let ends = ["--from", from, "--to", to, "--tolerance", "0.5"];
         let search = ["threshold", "scene.toml", "--key", key];

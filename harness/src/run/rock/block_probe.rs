@@ -236,8 +236,14 @@ fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
     row
 }
 
-/// How a block stands: in its closed joints is the water that is at their rim.
+/// How a block stands.
 fn standing(rock: &Rock<'_>, block: usize) -> Standing {
+    Standing::of(rock.setup, rock.blocks, block, fluid_wrench(rock, block))
+}
+
+/// Force (N) and torque about its centroid (N m) of the fluid on a block, buoyancy included: in its closed joints is the water that is at
+/// their rim. Zero where there is no fluid.
+pub fn fluid_wrench(rock: &Rock<'_>, block: usize) -> [DVec3; 2] {
     let load = rock.loads.get(block).copied().unwrap_or_default();
     let fluid = rock
         .coupled
@@ -248,5 +254,5 @@ fn standing(rock: &Rock<'_>, block: usize) -> Standing {
             load.flow.torque() + load.buoyancy.torque(),
         ]
     };
-    Standing::of(rock.setup, rock.blocks, block, fluid.unwrap_or_else(whole))
+    fluid.unwrap_or_else(whole)
 }

@@ -1,0 +1,87 @@
+//! The velocity at which the block of the scene `plucking` begins to move, beside that at which block theory says so under the mean
+//! pressures on its faces.
+
+use super::{Outcome, Stand, Trial};
+use crate::threshold::{self, Args};
+use anyhow::Context;
+use std::{fs, sync::atomic::AtomicBool, time::Instant};
+
+/// The scene that ships, with 16 cells across the block.
+const SCENE: &str = include_str!("../../scenes/plucking.toml");
+/// Velocity outside of the boundary layer in the scene, m/s: the values are factors of its profile.
+const VELOCITY: f64 = 4.0;
+/// Times for which the block is held, s: the eddies that it feels from then on are others.
+const HOLDS: [f64; 3] = [0.05, 0.09, 0.13];
+/// Time in which it may move, s.
+const FREE: f64 = 0.3;
+/// Factors of the profile at which it stands and at which it moves, and how closely the threshold is wanted.
+const ENDS: [f64; 2] = [0.3, 0.5];
+const TOLERANCE: f64 = 0.015;
+
+/// Runs the case.
+pub fn run(stand: &Stand) -> Outcome {
+    let folder = std::env::temp_dir().join(format!("riprap_plucking_{}", std::process::id()));
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let mut records = Vec::new();
+    let begin = Instant::now();
+    let [mut moves, mut fails] = [Vec::new(), Vec::new()];
+    for hold in HOLDS {
+        let text = SCENE
+            .replace("hold = 0.05", &format!("hold = {hold}"))
+            .replace("duration = 0.35", &format!("duration = {}", hold + FREE));
+        let scene = folder.join("plucking.toml");
+        fs::write(&scene, text).with_context(|| format!("cannot write {}", scene.display()))?;
+        let args = Args {
+            scene,
+            key: ["boundaries.x_min.velocity[0]", "initial.velocity[0]"]
+                .map(String::from)
+                .into(),
+            from: ENDS[0],
+            to: ENDS[1],
+            tolerance: TOLERANCE,
+            equilibrium: true,
+            adapter: Some(stand.device.adapter_info().name),
+            out: Some(folder.clone()),
+            ..Args::default()
+        };
+        let start = Instant::now();
+        let report = threshold::run(&args, &AtomicBool::new(false))?;
+        let steps = report.trials.iter().map(|trial| trial.steps).sum();
+        let what = format!("plucking, held for {hold} s");
+        let trial = Trial::since(start, what, 96 * 32 * 48, steps);
+        let [still, moving] = report.bracket.context("no bracket")?;
+        let name = |what: &str| format!("{what}, held for {hold} s, m/s");
+        moves.push(0.5 * VELOCITY * (still + moving));
+        let half = 0.5 * VELOCITY * (moving - still);
+        records.push(trial.report(name("least velocity that moves it"), moves[moves.len() - 1]));
+        records.push(trial.report(name("half the bracket of that"), half));
+        let found = report.equilibrium.context("it stands in any flow")?;
+        fails.push(VELOCITY * found.value);
+        let fails = format!("limit equilibrium of mean loads, by {}", found.mode);
+        records.push(trial.report(name(&fails), VELOCITY * found.value));
+        if let Some(error) = found.error {
+            records.push(trial.report(name("statistical error of that"), VELOCITY * error));
+        }
+    }
+    let trial = Trial::since(begin, "plucking, from three moments", 96 * 32 * 48, 0);
+    let [moves, fails] = [moves, fails].map(|all| mean(&all));
+    let mut add = |what: &str, value| records.push(trial.report(what, value));
+    add("least velocity that moves it, mean, m/s", moves[0]);
+    add("standard error of that, m/s", moves[1]);
+    add("limit equilibrium of mean loads, mean, m/s", fails[0]);
+    add("standard error of that limit, m/s", fails[1]);
+    add(
+        "velocity that moves it / limit equilibrium",
+        moves[0] / fails[0],
+    );
+    let _ = fs::remove_dir_all(&folder);
+    Ok(records)
+}
+
+/// Mean and its standard error.
+fn mean(values: &[f64]) -> [f64; 2] {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    [mean, (squares / (count * (count - 1.0))).sqrt()]
+}

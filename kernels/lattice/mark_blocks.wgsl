@@ -40,5 +40,6 @@ fn solid_in(cell: vec3<u32>) -> bool {
     }
     let inner = at % size;
     let element = inner.x + BRICK_X * (inner.y + BRICK_Y * inner.z);
-    return decode_sum(read_psm(PLANE_SUM, slot - 1u, element * LANES_OF_ELEMENT + lane)).fraction > 0.0;
+    // A sum with its code is above zero where there is solid: see encode_sum.
+    return read_psm(PLANE_SUM, slot - 1u, element * LANES_OF_ELEMENT + lane) > 0.0;
 }

@@ -330,3 +330,21 @@ fn size(shape: &Shape) -> u64 {
     });
     parts.map(|bytes| bytes as u64).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::HALF_TIME;
+    use std::f64::consts::PI;
+
+    /// What is missing in the middle of a square is the square of what is missing in the middle of a strip.
+    #[test]
+    fn half_of_a_change_is_in_the_middle_of_a_square() {
+        let missing = |n: f64| {
+            let odd = 2.0 * n + 1.0;
+            let sign = if n % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            sign * 4.0 / (PI * odd) * (-(odd * PI).powi(2) * HALF_TIME).exp()
+        };
+        let strip: f64 = (0..50).map(|n| missing(f64::from(n))).sum();
+        assert!((strip * strip - 0.5).abs() < 2e-3, "{strip}");
+    }
+}

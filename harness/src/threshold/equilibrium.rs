@@ -82,7 +82,7 @@ impl Loads {
             block: block.name.clone(),
             mode,
             value: value * square.sqrt(),
-            error: means.and_then(|means| Some(value.abs() * standard_error(&means)?)),
+            error: means.and_then(|means| Some(value.abs() * mean_and_error(&means)?[1])),
             loads_at: value,
             samples: late.len(),
         })
@@ -160,12 +160,12 @@ fn mean(samples: &[Vec<Wrench>], n: usize) -> Option<Wrench> {
     (count > 0.0).then(|| [sum(0) / count, sum(1) / count])
 }
 
-/// Of the mean of the values; none of a single one.
-fn standard_error(values: &[f64]) -> Option<f64> {
+/// Mean of values, and its standard error; none of a single one.
+pub(crate) fn mean_and_error(values: &[f64]) -> Option<[f64; 2]> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    (values.len() > 1).then(|| (squares / (count * (count - 1.0))).sqrt())
+    (values.len() > 1).then(|| [mean, (squares / (count * (count - 1.0))).sqrt()])
 }
 
 impl fmt::Display for Equilibrium {

@@ -11,6 +11,7 @@ mod trial;
 
 pub use bracket::Bracket;
 pub use equilibrium::Equilibrium;
+pub(crate) use equilibrium::mean_and_error;
 pub use key::Key;
 pub use report::Report;
 pub use trial::{Motion, Trial};

@@ -25,7 +25,7 @@ pub struct Report {
     /// Where a block was under way at the still end of the bracket: the nearest value at which none came to a tenth of what
     /// counts as motion.
     pub rest: Option<f64>,
-    /// What block theory says under the mean loads at the still end of the bracket, where it is asked for.
+    /// With `--equilibrium`: the limit equilibrium under the mean loads at the still end of the bracket.
     pub equilibrium: Option<Equilibrium>,
     /// Whether the bracket is as narrow as was asked for.
     pub complete: bool,

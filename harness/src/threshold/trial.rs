@@ -76,7 +76,7 @@ pub struct Trial {
     pub moved: Option<Motion>,
     /// The block that came closest to moving, at its end.
     pub closest: Option<Motion>,
-    /// What block theory says of its mean loads, where it is asked for and none moved.
+    /// With `--equilibrium`: the limit equilibrium under its mean loads, if no block moved.
     pub equilibrium: Option<Equilibrium>,
     /// Whether none had moved at its end, but one was about to: it would have in another such trial.
     pub under_way: bool,

@@ -262,6 +262,8 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
             .with_context(|| format!("cannot make {}", folder.display()))?;
     }
     stand.pictures = args.pictures;
+    // Cases may take hours, in which other commits are made.
+    let machine = Machine::of(&stand.device.adapter_info());
     let mut records = Vec::new();
     println!("{}", record::header());
     for case in cases {
@@ -272,7 +274,6 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
         records.append(&mut found(&stand, &case));
     }
     if let Some(path) = &args.json {
-        let machine = Machine::of(&stand.device.adapter_info());
         std::fs::write(path, machine.json(&records)?)
             .with_context(|| format!("cannot write {}", path.display()))?;
     }

@@ -1,8 +1,8 @@
-//! The velocity at which the block of the scene `plucking` begins to move, beside that at which block theory says so under the mean
-//! pressures on its faces.
+//! The velocity at which the block of the scene `plucking` begins to move, beside that of limit equilibrium under the mean pressures on
+//! its faces.
 
 use super::{Outcome, Stand, Trial};
-use crate::threshold::{self, Args};
+use crate::threshold::{self, Args, mean_and_error};
 use anyhow::Context;
 use std::{fs, sync::atomic::AtomicBool, time::Instant};
 
@@ -25,6 +25,7 @@ pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let begin = Instant::now();
     let [mut moves, mut fails] = [Vec::new(), Vec::new()];
+    let mut half_bracket = 0.0_f64;
     for hold in HOLDS {
         let text = SCENE
             .replace("hold = 0.05", &format!("hold = {hold}"))
@@ -54,6 +55,7 @@ pub fn run(stand: &Stand) -> Outcome {
         moves.push(0.5 * VELOCITY * (still + moving));
         let half = 0.5 * VELOCITY * (moving - still);
         records.push(trial.report(name("least velocity that moves it"), moves[moves.len() - 1]));
+        half_bracket = half_bracket.max(half);
         records.push(trial.report(name("half the bracket of that"), half));
         let found = report.equilibrium.context("it stands in any flow")?;
         fails.push(VELOCITY * found.value);
@@ -64,10 +66,16 @@ pub fn run(stand: &Stand) -> Outcome {
         }
     }
     let trial = Trial::since(begin, "plucking, from three moments", 96 * 32 * 48, 0);
-    let [moves, fails] = [moves, fails].map(|all| mean(&all));
+    let of_all = |all: &[f64]| mean_and_error(all).context("a single moment");
+    let (moves, fails) = (of_all(&moves)?, of_all(&fails)?);
+    // A threshold is anywhere in its bracket with the same probability; the three brackets may be the same one.
+    let bracket = half_bracket / 3f64.sqrt();
     let mut add = |what: &str, value| records.push(trial.report(what, value));
     add("least velocity that moves it, mean, m/s", moves[0]);
-    add("standard error of that, m/s", moves[1]);
+    add(
+        "its standard error, with that of the bracket, m/s",
+        moves[1].hypot(bracket),
+    );
     add("limit equilibrium of mean loads, mean, m/s", fails[0]);
     add("standard error of that limit, m/s", fails[1]);
     add(
@@ -76,12 +84,4 @@ pub fn run(stand: &Stand) -> Outcome {
     );
     let _ = fs::remove_dir_all(&folder);
     Ok(records)
-}
-
-/// Mean and its standard error.
-fn mean(values: &[f64]) -> [f64; 2] {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    [mean, (squares / (count * (count - 1.0))).sqrt()]
 }

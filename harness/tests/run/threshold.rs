@@ -159,11 +159,11 @@ fn a_flow_that_is_fast_enough_moves_a_block() {
     let still = report.trials.iter().filter(|trial| trial.moved.is_none());
     let found: Vec<_> = still.map(|trial| trial.equilibrium.as_ref()).collect();
     assert!(found[0].is_none(), "{report:?}");
-    let told = report.to_string();
+    let text = report.to_string();
     assert_eq!(
         found.len() > 1,
-        told.contains("in limit equilibrium"),
-        "{told}"
+        text.contains("in limit equilibrium"),
+        "{text}"
     );
     assert!(report.complete, "{report}");
     assert_eq!(report.trials.len(), 3);

@@ -40,6 +40,7 @@ mod joint_rim;
 mod joint_seal;
 mod kernel_deficit;
 mod lattice_coupling;
+mod pressure_plane;
 mod rock;
 mod uplift;
 

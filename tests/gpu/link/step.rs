@@ -1,6 +1,6 @@
 //! The step: all slots, and each pair of a slot's file and a number of bindings.
 
-use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, variants};
+use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, third_of_variants};
 use riprap::lattice::{
     BrickKind, Collision, Equilibrium, Setup, SolidOperator, SurfaceCell, WallModel, collide_stream,
 };
@@ -17,8 +17,8 @@ const KINDS: [(BrickKind, Option<SolidOperator>, bool); 7] = [
 ];
 
 #[test]
-fn the_step_in_all_variants() {
-    for variant in variants(&[LAYOUTS.len(), 3, 2, 3, 3, 2, KINDS.len()]) {
+fn the_step_in_variants_of_all_slots() {
+    for variant in third_of_variants(&[LAYOUTS.len(), 3, 2, 3, 3, 2, KINDS.len()]) {
         let [layout, collision, equilibrium, wale, force, guard, kind] = variant[..] else {
             unreachable!()
         };

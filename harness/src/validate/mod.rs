@@ -23,6 +23,7 @@ pub(crate) mod plane_walls;
 mod plucking;
 mod repeatability;
 pub(crate) mod rock;
+mod separation;
 mod slots;
 mod stability;
 mod statistics;
@@ -151,6 +152,10 @@ pub const CASES: &[Case] = &[
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
+    long("wall-model/blocks", "turbulent channel between plates that are blocks, which have no wall model", wall_model::blocks),
+    short("separation/laminar-step", "laminar flow behind a step (Erturk 2008)", separation::laminar_step),
+    long("separation/step", "turbulent flow behind a step, with a wall model (Kopera et al. 2017)", separation::step),
+    long("separation/cube", "turbulent flow around a cube on the floor, with a wall model (Martinuzzi & Tropea 1993)", separation::cube),
     short("statistics/known-signal", "means and variances on the device of 3·10⁵ samples in f32, against f64", statistics::known_signal),
     short("turbulence/inlet", "turbulence that a velocity face feeds: its intensity on the face and in the fluid", synthetic_turbulence::inlet),
     long("joint/stagnation", "stagnation point in an offset open joint (Gardner & Sitar 2018)", offset_joint::stagnation),

@@ -250,6 +250,12 @@ impl Flow<'_> {
         Ok(state)
     }
 
+    /// Gives the cells of the velocity face x− new velocities.
+    pub fn set_inlet(&mut self, velocity: Vec<[f32; 3]>) -> anyhow::Result<()> {
+        let lattice = &mut self.lattice;
+        Ok(lattice.set_face_velocity(&self.stand.queue, 0, 0, velocity)?)
+    }
+
     /// Velocities of moving faces in the last step, nine of each cell.
     pub fn wall_velocities(&mut self) -> anyhow::Result<Vec<f32>> {
         let Some(buffer) = self.lattice.wall_velocity_buffer() else {

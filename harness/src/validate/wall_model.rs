@@ -1,7 +1,13 @@
 //! Walls whose friction a law of the wall gives, where the grid does not resolve the layer next to them.
 
-use super::{Outcome, Record, Stand, fields};
-use riprap::lattice::{Face, Force, WallModel};
+use super::{
+    Outcome, Record, Stand, fields,
+    tank::{self, Tank, block, numbers},
+};
+use riprap::{
+    lattice::{Face, Force, WallModel},
+    scene::{BlockShape, EddyViscosity, Motion},
+};
 
 /// Mean velocity of the start.
 const BULK: f64 = 0.04;
@@ -86,6 +92,68 @@ pub fn rough_channel(stand: &Stand) -> Outcome {
             model: Some(WallModel::WernerWengle),
         };
         records.extend(channel.judge(stand)?);
+    }
+    Ok(records)
+}
+
+/// Re_τ 5200 between plates that are blocks, which have no wall model: what their friction is instead. Their faces lie on sides of cells and off
+/// them.
+pub fn blocks(stand: &Stand) -> Outcome {
+    let mut records = Vec::new();
+    let (reynolds, expected) = CHANNELS[1];
+    // Half the distance of the plates, and their thickness, cells.
+    let (h, thick) = (12, 8);
+    let (half, friction) = (f64::from(h), BULK / expected);
+    let cells = [4 * h, 2 * h + thick, 2 * h];
+    let force = friction * friction / half;
+    for offset in [0.0, 0.3, 0.5] {
+        let mut scene = tank::scene(cells, 0.5 + 3.0 * friction * half / reynolds)?;
+        scene.numerics.eddy_viscosity = EddyViscosity::Wale;
+        scene.fluid.acceleration = numbers([force, 0.0, 0.0]);
+        let (wide, floor) = (f64::from(2 * h), 0.5 * f64::from(thick) + offset);
+        // The log law with rolls across the stream, which break up.
+        let swirl = |trigonometric: &str, along: &str| {
+            format!(
+                "0.003*{trigonometric}(2*pi*z/{wide} + sin(2*pi*x/{}))*{along}(pi*(y - {floor})/{wide})",
+                cells[0]
+            )
+        };
+        let velocity = [
+            format!(
+                "{friction}*(log(1 + max(0, {half} - abs(y - {floor} - {half}))*{})/0.384 + 2)",
+                0.384 * reynolds / half
+            ),
+            swirl("cos", "sin"),
+            swirl("sin", "cos"),
+        ];
+        for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
+            *component = text.parse()?;
+        }
+        let size = [cells[0], thick, cells[2]].map(f64::from);
+        let middle = [0.5 * size[0], offset, 0.5 * size[2]];
+        scene
+            .blocks
+            .push(block(BlockShape::Box { size }, middle, Motion::Fixed));
+        let mut tank = Tank::fill(stand, &scene)?;
+        tank.advance((4.0 * half / friction) as u64)?;
+        let each = ((4.0 * half / friction) as u64 / SAMPLES) | 1;
+        // What flows is between the plates.
+        let open = size[0] * size[2] * 2.0 * half;
+        let mut bulk = Vec::new();
+        for _ in 0..=SAMPLES {
+            tank.advance(each)?;
+            bulk.push(tank.totals()?.momentum[0] / open);
+        }
+        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
+        let stress = half * (force - change);
+        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+        let found = mean / stress.max(0.0).sqrt();
+        let trial = tank.trial("plates that are blocks");
+        let name = |what: &str| format!("{what}, surface {offset} off the grid");
+        records.push(trial.relative(name("U_b⁺"), found, expected, None));
+        // As the square of the mean velocity.
+        let published = (mean / expected).powi(2);
+        records.push(trial.report(name("friction / that of Lee & Moser"), stress / published));
     }
     Ok(records)
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use riprap::{
     lattice::{Face, Force, WallModel},
-    scene::{BlockShape, EddyViscosity, Motion},
+    scene::{BlockShape, EddyViscosity, Motion, Scene},
 };
 
 /// Mean velocity of the start.
@@ -96,66 +96,96 @@ pub fn rough_channel(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Re_τ 5200 between plates that are blocks, which have no wall model: what their friction is instead. Their faces lie on sides of cells and off
-/// them.
+/// Re_τ 5200 between plates that are blocks, which have no wall model: the friction that they have instead. Their faces lie on sides
+/// of cells and off them.
 pub fn blocks(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
-    let (reynolds, expected) = CHANNELS[1];
-    // Half the distance of the plates, and their thickness, cells.
-    let (h, thick) = (12, 8);
-    let (half, friction) = (f64::from(h), BULK / expected);
-    let cells = [4 * h, 2 * h + thick, 2 * h];
-    let force = friction * friction / half;
+    let (_, expected) = CHANNELS[1];
     for offset in [0.0, 0.3, 0.5] {
-        let mut scene = tank::scene(cells, 0.5 + 3.0 * friction * half / reynolds)?;
+        let plates = Plates::new();
+        let mut tank = Tank::fill(stand, &plates.scene(offset)?)?;
+        let time = 4.0 * plates.h / plates.friction;
+        tank.advance(time as u64)?;
+        let each = (time as u64 / SAMPLES) | 1;
+        let mut bulk = Vec::new();
+        for _ in 0..=SAMPLES {
+            tank.advance(each)?;
+            bulk.push(tank.totals()?.momentum[0] / plates.open_volume());
+        }
+        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
+        let stress = plates.h * (plates.force() - change);
+        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+        let trial = tank.trial("plates that are blocks");
+        let name = |what: &str| format!("{what}, surfaces {offset} off the grid");
+        let found = mean / stress.max(0.0).sqrt();
+        records.push(trial.relative(name("U_b⁺"), found, expected, None));
+        let friction = stress / (mean / expected).powi(2);
+        records.push(trial.report(name("friction / published"), friction));
+    }
+    Ok(records)
+}
+
+/// A plate in a periodic box, and what flows between it and its copy.
+struct Plates {
+    /// Half of the distance, and thickness of the plate, cells.
+    h: f64,
+    thick: f64,
+    /// Expected friction velocity.
+    friction: f64,
+}
+
+impl Plates {
+    fn new() -> Self {
+        Self {
+            h: 12.0,
+            thick: 8.0,
+            friction: BULK / CHANNELS[1].1,
+        }
+    }
+
+    /// Length, height with the plate, and width, cells.
+    fn size(&self) -> [f64; 3] {
+        [4.0 * self.h, 2.0 * self.h + self.thick, 2.0 * self.h]
+    }
+
+    fn open_volume(&self) -> f64 {
+        let [length, height, width] = self.size();
+        length * (height - self.thick) * width
+    }
+
+    /// Per volume.
+    fn force(&self) -> f64 {
+        self.friction.powi(2) / self.h
+    }
+
+    /// With the middle of the plate at the height `offset`, from the log law and rolls across the stream, which break up.
+    fn scene(&self, offset: f64) -> anyhow::Result<Scene> {
+        let Self { h, thick, friction } = *self;
+        let size = self.size();
+        let nu = friction * h / CHANNELS[1].0;
+        let mut scene = tank::scene(size.map(|n| n as u32), 0.5 + 3.0 * nu)?;
         scene.numerics.eddy_viscosity = EddyViscosity::Wale;
-        scene.fluid.acceleration = numbers([force, 0.0, 0.0]);
-        let (wide, floor) = (f64::from(2 * h), 0.5 * f64::from(thick) + offset);
-        // The log law with rolls across the stream, which break up.
-        let swirl = |trigonometric: &str, along: &str| {
-            format!(
-                "0.003*{trigonometric}(2*pi*z/{wide} + sin(2*pi*x/{}))*{along}(pi*(y - {floor})/{wide})",
-                cells[0]
-            )
-        };
+        scene.fluid.acceleration = numbers([self.force(), 0.0, 0.0]);
+        let floor = 0.5 * thick + offset;
+        let wall_units = 0.384 * friction / nu;
+        let from_plate = format!("max(0, {h} - abs(y - {}))", floor + h);
+        let phase = format!("(pi*z/{h} + sin(2*pi*x/{}))", size[0]);
+        let height = format!("(pi*(y - {floor})/{})", 2.0 * h);
         let velocity = [
-            format!(
-                "{friction}*(log(1 + max(0, {half} - abs(y - {floor} - {half}))*{})/0.384 + 2)",
-                0.384 * reynolds / half
-            ),
-            swirl("cos", "sin"),
-            swirl("sin", "cos"),
+            format!("{friction}*(log(1 + {from_plate}*{wall_units})/0.384 + 2)"),
+            format!("0.003*cos{phase}*sin{height}"),
+            format!("0.003*sin{phase}*cos{height}"),
         ];
         for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
             *component = text.parse()?;
         }
-        let size = [cells[0], thick, cells[2]].map(f64::from);
+        let shape = BlockShape::Box {
+            size: [size[0], thick, size[2]],
+        };
         let middle = [0.5 * size[0], offset, 0.5 * size[2]];
-        scene
-            .blocks
-            .push(block(BlockShape::Box { size }, middle, Motion::Fixed));
-        let mut tank = Tank::fill(stand, &scene)?;
-        tank.advance((4.0 * half / friction) as u64)?;
-        let each = ((4.0 * half / friction) as u64 / SAMPLES) | 1;
-        // What flows is between the plates.
-        let open = size[0] * size[2] * 2.0 * half;
-        let mut bulk = Vec::new();
-        for _ in 0..=SAMPLES {
-            tank.advance(each)?;
-            bulk.push(tank.totals()?.momentum[0] / open);
-        }
-        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
-        let stress = half * (force - change);
-        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
-        let found = mean / stress.max(0.0).sqrt();
-        let trial = tank.trial("plates that are blocks");
-        let name = |what: &str| format!("{what}, surface {offset} off the grid");
-        records.push(trial.relative(name("U_b⁺"), found, expected, None));
-        // As the square of the mean velocity.
-        let published = (mean / expected).powi(2);
-        records.push(trial.report(name("friction / that of Lee & Moser"), stress / published));
+        scene.blocks.push(block(shape, middle, Motion::Fixed));
+        Ok(scene)
     }
-    Ok(records)
 }
 
 impl Channel {

@@ -33,6 +33,7 @@ const CLOSED_HEIGHTS: [f64; 3] = [0.0, 0.25, 1.0];
 const AREA_TOLERANCE: f64 = 0.1;
 /// Smallest closed area, as a fraction of that of the face.
 const MIN_FRACTION: f64 = 0.01;
+
 /// A face with its closed and its open area.
 #[derive(Clone, Debug)]
 struct JointFace<'a> {

@@ -19,6 +19,11 @@ const LIMIT: f64 = 0.05;
 /// Re_τ and the mean velocity over the friction velocity (Lee & Moser 2015).
 const CHANNELS: [(f64, f64); 2] = [(1000.0, 19.99), (5200.0, 24.1)];
 
+/// Half of the distance between plates, their thickness, and the box of one of them with its copy, cells.
+const PLATES_H: f64 = 12.0;
+const PLATE: f64 = 8.0;
+const PLATES: [u32; 3] = [48, 32, 24];
+
 /// A channel of a length and width of 4 and 2 depths, between walls or from a wall to a face without friction.
 #[derive(Clone, Copy, Debug)]
 struct Channel {
@@ -100,92 +105,62 @@ pub fn rough_channel(stand: &Stand) -> Outcome {
 /// of cells and off them.
 pub fn blocks(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
-    let (_, expected) = CHANNELS[1];
+    let (reynolds, expected) = CHANNELS[1];
+    let friction = BULK / expected;
+    let force = friction * friction / PLATES_H;
     for offset in [0.0, 0.3, 0.5] {
-        let plates = Plates::new();
-        let mut tank = Tank::fill(stand, &plates.scene(offset)?)?;
-        let time = 4.0 * plates.h / plates.friction;
+        let mut tank = Tank::fill(stand, &plates(offset, friction, reynolds)?)?;
+        let time = 4.0 * PLATES_H / friction;
         tank.advance(time as u64)?;
         let each = (time as u64 / SAMPLES) | 1;
         let mut bulk = Vec::new();
         for _ in 0..=SAMPLES {
             tank.advance(each)?;
-            bulk.push(tank.totals()?.momentum[0] / plates.open_volume());
+            let [length, height, width] = PLATES.map(f64::from);
+            let open = length * (height - PLATE) * width;
+            bulk.push(tank.totals()?.momentum[0] / open);
         }
         let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
-        let stress = plates.h * (plates.force() - change);
+        let stress = PLATES_H * (force - change);
         let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
         let trial = tank.trial("plates that are blocks");
         let name = |what: &str| format!("{what}, surfaces {offset} off the grid");
         let found = mean / stress.max(0.0).sqrt();
         records.push(trial.relative(name("U_b⁺"), found, expected, None));
-        let friction = stress / (mean / expected).powi(2);
-        records.push(trial.report(name("friction / published"), friction));
+        let part = stress / (mean / expected).powi(2);
+        records.push(trial.report(name("friction / published"), part));
     }
     Ok(records)
 }
 
-/// A plate in a periodic box, and what flows between it and its copy.
-struct Plates {
-    /// Half of the distance, and thickness of the plate, cells.
-    h: f64,
-    thick: f64,
-    /// Expected friction velocity.
-    friction: f64,
-}
-
-impl Plates {
-    fn new() -> Self {
-        Self {
-            h: 12.0,
-            thick: 8.0,
-            friction: BULK / CHANNELS[1].1,
-        }
+/// A plate in a periodic box, its middle at the height `offset`. The flow begins with the log law and rolls across the stream,
+/// which break up.
+fn plates(offset: f64, friction: f64, reynolds: f64) -> anyhow::Result<Scene> {
+    let h = PLATES_H;
+    let size = PLATES.map(f64::from);
+    let nu = friction * h / reynolds;
+    let mut scene = tank::scene(PLATES, 0.5 + 3.0 * nu)?;
+    scene.numerics.eddy_viscosity = EddyViscosity::Wale;
+    scene.fluid.acceleration = numbers([friction * friction / h, 0.0, 0.0]);
+    let floor = 0.5 * PLATE + offset;
+    let from_plate = format!("max(0, {h} - abs(y - {}))", floor + h);
+    let phase = format!("(pi*z/{h} + sin(2*pi*x/{}))", size[0]);
+    let height = format!("(pi*(y - {floor})/{})", 2.0 * h);
+    let wall_units = 0.384 * friction / nu;
+    let velocity = [
+        format!("{friction}*(log(1 + {from_plate}*{wall_units})/0.384 + 2)"),
+        format!("0.003*cos{phase}*sin{height}"),
+        format!("0.003*sin{phase}*cos{height}"),
+    ];
+    for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
+        *component = text.parse()?;
     }
-
-    /// Length, height with the plate, and width, cells.
-    fn size(&self) -> [f64; 3] {
-        [4.0 * self.h, 2.0 * self.h + self.thick, 2.0 * self.h]
-    }
-
-    fn open_volume(&self) -> f64 {
-        let [length, height, width] = self.size();
-        length * (height - self.thick) * width
-    }
-
-    /// Per volume.
-    fn force(&self) -> f64 {
-        self.friction.powi(2) / self.h
-    }
-
-    /// With the middle of the plate at the height `offset`, from the log law and rolls across the stream, which break up.
-    fn scene(&self, offset: f64) -> anyhow::Result<Scene> {
-        let Self { h, thick, friction } = *self;
-        let size = self.size();
-        let nu = friction * h / CHANNELS[1].0;
-        let mut scene = tank::scene(size.map(|n| n as u32), 0.5 + 3.0 * nu)?;
-        scene.numerics.eddy_viscosity = EddyViscosity::Wale;
-        scene.fluid.acceleration = numbers([self.force(), 0.0, 0.0]);
-        let floor = 0.5 * thick + offset;
-        let wall_units = 0.384 * friction / nu;
-        let from_plate = format!("max(0, {h} - abs(y - {}))", floor + h);
-        let phase = format!("(pi*z/{h} + sin(2*pi*x/{}))", size[0]);
-        let height = format!("(pi*(y - {floor})/{})", 2.0 * h);
-        let velocity = [
-            format!("{friction}*(log(1 + {from_plate}*{wall_units})/0.384 + 2)"),
-            format!("0.003*cos{phase}*sin{height}"),
-            format!("0.003*sin{phase}*cos{height}"),
-        ];
-        for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
-            *component = text.parse()?;
-        }
-        let shape = BlockShape::Box {
-            size: [size[0], thick, size[2]],
-        };
-        let middle = [0.5 * size[0], offset, 0.5 * size[2]];
-        scene.blocks.push(block(shape, middle, Motion::Fixed));
-        Ok(scene)
-    }
+    let shape = BlockShape::Box {
+        size: [size[0], PLATE, size[2]],
+    };
+    let middle = [0.5 * size[0], offset, 0.5 * size[2]];
+    scene.blocks.push(block(shape, middle, Motion::Fixed));
+    Ok(scene)
 }
 
 impl Channel {

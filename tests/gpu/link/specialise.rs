@@ -41,8 +41,8 @@ pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// A third of them. If at least five of the choices have three values or more, the values of any four choices occur in all combinations: what is
-/// wrong with a slot is wrong beside one or two others.
+/// A third of them. If at least five of the choices have three values or more, the values of any four choices occur in all
+/// combinations: what is wrong with a slot is wrong beside one or two others.
 pub fn third_of_variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     variants(counts).filter(|variant| {
         let weighted = variant.iter().zip([1, 2].into_iter().cycle());

@@ -1,7 +1,7 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid, with the weight B of the fraction e of the cell that
 // blocks fill, and of the relaxation time tau. The operator of the solid is linear in rho and in the
 // solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface
+// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface, $block_friction
 
 // B of the momentum in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations
 // in such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
@@ -95,8 +95,8 @@ fn collide_with_solid(
     let momentum = max(open, in_one * SHARED_WEIGHT);
     let closed = select(Real(JOINT_WEIGHT), Real(FACING_WEIGHT), psm.facing & !at_wall);
     let others = max(open, in_one * JOINT_DAMPING);
-    let weight = select(momentum + joint * (closed - momentum), Real(1.0), psm.interior);
-    let higher = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
+    let without_law = select(momentum + joint * (closed - momentum), Real(1.0), psm.interior);
+    let higher_without_law = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;
     let excess = (*h)[0u];
     var s = equilibrium(rho, v);
@@ -104,6 +104,9 @@ fn collide_with_solid(
         s[k] -= (*h)[k];
     }
     let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, &s);
+    let rubs = rub(slot, local, rho, v, h, &s);
+    let weight = with_law(without_law, rubs);
+    let higher = with_law(higher_without_law, rubs);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);

@@ -11,6 +11,10 @@ override LANES_OF_ELEMENT: u32;
 override CELLS_X: u32;
 override CELLS_Y: u32;
 override CELLS_Z: u32;
+// Elements of a brick.
+override BRICK_X: u32;
+override BRICK_Y: u32;
+override BRICK_Z: u32;
 
 // What the dispatches of one kernel differ in.
 struct CellPass {

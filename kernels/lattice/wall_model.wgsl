@@ -2,7 +2,7 @@
 // velocity of the wall in half-way bounce-back. P, the tangential momentum that arrives at the wall, returns against 6 w c.m with
 // m = 3 (2 P - stress), so that the fluid loses the stress exactly. The law reads the velocity of the step before in the fifth
 // cell; where a flow is laminar, m goes to 0 and the wall is one without slip, to the bit.
-// needs wall_cells, scalars, link, cell_velocities, $wall_law, $wall_blocks
+// needs wall_cells, scalars, link, cell_velocities, law_of_the_wall, mixing_length, $wall_blocks
 
 struct WallStress {
     // Tangential, on the wall, along the lower and the upper axis of the face.
@@ -18,30 +18,8 @@ struct WallStress {
 @group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<f32>;
 @group(0) @binding(43) var<storage, read_write> wall_stress: array<WallStress>;
 
-const KARMAN = 0.4;
 // The cell, counted from 0, whose velocity the law reads.
 const SAMPLE = 4u;
-// Least y+ of the first cell at which the model acts, and where it acts fully.
-const NO_SLIP_UP_TO = 3.0;
-const FULL_FROM = 6.0;
-
-// Over the density, of a wall that may be rough: the log law of Nikuradse 1933 where it has the larger stress.
-fn law_of_the_wall(u: f32, y: f32, roughness: f32) -> f32 {
-    let smooth_wall = smooth_wall_stress(u, y);
-    let friction = KARMAN * u / log(max(30.0 * y / max(roughness, 1e-6), 2.0));
-    return select(smooth_wall, max(smooth_wall, friction * friction), roughness > 0.0);
-}
-
-// The part of the model at a friction velocity.
-fn model_share(friction: f32) -> f32 {
-    let s = clamp((0.5 * friction / VISCOSITY - NO_SLIP_UP_TO) / (FULL_FROM - NO_SLIP_UP_TO), 0.0, 1.0);
-    return s * s * (3.0 - 2.0 * s);
-}
-
-// Prandtl's mixing length, tapered towards the last of four cells.
-fn taper(layer: u32) -> f32 {
-    return select(select(select(0.15, 0.4, layer == 2u), 0.75, layer == 1u), 1.0, layer == 0u);
-}
 
 // What the law of the wall says of a wall cell.
 struct Friction {
@@ -67,7 +45,7 @@ fn set_near_wall(here: WallCell, law: Friction) {
     for (var layer = 0u; layer < 4u; layer++) { // unroll
         if (layer < here.layers) {
             near_wall_viscosity[scalar_of(layer_cell(here, layer))] =
-                taper(layer) * KARMAN * (f32(layer) + 0.5) * law.friction * law.share;
+                taper(f32(layer) + 0.5) * KARMAN * (f32(layer) + 0.5) * law.friction * law.share;
         }
     }
 }

@@ -47,8 +47,8 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
-    /// Those that find walls with blocks near them.
-    marks: Vec<Dispatch>,
+    /// What the wall model needs of blocks, in even and odd steps.
+    of_blocks: [Vec<Dispatch>; 2],
     /// Kernels for single cells.
     pub(super) cells: CellKernels,
     /// Collision and streaming.
@@ -83,7 +83,7 @@ impl Lattice {
         let mut lattice = Self {
             bindings: memory.bindings,
             boundary: [Vec::new(), Vec::new()],
-            marks: Vec::new(),
+            of_blocks: [Vec::new(), Vec::new()],
             cells: CellKernels::default(),
             streams,
             setup,
@@ -96,7 +96,10 @@ impl Lattice {
         for odd in [0, 1] {
             lattice.boundary[odd as usize] = lattice.boundary_passes(device, odd)?;
         }
-        lattice.marks = lattice.mark_passes(device)?;
+        lattice.of_blocks = [
+            lattice.block_passes(device, 0)?,
+            lattice.block_passes(device, 1)?,
+        ];
         Ok(lattice)
     }
 
@@ -156,7 +159,7 @@ impl Lattice {
     /// loads on the blocks are known after it.
     pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
-        for dispatch in &self.marks {
+        for dispatch in &self.of_blocks[self.parity()] {
             dispatch.record(pass);
         }
         self.streams.record(pass, self.parity(), true);
@@ -209,7 +212,7 @@ impl Lattice {
         }
         self.write_psm_slots(queue, bricks);
         // The planes may be other buffers.
-        self.marks = self.mark_passes(device)?;
+        self.of_blocks = [self.block_passes(device, 0)?, self.block_passes(device, 1)?];
         Ok(())
     }
 

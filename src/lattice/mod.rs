@@ -34,6 +34,7 @@
 //! # }
 //! ```
 
+mod block_friction;
 mod boundary;
 mod buffers;
 mod bytes;
@@ -62,6 +63,7 @@ mod synthetic_turbulence;
 mod traffic;
 mod wall_model;
 
+pub use block_friction::{BlockFace, BlockFaces};
 pub use cell_kernels::{CellPass, OpenFace};
 pub use check::MAX_ROUGHNESS;
 pub use exchange::Populations;

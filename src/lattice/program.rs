@@ -91,6 +91,14 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
                     SolidWeight::Standard => "weight_standard",
                 },
             )
+            .slot(
+                "block_friction",
+                either(
+                    setup.wall_model.is_some(),
+                    "block_friction_stored",
+                    "block_friction_none",
+                ),
+            )
             .slot("odd_rates", "odd_rates_solids"),
         None => program.slot("psm", "psm_none").slot(
             "odd_rates",
@@ -175,6 +183,10 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         .text(
             "psm_storage",
             psm_storage(bindings.psm_planes, PsmAccess::Cells),
+        )
+        .text(
+            "psm_storage_written",
+            psm_storage(bindings.psm_planes, PsmAccess::WrittenCells),
         )
         .slot("lanes", "lanes_1")
         .slot("neighbour_flags", flags)

@@ -193,8 +193,8 @@ pub struct Setup {
     pub equilibrium: Equilibrium,
     /// WALE constant; `None` is laminar.
     pub wale: Option<f64>,
-    /// Friction of walls at rest and static solids by a law of the wall, where a wall is plain and five cells of fluid
-    /// lie before it; without slip elsewhere. It needs `wale`. `None` has no code for it.
+    /// Friction of walls at rest, static solids, and faces of blocks along the grid by a law of the wall, where a wall is plain and
+    /// five cells of fluid lie before it; without slip elsewhere. It needs `wale`. `None` has no code for it.
     pub wall_model: Option<WallModel>,
     /// Equivalent sand roughness k_s of the faces of the domain, cells: lower and upper of x, y, z. 0 is smooth.
     pub wall_roughness: [[f64; 2]; 3],

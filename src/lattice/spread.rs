@@ -190,6 +190,8 @@ pub enum PsmAccess {
     Tiles,
     /// A kernel of output, by cells.
     Cells,
+    /// A kernel for single cells that writes some of them.
+    WrittenCells,
 }
 
 /// `read_psm(s, slot, e)` and `write_psm(s, slot, e, word)`: plane s of the brick `slot`, at its element or cell e.
@@ -201,7 +203,7 @@ pub fn psm_storage(bindings: u32, access: PsmAccess) -> String {
             "(WORKGROUP * LANES_OF_ELEMENT)",
             "// needs workgroup\n",
         ),
-        PsmAccess::Cells => (
+        PsmAccess::Cells | PsmAccess::WrittenCells => (
             "f32",
             "(BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT)",
             "",

@@ -20,8 +20,8 @@ pub struct Numerics {
     pub eddy_viscosity: EddyViscosity,
     /// C_w of Nicoud & Ducros (1999), no unit; 0.325 to 0.6 in the literature. Default 0.5.
     pub wale_constant: f64,
-    /// Friction of walls and solids at rest where the grid does not resolve it. It needs `eddy_viscosity = "wale"`. Default
-    /// `none`.
+    /// Friction of walls and solids at rest, and of faces of blocks along the grid, where the grid does not resolve it. It
+    /// needs `eddy_viscosity = "wale"`. Default `none`.
     pub wall_model: WallModel,
     /// Precision of the stored populations. Default `f32`.
     pub storage: Storage,

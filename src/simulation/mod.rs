@@ -59,7 +59,7 @@ pub use needs::{LatticeNeeds, Needs};
 pub use sensors::Reading;
 pub use sph_fluid::WaterLedger;
 pub use statistics::SamplingState;
-pub use wall_friction::{WallFriction, WallFrictions, wall_surface};
+pub use wall_friction::{WallFriction, WallFrictions, WallPlace, wall_surface};
 pub use wall_units::{FirstCell, SUBLAYER, WallUnits};
 
 use crate::{

@@ -1,28 +1,50 @@
-//! What walls with a wall model received, in SI.
+//! What walls and blocks with a wall model received, in SI.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
     Result,
-    lattice::{WallCell, WallStress, in_plane},
+    lattice::{BlockFace, WallCell, WallStress, in_plane},
     output::{Array, Surface},
     scene::{Axis, Face},
 };
 use std::collections::HashSet;
 
-/// Friction on a wall beside a cell, in the last step.
+/// What a wall of the wall model belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum WallPlace {
+    /// A face of the domain.
+    Face(Face),
+    /// Solids at rest.
+    Solids,
+    /// Blocks.
+    Blocks,
+}
+
+impl WallPlace {
+    /// Its name in tables: that of the face, `solids` or `blocks`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Face(face) => face.name(),
+            Self::Solids => "solids",
+            Self::Blocks => "blocks",
+        }
+    }
+}
+
+/// Friction on a wall beside a cell in the last step, or on the face of a block over a cell in the coming one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallFriction {
     /// Centre of the face of the cell that is the wall, m.
     pub position: [f64; 3],
     /// Unit normal into the fluid.
     pub normal: [f64; 3],
-    /// The face of the domain that is this wall; none: a solid.
-    pub face: Option<Face>,
+    /// What it belongs to.
+    pub place: WallPlace,
     /// Stress along the wall, Pa. Where there is no slip it alternates from step to step at low viscosity.
     pub stress: [f64; 3],
     /// Friction velocity u_τ by the law of the wall, m/s.
     pub friction_velocity: f64,
-    /// u_τ y/ν at the centre of the cell.
+    /// u_τ y/ν half a cell from the wall.
     pub y_plus: f64,
     /// The part of the stress that is the law's: 0 without slip, 1 all of it.
     pub share: f64,
@@ -38,6 +60,8 @@ pub struct WallFrictions {
     /// Part of the area of walls and solids at rest that these are; corners, edges, gaps under five cells and cells at open or
     /// moving faces have no slip.
     pub area_share: f64,
+    /// The same of the faces of blocks; 0 without blocks.
+    pub block_area_share: f64,
 }
 
 impl Simulation {
@@ -51,29 +75,40 @@ impl Simulation {
             .lattice
             .wall_stresses(&fluid.device, &fluid.queue)
             .await?;
+        let blocks = fluid
+            .lattice
+            .block_faces(&fluid.device, &fluid.queue)
+            .await?;
         let walls = &fluid.lattice.geometry().walls;
         let each = walls.cells.iter().zip(&stresses);
+        let on_walls = each.map(|(wall, stress)| fluid.wall_friction(wall, stress));
+        let on_blocks = blocks.faces.iter().map(|face| fluid.block_friction(face));
+        let share = |some: usize, all: u64| some as f64 / all.max(1) as f64;
         Ok(WallFrictions {
-            walls: each
-                .map(|(wall, stress)| fluid.wall_friction(wall, stress))
-                .collect(),
+            walls: on_walls.chain(on_blocks).collect(),
             cell: fluid.units.cell,
-            area_share: walls.cells.len() as f64 / (walls.area.max(1)) as f64,
+            area_share: share(walls.cells.len(), walls.area),
+            block_area_share: share(blocks.faces.len(), blocks.area),
         })
     }
 }
 
 impl Simulation {
-    /// The faces of the domain that have a wall model somewhere, and none for solids; empty without one.
-    pub fn wall_places(&self) -> Vec<Option<Face>> {
+    /// What has a wall model somewhere: faces of the domain, solids, and blocks, if there are any; empty without one.
+    pub fn wall_places(&self) -> Vec<WallPlace> {
         let Ok(fluid) = self.lattice_fluid() else {
             return Vec::new();
         };
         let walls = &fluid.lattice.geometry().walls.cells;
-        let place = |wall: &WallCell| fluid.wall_friction(wall, &WallStress::default()).face;
-        let found: HashSet<_> = walls.iter().map(place).collect();
-        let faces = Face::ALL.into_iter().map(Some).chain([None]);
-        faces.filter(|place| found.contains(place)).collect()
+        let place = |wall: &WallCell| fluid.wall_friction(wall, &WallStress::default()).place;
+        let mut found: HashSet<_> = walls.iter().map(place).collect();
+        let setup = fluid.lattice.setup();
+        if setup.wall_model.is_some() && setup.solid_operator.is_some() {
+            found.insert(WallPlace::Blocks);
+        }
+        let faces = Face::ALL.into_iter().map(WallPlace::Face);
+        let all = faces.chain([WallPlace::Solids, WallPlace::Blocks]);
+        all.filter(|place| found.contains(place)).collect()
     }
 }
 
@@ -97,18 +132,45 @@ impl LatticeFluid {
         let mut own = faces.filter(|(face, _)| {
             face.axis() == Axis::ALL[axis] && usize::from(face.is_max()) == side
         });
+        let face = own
+            .next()
+            .filter(|_| at_end && !self.lattice.setup().periodic_axes()[axis]);
         WallFriction {
             position,
             normal,
-            face: own
-                .next()
-                .filter(|_| at_end && !self.lattice.setup().periodic_axes()[axis])
-                .map(|(face, _)| face),
+            place: face.map_or(WallPlace::Solids, |(face, _)| WallPlace::Face(face)),
             stress,
             friction_velocity,
-            y_plus: friction_velocity * 0.5 * units.cell / self.scene.fluid.viscosity,
+            y_plus: self.wall_units_of(friction_velocity),
             share: received.share.into(),
         }
+    }
+
+    fn block_friction(&self, block: &BlockFace) -> WallFriction {
+        let (units, grid) = (&self.units, self.lattice.grid());
+        let (axis, side) = (block.face as usize / 2, block.face as usize % 2);
+        let mut normal = [0.0; 3];
+        normal[axis] = [-1.0, 1.0][side];
+        let cell = grid.padded_cell(block.cell);
+        let mut position = self.scene.centre(cell);
+        position[axis] += (0.5 + f64::from(block.fraction)) * units.cell * normal[axis];
+        let friction_velocity = units.velocity_from_lattice(f64::from(block.friction));
+        WallFriction {
+            position,
+            normal,
+            place: WallPlace::Blocks,
+            stress: block
+                .stress
+                .map(|value| units.stress_from_lattice(value.into())),
+            friction_velocity,
+            y_plus: self.wall_units_of(friction_velocity),
+            share: block.share.into(),
+        }
+    }
+
+    /// y⁺ half a cell from a wall.
+    fn wall_units_of(&self, friction_velocity: f64) -> f64 {
+        friction_velocity * 0.5 * self.units.cell / self.scene.fluid.viscosity
     }
 }
 

@@ -12,7 +12,12 @@
 //! edges at which the flow separates anyway, does not depend on it much.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
-use crate::{Result, coupling::Coupled, lattice::Face, scene::Field};
+use crate::{
+    Result,
+    coupling::Coupled,
+    lattice::{BlockFace, Face},
+    scene::Field,
+};
 use glam::DVec3;
 use std::collections::HashSet;
 
@@ -32,7 +37,7 @@ pub struct FirstCell {
     pub block: Option<usize>,
 }
 
-/// The cells with the largest y⁺ next to walls and solids without a wall model, and next to blocks.
+/// The cells with the largest y⁺ next to walls, solids and blocks without a wall model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WallUnits {
     /// Beside walls and solids; none where there are none.
@@ -42,7 +47,7 @@ pub struct WallUnits {
 }
 
 impl Simulation {
-    /// Estimates y⁺ at all walls, solids and blocks from the present velocity. Beside blocks, which cut
+    /// Estimates y⁺ at all walls, solids and blocks without a wall model from the present velocity. Beside blocks, which cut
     /// through cells, the velocity is that of the cells whose centres are ½ to 3/2 Δx away, and the profile
     /// that to their distance.
     ///
@@ -50,7 +55,8 @@ impl Simulation {
     /// If the scene has no fluid on a lattice, or the device is lost.
     pub async fn wall_units(&mut self) -> Result<WallUnits> {
         let fluid = self.lattice_fluid()?;
-        let wall_cells = fluid.wall_cells(self.coupled());
+        let with_law = fluid.cells_before_block_faces().await?;
+        let wall_cells = fluid.wall_cells(self.coupled(), &with_law);
         let cells: Vec<u32> = wall_cells.iter().map(|wall_cell| wall_cell.cell).collect();
         if cells.is_empty() {
             return Ok(WallUnits::default());
@@ -88,8 +94,22 @@ impl LatticeFluid {
         }
     }
 
-    /// All of them; a cell next to two walls is there for each, but only once for all blocks.
-    fn wall_cells(&self, coupled: Option<Coupled<'_>>) -> Vec<WallCell> {
+    /// The first two cells before the faces of blocks with a wall model, in an array over the domain.
+    async fn cells_before_block_faces(&self) -> Result<HashSet<u32>> {
+        let (lattice, grid) = (&self.lattice, self.lattice.grid());
+        let found = lattice.block_faces(&self.device, &self.queue).await?;
+        let before = |face: &BlockFace| {
+            let mut out = [0; 3];
+            out[face.face as usize / 2] = [-1, 1][face.face as usize % 2];
+            let first = grid.neighbour(grid.padded_cell(face.cell), out);
+            [first, grid.neighbour(first, out)].map(|cell| grid.index(cell) as u32)
+        };
+        Ok(found.faces.iter().flat_map(before).collect())
+    }
+
+    /// All without a wall model, but for cells beside blocks that are `with_law`; a cell next to two walls is there for each, but only
+    /// once for all blocks.
+    fn wall_cells(&self, coupled: Option<Coupled<'_>>, with_law: &HashSet<u32>) -> Vec<WallCell> {
         let near = coupled.map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
         // Where a block is close, its cells are those of the block.
@@ -99,7 +119,8 @@ impl LatticeFluid {
         let solid = self.solid();
         for found in &near {
             let (at, distance) = (found.cell.index, found.cell.distance);
-            if distance < 0.5 || solid.get(at as usize).is_some_and(|solid| *solid) {
+            let is_solid = solid.get(at as usize).is_some_and(|solid| *solid);
+            if distance < 0.5 || is_solid || with_law.contains(&at) {
                 continue;
             }
             let centre = self.centre_of(at);

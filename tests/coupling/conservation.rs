@@ -71,6 +71,57 @@ fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
     }
 }
 
+/// The same of faces along the grid with a law of the wall; a block moves off the grid, and its faces lose the law and have it again.
+#[test]
+fn what_the_wall_model_takes_from_the_fluid_blocks_gain() {
+    let scene = format!(
+        r#"{}{}
+        [rock]
+        gravity = [0, 0, 0]
+        [coupling]
+        average = false
+        [numerics]
+        time_step = 0.25
+        eddy_viscosity = "wale"
+        wall_model = "werner_wengle"
+        [[blocks]]
+        kind = "box"
+        size = [4, 4, 3]
+        position = [3, 3, 3.1]
+        motion = "driven"
+        velocity = [0.04, -0.02, -0.03]
+        [[blocks]]
+        kind = "box"
+        size = [4, 4, 3]
+        position = [3, 3, 8.5]
+        motion = "driven"
+        velocity = [0, 0, 0]"#,
+        fluid([12, 12, 24], 1e-6),
+        material("rock", 2000.0)
+    );
+    let mut world = World::new(&scene);
+    let mut before = world.fluid().0;
+    let mut faces = Vec::new();
+    for step in 1..=60 {
+        world.advance(1);
+        let after = world.fluid().0;
+        let given: DVec3 = (0..2).map(|block| world.cell_load(block).flow.force).sum();
+        let off = after - before + STEP * given;
+        assert!(
+            off.length() < rounding(after),
+            "step {step}: {off} of {after}"
+        );
+        before = after;
+        if step % 10 == 0 {
+            let found = world.rig.wait(world.sim.wall_friction()).unwrap();
+            assert!((0.1..0.9).contains(&found.block_area_share));
+            let acts = found.walls.iter().filter(|wall| wall.share > 0.0);
+            faces.push(acts.count());
+        }
+    }
+    assert!(faces.iter().all(|faces| *faces > 20), "{faces:?}");
+}
+
 /// Single loads in every step: momentum goes from the fluid to the block without a remainder, and the block moves
 /// under what it gets and the inertia of the fluid inside it, (m + 2 m_f) a = F + m_f dv/dt + 2 m_f a_before.
 #[test]

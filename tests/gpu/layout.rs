@@ -7,7 +7,7 @@ use riprap::{
         link::{Linked, Program, source},
     },
     lattice::{
-        BrickKind, C, CellPass, FaceCell, FaceMode, Link, MovingCell, OpenFace, Setup,
+        BlockFace, BrickKind, C, CellPass, FaceCell, FaceMode, Link, MovingCell, OpenFace, Setup,
         StatisticsPass, TurbulentFace, WallCell, WallStress, collide_stream, single_cells,
     },
 };
@@ -67,6 +67,16 @@ fn structures_of_the_lattice() {
     let walls = linked("wall_model").module;
     check::<WallCell>(&walls, "WallCell", &wall).unwrap();
     check::<WallStress>(&walls, "WallStress", &stress).unwrap();
+    let face = [
+        ("cell", offset_of!(BlockFace, cell)),
+        ("face", offset_of!(BlockFace, face)),
+        ("friction", offset_of!(BlockFace, friction)),
+        ("share", offset_of!(BlockFace, share)),
+        ("stress", offset_of!(BlockFace, stress)),
+        ("fraction", offset_of!(BlockFace, fraction)),
+    ];
+    let blocks = linked("block_friction").module;
+    check::<BlockFace>(&blocks, "BlockFace", &face).unwrap();
     let cell = [
         ("cell", offset_of!(FaceCell, cell)),
         ("inner", offset_of!(FaceCell, inner)),

@@ -149,6 +149,11 @@ impl Subject {
 
     /// Random solids in the cells of these bricks.
     pub fn fill(&mut self, bricks: &[u32]) {
+        self.fill_with(bricks, random_solid);
+    }
+
+    /// The solids that `of` gives in the cells of these bricks.
+    pub fn fill_with(&mut self, bricks: &[u32], of: impl Fn(usize) -> Solid) {
         let grid = *self.lattice.grid();
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         self.lattice.set_psm_bricks(device, queue, bricks).unwrap();
@@ -162,7 +167,7 @@ impl Subject {
         }
         let (_, solids) = self.twin.blocks.as_mut().unwrap();
         for (slot, local, lane, cell) in places(&grid, bricks) {
-            let solid = random_solid(cell);
+            let solid = of(cell);
             for (plane, value) in planes(&solid) {
                 values[place(&grid, slot, plane, local, lane)] = value;
             }
@@ -219,10 +224,12 @@ impl Subject {
                 continue;
             }
             let tau = self.twin.config.tau_eff(nu_t[cell]);
-            let weight = solid.weight(&self.twin.config, tau);
-            // One of two blocks: three tenths of the solid, with a velocity of its own.
+            let weight = self.twin.weight(cell, tau);
+            // One of two blocks: three tenths of the solid, with a velocity of its own; a law of the wall is for one block.
             let part = 0.3 * solid.shares;
-            let velocity = [0, 1, 2].map(|a| solid.velocity[a] + 0.01 * noise(3 * cell + a));
+            let differs = solid.shared || self.setup.wall_model.is_none();
+            let own = |a| 0.01 * f64::from(u8::from(differs)) * noise(3 * cell + a);
+            let velocity = [0, 1, 2].map(|a| solid.velocity[a] + own(a));
             let force = self.twin.force_on(cell, part, velocity, tau);
             worst = worst.max((part * at(4) - weight * part / solid.shares).abs());
             for a in 0..3 {

@@ -2,6 +2,7 @@
 
 use crate::fixture::Subject;
 use kit::Rig;
+use kit::twin::Solid;
 use kit::twin::of_setup::{limit, noise, walled};
 use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
@@ -189,5 +190,82 @@ fn a_wall_model_beside_blocks() {
             "{modelled} of {}",
             walls.len()
         );
+    }
+}
+
+/// A plate that moves, with a step on it and a face that leaves the grid a little; beyond a hole in it, where no brick is listed, are edges.
+fn plate([nx, ny]: [usize; 2], cell: usize) -> Solid {
+    let (x, y) = (cell % nx, cell / nx % ny);
+    let step = usize::from((5..8).contains(&x));
+    let fraction = match y {
+        2..6 => 1.0,
+        6 if step == 1 => 1.0,
+        6 => 0.4375 + x as f64 / 256.0,
+        _ => 0.0,
+    };
+    Solid {
+        fraction,
+        shares: fraction,
+        velocity: [0.0078125, 0.0, -0.001953125].map(|v| v * f64::from(u8::from(fraction > 0.0))),
+        deep: y == 4,
+        beside: y == 1 || (y == 7 && step == 1),
+        ..Solid::default()
+    }
+}
+
+#[test]
+fn friction_of_blocks() {
+    let brick_of = [[4, 4, 2], [8, 4, 1], [4, 2, 4]];
+    let layouts = [
+        (Storage::F32, 1, 2),
+        (Storage::F32, 4, 1),
+        (Storage::F16, 2, 2),
+    ];
+    for (n, (storage, lanes, axis)) in layouts.into_iter().enumerate() {
+        // From no part of the law to all of it.
+        for nu in [3e-3, 2e-5, 1e-6] {
+            let mut setup = Setup::periodic([13, 16, 12], nu);
+            setup.faces[2] = [Face::Wall([0.0; 3]), Face::FreeSlip];
+            (setup.storage, setup.lanes, setup.lane_axis) = (storage, lanes, axis);
+            setup.brick = brick_of[n];
+            setup.solid_operator = Some([SolidOperator::Holdych, SolidOperator::Noble][n % 2]);
+            setup.wale = Some(0.5);
+            setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][n % 2]);
+            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            let mut subject = Subject::new(&setup);
+            let bricks = subject.some_bricks();
+            subject.fill_with(&bricks, |cell| plate([13, 16], cell));
+            for steps in [1, 1, 3] {
+                subject.rig.run(&mut subject.lattice, steps);
+                subject.twin.run(steps - 1);
+                let forces = subject.force_error(&bricks);
+                subject.twin.step();
+                let populations = subject.population_error();
+                let name = format!("{storage:?}, {lanes} lanes, nu {nu}, step {steps}");
+                println!("{name}: populations {populations:e}, forces {forces:e}");
+                assert!(populations.max(forces) < limit(&setup), "{name}");
+                assert_equal_faces(&name, &subject);
+            }
+        }
+    }
+}
+
+/// Those that the lattice lists, and those of its twin.
+fn assert_equal_faces(name: &str, subject: &Subject) {
+    let (device, queue) = (&subject.rig.device, &subject.rig.queue);
+    let found = subject.lattice.block_faces(device, queue);
+    let found = subject.rig.wait(found).unwrap();
+    let expected = subject.twin.block_faces();
+    assert!(expected.len() > 20, "{name}: {} faces", expected.len());
+    assert_eq!(found.faces.len(), expected.len(), "{name}");
+    assert!(found.area as usize > expected.len(), "{name}");
+    let grid = subject.lattice.grid();
+    for (face, (cell, stress, share)) in found.faces.iter().zip(expected) {
+        assert_eq!(grid.index(grid.padded_cell(face.cell)), cell, "{name}");
+        assert!((f64::from(face.share) - share).abs() < 1e-3, "{name}");
+        let size = stress.iter().map(|s| s * s).sum::<f64>().sqrt();
+        for (found, expected) in face.stress.iter().zip(stress) {
+            assert!((f64::from(*found) - expected).abs() < 1e-3 * size, "{name}");
+        }
     }
 }

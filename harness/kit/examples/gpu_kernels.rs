@@ -107,6 +107,9 @@ impl Output<'_> {
                         BrickKind::Flagged,
                         &setup,
                     )?;
+                    setup.solid_operator = Some(SolidOperator::Holdych);
+                    let name = format!("{stored}{eddy}_psm_wall_model");
+                    self.step(&name, BrickKind::Psm, &setup)?;
                 }
                 let mut at_rest = setup.clone();
                 at_rest.surface = vec![SurfaceCell {
@@ -162,6 +165,9 @@ impl Output<'_> {
             ("synthetic_turbulence", "feed_turbulence"),
             ("wall_model", "wall_model"),
             ("mark_blocks", "mark_blocks"),
+            ("block_friction", "block_friction"),
+            ("block_friction", "list_block_faces"),
+            ("block_friction", "forget_near_wall"),
             ("pressure_face", "hold_pressure"),
             ("outflow", "flow_out"),
             ("outflow", "remember"),

@@ -1,11 +1,8 @@
-//! The friction of walls with a wall model over time: `walls.csv`, one row a time.
+//! The friction of walls and blocks with a wall model over time: `walls.csv`, one row a time.
 
 use super::{recorder::Recorder, scene_run::SceneRun, summary::Summary, table::TimeTable};
 use crate::picture::Track;
-use riprap::{
-    scene::Face,
-    simulation::{WallFriction, WallFrictions},
-};
+use riprap::simulation::{WallFriction, WallFrictions, WallPlace};
 use serde::Serialize;
 use std::{fmt, path::Path};
 
@@ -14,6 +11,8 @@ use std::{fmt, path::Path};
 pub struct WallModelSummary {
     /// Part of the area of walls and solids at rest on which it acts.
     pub area_share: f64,
+    /// Part of the area of the faces of blocks on which it acts; 0 without blocks.
+    pub block_area_share: f64,
     /// Mean y⁺ of the first cell there at the end.
     pub y_plus_mean: f64,
     /// Largest.
@@ -33,6 +32,7 @@ impl WallModelSummary {
         let size = |wall: &WallFriction| wall.stress.iter().map(|s| s * s).sum::<f64>().sqrt();
         Some(Self {
             area_share: frictions.area_share,
+            block_area_share: frictions.block_area_share,
             y_plus_mean: mean(walls.iter().map(|wall| wall.y_plus)),
             y_plus_max: walls.iter().map(|wall| wall.y_plus).fold(0.0, f64::max),
             stress_mean: mean(modelled().map(size)),
@@ -44,9 +44,11 @@ impl fmt::Display for WallModelSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "  wall model on {:.1} % of the area of walls: y⁺ half a cell from them {:.1} on average, {:.1} at most, \
-             stress {:.3e} Pa; the others have no slip (corners, edges, gaps under five cells, open and moving faces)",
+            "  wall model on {:.1} % of the area of walls and {:.1} % of that of blocks: y⁺ half a cell from them {:.1} on average, \
+             {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, edges, gaps under five cells, faces that lie across \
+             cells, open and moving faces)",
             100.0 * self.area_share,
+            100.0 * self.block_area_share,
             self.y_plus_mean,
             self.y_plus_max,
             self.stress_mean
@@ -64,14 +66,14 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// A row of the table: of each face of the domain that has the model, and of the solids, the columns of [`columns`].
-fn row(frictions: &WallFrictions, places: &[Option<Face>]) -> Vec<f64> {
-    let of = |place: &Option<Face>| {
+/// A row of the table: of each place that has the model the columns of [`columns`].
+fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
+    let of = |place: &WallPlace| {
         let own = || {
             frictions
                 .walls
                 .iter()
-                .filter(move |wall| wall.face == *place)
+                .filter(move |wall| wall.place == *place)
         };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(own().map(|wall| wall.stress[axis])));
         let u = mean(own().map(|wall| wall.friction_velocity));
@@ -83,7 +85,7 @@ fn row(frictions: &WallFrictions, places: &[Option<Face>]) -> Vec<f64> {
     places.iter().flat_map(of).collect()
 }
 
-fn columns(places: &[Option<Face>]) -> Vec<String> {
+fn columns(places: &[WallPlace]) -> Vec<String> {
     let names = [
         "area",
         "stress_x",
@@ -93,8 +95,8 @@ fn columns(places: &[Option<Face>]) -> Vec<String> {
         "y_plus",
         "y_plus_max",
     ];
-    let of = |place: &Option<Face>| {
-        let place = place.map_or("solids", Face::name);
+    let of = |place: &WallPlace| {
+        let place = place.name();
         names.map(|name| format!("{place}_{name}"))
     };
     places.iter().flat_map(of).collect()

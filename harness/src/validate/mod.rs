@@ -152,7 +152,7 @@ pub const CASES: &[Case] = &[
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
-    long("wall-model/blocks", "turbulent channel between plates that are blocks, which have no wall model", wall_model::blocks),
+    long("wall-model/blocks", "turbulent channel between plates that are blocks, with a wall model (Lee & Moser 2015)", wall_model::blocks),
     short("separation/laminar-step", "laminar flow behind a step (Erturk 2008)", separation::laminar_step),
     long("separation/step", "turbulent flow behind a step, with a wall model (Kopera et al. 2017)", separation::step),
     long("separation/cube", "turbulent flow around a cube on the floor, with a wall model (Martinuzzi & Tropea 1993)", separation::cube),

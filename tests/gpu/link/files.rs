@@ -39,6 +39,7 @@ fn files_stand_on_files_that_exist() {
         "cell_velocities",
         "forces",
         "psm_storage",
+        "psm_storage_written",
         "workgroup",
     ];
     for (name, text) in SOURCES {

@@ -42,6 +42,19 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         &["wall_cells", "wall_blocks", "psm_slots", "psm_planes_0"],
     ),
     (
+        "block_friction",
+        &["block_friction", "list_block_faces", "forget_near_wall"],
+        &[
+            "bricks",
+            "psm_slots",
+            "psm_planes_0",
+            "near_wall_viscosity",
+            "velocity_before_0",
+            "face_counts",
+            "found_faces",
+        ],
+    ),
+    (
         "pressure_face",
         &["hold_pressure"],
         &["cell_pass", "open_face", "face_cells"],

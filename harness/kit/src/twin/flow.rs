@@ -138,9 +138,15 @@ impl Twin {
     pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
         let solid = self.solid_at(cell);
         let change = self.solid_change(cell, velocity, tau);
-        let force = force_on(solid.weight(&self.config, tau), &solid, part, &change);
+        let force = force_on(self.weight(cell, tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
         [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.shares.max(1.0))
+    }
+
+    /// B of the momentum in a cell.
+    pub fn weight(&self, cell: usize, tau: f64) -> f64 {
+        let weight = self.solid_at(cell).weight(&self.config, tau);
+        weight.max(self.part_of_law(cell))
     }
 
     fn is_beside_wall(&self, cell: usize) -> bool {
@@ -155,10 +161,11 @@ impl Twin {
             return vec![0.0; self.domain.cell_count()];
         };
         let u = &self.velocity_before();
-        let near_wall = match &self.wall_model {
-            Some(model) => model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before),
-            None => vec![0.0; self.domain.cell_count()],
-        };
+        let mut near_wall = vec![0.0; self.domain.cell_count()];
+        if let Some(model) = &self.wall_model {
+            near_wall = model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before);
+            self.add_near_blocks(&mut near_wall);
+        }
         self.cells()
             .map(|cell| {
                 if self.domain.solid[cell] {
@@ -174,6 +181,14 @@ impl Twin {
     fn velocity_before(&self) -> Vec<[f64; 3]> {
         let before = self.previous_velocity.clone();
         before.unwrap_or_else(|| self.velocity())
+    }
+
+    /// The same in a cell.
+    pub(super) fn velocity_before_at(&self, cell: usize) -> [f64; 3] {
+        match &self.previous_velocity {
+            Some(before) => before[cell],
+            None => self.macroscopic(cell).1,
+        }
     }
 
     /// Whether a cell is beside a bounce-back wall, or in or beside a block.
@@ -207,10 +222,11 @@ impl Twin {
     /// f* = f + (1 − B)(fluid − f) + B Ω^s.
     fn saturate(&self, cell: usize, fluid: &[f64; Q], tau: f64) -> [f64; Q] {
         let solid = self.solid_at(cell);
-        let b = solid.weight(&self.config, tau);
+        let b = self.weight(cell, tau);
         let change = self.solid_change(cell, solid.velocity, tau);
         let f = &self.f[cell];
         let others = solid.higher_weight(&self.config, tau);
+        let others = others.max(self.part_of_law(cell));
         let more: [f64; Q] = std::array::from_fn(|i| change[i] - (fluid[i] - f[i]));
         let momentum = [0, 1, 2].map(|a| (0..Q).map(|i| more[i] * f64::from(C[i][a])).sum::<f64>());
         std::array::from_fn(|i| {
@@ -224,14 +240,10 @@ impl Twin {
             return [0.0; Q];
         };
         let how = (*operator, cells[cell].deep);
-        solid_change(
-            &self.config,
-            how,
-            &self.f[cell],
-            self.force_at(cell),
-            tau,
-            u_s,
-        )
+        let (f, force) = (&self.f[cell], self.force_at(cell));
+        let mut change = solid_change(&self.config, how, f, force, tau, u_s);
+        self.rub(cell, u_s, &mut change);
+        change
     }
 
     /// Collide, then stream.

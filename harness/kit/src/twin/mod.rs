@@ -3,6 +3,7 @@
 //! Everything is in lattice units (Δx = Δt = 1, c_s² = 1/3). Populations are stored shifted, f̃_i = f_i − w_i.
 //! Cells are numbered x + nx (y + ny z).
 
+mod block_friction;
 pub mod collide;
 pub mod diagnostics;
 pub mod domain;

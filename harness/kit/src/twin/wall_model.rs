@@ -53,7 +53,7 @@ impl Wall {
     }
 }
 
-fn norm(u: [f64; 3]) -> f64 {
+pub(super) fn norm(u: [f64; 3]) -> f64 {
     u.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
@@ -72,7 +72,7 @@ impl WallLaw {
     }
 
     /// τ/ρ of a smooth wall, from the speed u at the distance y.
-    fn stress(self, u: f64, y: f64, nu: f64) -> f64 {
+    pub(super) fn stress(self, u: f64, y: f64, nu: f64) -> f64 {
         if u == 0.0 {
             return 0.0;
         }
@@ -217,7 +217,7 @@ impl WallModel {
 }
 
 /// The part of the model: 0 up to y⁺ = 3 of the first cell, 1 from 6 on.
-fn share(friction: f64, nu: f64) -> f64 {
+pub(super) fn share(friction: f64, nu: f64) -> f64 {
     let s = ((0.5 * friction / nu - 3.0) / 3.0).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }

@@ -1,8 +1,8 @@
 //! A cube held on a bed of 30° in water that starts to run (Gardner & Sitar 2018, section 6.3): the drag until it is
-//! let go, on three grids, and the momentum of the water. The bed is a block here, whose load is measured too: at a cell
-//! Reynolds number of 10⁵ a layer of cells that starts along a wall loses what 0.3 of a cell gains, whatever its
-//! viscosity, while the boundary layer of water is a thirtieth of a cell thick. The cube is larger by as much on each of its
-//! sides, so that its drag is too large in proportion to the cell, from the first step on.
+//! let go, on three grids, and the momentum of the water. The bed is a block here, whose load is measured too. Both have the wall model of
+//! the scene, but not at edges and corners: there, at a cell Reynolds number of 10⁵, a layer of cells that starts along a wall loses what 0.3 of
+//! a cell gains, whatever its viscosity, while the boundary layer of water is a thirtieth of a cell thick. The cube is larger by as much,
+//! so that its drag is too large in proportion to the cell, from the first step on.
 //!
 //! ```text
 //!  u  │    __ ______   bounce-back at τ → ½: the first cell goes at 0.63 of the

@@ -1,0 +1,252 @@
+// Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall of wall_model.wgsl, on faces of blocks along the grid. The stress of each
+// full cell under such a face, and the eddy viscosity of the fluid before it, from the velocity of the step before; what a step does with
+// it is in block_friction_stored.wgsl.
+// needs psm_bricks, psm_places, psm_planes, psm_storage_written, cell_velocities, law_of_the_wall, mixing_length, $neighbour_flags
+
+// As the bits of numbers that are not negative, in the order of these: a cell before two faces has the larger one.
+@group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<atomic<u32>>;
+
+// Cells before a face whose eddy viscosity follows from it; the law reads the velocity of the last one.
+const DEPTH = 5u;
+// From this solid fraction on a cell is full.
+const FULL = 0.999;
+// Largest difference of the solid fractions of cells before a face that is along the grid.
+const SLOPE = 0.1;
+const NO_FACE = 6u;
+// Of the flags of a cell: no fluid at one of its faces, and none in it.
+const FACES = 63u;
+const SOLID = 128u;
+
+// What a block leaves of a cell.
+struct Solid {
+    slot: u32,
+    place: u32,
+    fraction: f32,
+    interior: bool,
+    several: bool,
+}
+
+fn solid_at(cell: vec3<u32>) -> Solid {
+    let at = psm_place(cell);
+    if (at.x == 0u) {
+        return Solid(0u, 0u, 0.0, false, false);
+    }
+    let slot = at.x - 1u;
+    let sum = decode_sum(read_psm(PLANE_SUM, slot, at.y));
+    let fraction = select(0.0, read_psm(PLANE_FRACTION, slot, at.y), sum.fraction > 0.0);
+    return Solid(slot, at.y, fraction, sum.interior, sum.several);
+}
+
+// The neighbour through a face; over a periodic face too.
+fn through(cell: vec3<u32>, face: u32) -> vec3<u32> {
+    let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
+    let axis = face / 2u;
+    var other = cell;
+    other[axis] = (cell[axis] + select(size[axis] - 1u, 1u, face % 2u == 1u)) % size[axis];
+    return other;
+}
+
+// What blocks fill of the neighbour through a face, 0 of one that is not fluid.
+fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
+    if ((flags_of(cell) & (1u << face)) != 0u) {
+        return 0.0;
+    }
+    return solid_at(through(cell, face)).fraction;
+}
+
+// The cell `n` further on through a face.
+fn further(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
+    var other = cell;
+    for (var k = 0u; k < n; k++) {
+        other = through(other, face);
+    }
+    return other;
+}
+
+// The face of a full cell where the law acts, or NO_FACE: the only open one, along the grid as far as to its neighbours, and with five
+// cells of fluid before it.
+fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
+    if (here.fraction < FULL || here.interior || here.several || (flags_of(cell) & (FACES | SOLID)) != 0u) {
+        return NO_FACE;
+    }
+    var found = NO_FACE;
+    for (var face = 0u; face < 6u; face++) {
+        if (fraction_through(cell, face) < FULL) {
+            if (found != NO_FACE) {
+                return NO_FACE;
+            }
+            found = face;
+        }
+    }
+    if (found == NO_FACE) {
+        return NO_FACE;
+    }
+    let first = through(cell, found);
+    let before = solid_at(first);
+    if (before.several) {
+        return NO_FACE;
+    }
+    for (var side = 0u; side < 6u; side++) {
+        if (side / 2u != found / 2u && abs(fraction_through(first, side) - before.fraction) > SLOPE) {
+            return NO_FACE;
+        }
+    }
+    var at = first;
+    for (var k = 0u; k < DEPTH; k++) {
+        let flags = flags_of(at);
+        let closed = (flags & SOLID) != 0u || (k + 1u < DEPTH && (flags & (1u << found)) != 0u);
+        if (closed || (k > 0u && solid_at(at).fraction > 0.0)) {
+            return NO_FACE;
+        }
+        at = through(at, found);
+    }
+    return found;
+}
+
+// What the law says of a full cell under a face.
+struct BlockFriction {
+    // Over the density, along the face; and the friction velocity and the part of the model.
+    stress: vec3<f32>,
+    friction: f32,
+    share: f32,
+    // Part of the cell before the face that the block fills.
+    fraction: f32,
+}
+
+fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
+    let first = through(cell, face);
+    let fraction = solid_at(first).fraction;
+    let at = scalar_of(further(first, face, DEPTH - 1u));
+    var u: vec3<f32>;
+    for (var a = 0u; a < 3u; a++) { // unroll
+        u[a] = read_velocity(a, at) - read_psm(PLANE_VELOCITY + a, here.slot, here.place);
+    }
+    u[face / 2u] = 0.0;
+    let speed = length(u);
+    let stress = law_of_the_wall(speed, f32(DEPTH) - 0.5 - fraction, 0.0);
+    let friction = sqrt(stress);
+    return BlockFriction(stress / max(speed, 1e-30) * u, friction, model_share(friction), fraction);
+}
+
+// Writes what block_friction_stored.wgsl reads.
+fn write_friction(slot: u32, place: u32, code: f32, law: BlockFriction) {
+    write_psm(PLANE_FRICTION, slot, place, code);
+    write_psm(PLANE_SHARE, slot, place, law.share);
+    for (var a = 0u; a < 3u; a++) { // unroll
+        write_psm(PLANE_STRESS + a, slot, place, law.stress[a]);
+    }
+}
+
+@compute @workgroup_size(64)
+fn block_friction(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let at = psm_invocation(invocation(group, groups, local));
+    if (at.slot >= bricks[0u]) {
+        return;
+    }
+    let place = at.element * LANES_OF_ELEMENT + at.lane;
+    let none = BlockFriction(vec3(0.0), 0.0, 0.0, 0.0);
+    let cell = cell_at(at);
+    if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
+        write_friction(at.slot, place, 0.0, none);
+        return;
+    }
+    let here = solid_at(cell);
+    let face = face_of(cell, here);
+    if (face != NO_FACE) {
+        let law = friction_under(cell, here, face);
+        write_friction(at.slot, place, f32(face + 1u), law);
+        var before = cell;
+        for (var k = 0u; k < DEPTH; k++) {
+            before = through(before, face);
+            let y = f32(k) + 0.5 - law.fraction;
+            let height = select(y, max(0.25, 0.5 * (1.0 - law.fraction)), k == 0u);
+            let viscosity = KARMAN * height * taper(height) * law.friction * law.share;
+            atomicMax(&near_wall_viscosity[scalar_of(before)], bitcast<u32>(viscosity));
+        }
+        return;
+    }
+    if (here.fraction > 0.0 && here.fraction < FULL) {
+        for (var out = 0u; out < 6u; out++) {
+            // The face looks at this cell out of the cell behind.
+            let behind = through(cell, out ^ 1u);
+            let solid = solid_at(behind);
+            if (solid.fraction >= FULL && face_of(behind, solid) == out) {
+                write_friction(at.slot, place, f32(7u + out / 2u), friction_under(behind, solid, out));
+                return;
+            }
+        }
+    }
+    write_friction(at.slot, place, 0.0, none);
+}
+
+// A face where the law acts.
+struct BlockFace {
+    // Of the full cell under it, in the padded grid.
+    cell: u32,
+    // As the face of a cell, x-, x+, y-, y+, z-, z+.
+    face: u32,
+    friction: f32,
+    share: f32,
+    stress: vec3<f32>,
+    // How far it lies beyond that cell.
+    fraction: f32,
+}
+
+// Faces of full cells of blocks that fluid touches, and those of them where the law acts.
+@group(0) @binding(43) var<storage, read_write> face_counts: array<atomic<u32>, 2>;
+@group(0) @binding(44) var<storage, read_write> found_faces: array<BlockFace>;
+
+// For output: the faces where the law acts, in no order.
+@compute @workgroup_size(64)
+fn list_block_faces(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let at = psm_invocation(invocation(group, groups, local));
+    if (at.slot >= bricks[0u]) {
+        return;
+    }
+    let cell = cell_at(at);
+    if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
+        return;
+    }
+    let here = solid_at(cell);
+    if (here.fraction < FULL || here.interior) {
+        return;
+    }
+    for (var face = 0u; face < 6u; face++) {
+        let closed = (flags_of(cell) & (1u << face)) != 0u;
+        let other = solid_at(through(cell, face));
+        if (!closed && other.fraction < FULL && !other.several) {
+            atomicAdd(&face_counts[0], 1u);
+        }
+    }
+    let face = face_of(cell, here);
+    if (face == NO_FACE) {
+        return;
+    }
+    let n = atomicAdd(&face_counts[1], 1u);
+    if (n < arrayLength(&found_faces)) {
+        let law = friction_under(cell, here, face);
+        let index = cell.x + NX * (cell.y + NY * LANES_Y * cell.z);
+        found_faces[n] = BlockFace(index, face, law.friction, law.share, law.stress, law.fraction);
+    }
+}
+
+// Before the walls and blocks of a step: what a block has left behind that moved away.
+@compute @workgroup_size(64)
+fn forget_near_wall(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let n = invocation(group, groups, local);
+    if (n < arrayLength(&near_wall_viscosity)) {
+        atomicStore(&near_wall_viscosity[n], 0u);
+    }
+}

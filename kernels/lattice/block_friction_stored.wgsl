@@ -1,0 +1,37 @@
+// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a face of a block along the grid: of the momentum along the face that arrives in the full cell
+// under it, P, what is left after the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The other directions
+// leave with the velocity of the block. A cell that the face cuts exchanges no momentum along it.
+// needs velocity, psm_planes, psm_storage
+
+// Changes the moments s of the change by the solid, from the moments h before it; returns the part of the law in a full cell.
+fn rub(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
+    let code = get_reals(read_psm(PLANE_FRICTION, slot, local));
+    let share = get_reals(read_psm(PLANE_SHARE, slot, local));
+    let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
+    let stride = array<u32, 3>(1u, 3u, 9u);
+    for (var along = 0u; along < 3u; along++) { // unroll
+        let t = stride[along];
+        let stress = get_reals(read_psm(PLANE_STRESS + along, slot, local));
+        let sixth = rho * sixths[along];
+        for (var other = 1u; other < 3u; other++) { // unroll
+            let normal = (along + other) % 3u;
+            let n = stride[normal];
+            let up = code == Real(2.0 + 2.0 * f32(normal));
+            let full = up | (code == Real(1.0 + 2.0 * f32(normal)));
+            let part = select(Real(0.0), share, full);
+            let sign = select(Real(-1.0), Real(1.0), up);
+            let returns = 0.5 * ((*h)[t + 2u * n] + THIRD * (*h)[t] - sign * (*h)[t + n]) - stress;
+            let first = returns + 5.0 * sixth;
+            (*s)[t + n] += part * (sign * (returns - sixth) - (*h)[t + n] - (*s)[t + n]);
+            (*s)[t + 2u * n] += part * (returns + sixth - THIRD * first - (*h)[t + 2u * n] - (*s)[t + 2u * n]);
+            let change = select(Real(0.0), first - (*h)[t], full);
+            (*s)[t] += select(part, share, code == Real(7.0 + f32(normal))) * (change - (*s)[t]);
+        }
+    }
+    return select(Real(0.0), share, (code > Real(0.0)) & (code < Real(6.5)));
+}
+
+// The weight of the solid in a cell: all where the law is.
+fn with_law(weight: Real, rubs: Real) -> Real {
+    return max(weight, rubs);
+}

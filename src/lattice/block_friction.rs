@@ -36,16 +36,24 @@ pub struct BlockFaces {
 }
 
 impl Lattice {
-    fn of_blocks(
+    /// The bricks that blocks reach, where there is a wall model, and how many cells they have.
+    fn bricks_of_model(&self) -> Option<(&wgpu::Buffer, u32)> {
+        let (list, slots) = self
+            .psm_bricks()
+            .filter(|_| self.setup.wall_model.is_some())?;
+        let cells = self.grid.brick.iter().product::<u32>() * self.grid.lanes;
+        Some((list, slots * cells))
+    }
+
+    /// A pass over these cells; `more` are buffers of its own.
+    fn pass_of_model(
         &self,
         device: &wgpu::Device,
         entry: &'static str,
         odd: u32,
+        (list, invocations): (&wgpu::Buffer, u32),
         more: &[(&str, &wgpu::Buffer)],
-    ) -> Result<Option<Dispatch>> {
-        let (Some((list, slots)), Some(_)) = (self.psm_bricks(), self.setup.wall_model) else {
-            return Ok(None);
-        };
+    ) -> Result<Dispatch> {
         let mut buffers = vec![("bricks", list)];
         buffers.extend(self.psm_planes());
         buffers.extend(more);
@@ -55,20 +63,18 @@ impl Lattice {
             pass: cell_pass(odd, 0, &(0..0)),
             buffers: &buffers,
             constants: &[],
-            invocations: slots * self.cells_of_brick(),
+            invocations,
         };
-        Ok(Some(self.cell_dispatch(device, &dispatch)?))
-    }
-
-    fn cells_of_brick(&self) -> u32 {
-        self.grid.brick.iter().product::<u32>() * self.grid.lanes
+        self.cell_dispatch(device, &dispatch)
     }
 
     /// The dispatches of what depends on the place of blocks: their friction in the coming step of this parity, and the walls with
     /// blocks near them, which the next step reads.
     pub(super) fn block_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = self.mark_passes(device)?;
-        passes.extend(self.of_blocks(device, "block_friction", odd, &[])?);
+        if let Some(bricks) = self.bricks_of_model() {
+            passes.push(self.pass_of_model(device, "block_friction", odd, bricks, &[])?);
+        }
         Ok(passes)
     }
 
@@ -97,19 +103,17 @@ impl Lattice {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
     ) -> Result<BlockFaces> {
+        let Some(bricks) = self.bricks_of_model() else {
+            return Ok(BlockFaces::default());
+        };
         let each = size_of::<BlockFace>() as u64;
-        let cells = self
-            .psm_bricks()
-            .map_or(0, |(_, slots)| slots * self.cells_of_brick());
         let has = largest_binding(&device.limits()) / each;
-        let most = u64::from(cells).clamp(1, has);
+        let most = u64::from(bricks.1).min(has);
         let counts = zeroed(device, "counts of faces", 8);
         let list = zeroed(device, "faces of blocks", each * most);
         let more = [("face_counts", &counts), ("found_faces", &list)];
         let odd = self.parity() as u32;
-        let Some(dispatch) = self.of_blocks(device, "list_block_faces", odd, &more)? else {
-            return Ok(BlockFaces::default());
-        };
+        let dispatch = self.pass_of_model(device, "list_block_faces", odd, bricks, &more)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         dispatch.record(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);

@@ -26,15 +26,18 @@ struct Solid {
     several: bool,
 }
 
+fn solid_of(slot: u32, place: u32) -> Solid {
+    let sum = decode_sum(read_psm(PLANE_SUM, slot, place));
+    let fraction = select(0.0, read_psm(PLANE_FRACTION, slot, place), sum.fraction > 0.0);
+    return Solid(slot, place, fraction, sum.interior, sum.several);
+}
+
 fn solid_at(cell: vec3<u32>) -> Solid {
     let at = psm_place(cell);
     if (at.x == 0u) {
         return Solid(0u, 0u, 0.0, false, false);
     }
-    let slot = at.x - 1u;
-    let sum = decode_sum(read_psm(PLANE_SUM, slot, at.y));
-    let fraction = select(0.0, read_psm(PLANE_FRACTION, slot, at.y), sum.fraction > 0.0);
-    return Solid(slot, at.y, fraction, sum.interior, sum.several);
+    return solid_of(at.x - 1u, at.y);
 }
 
 // The neighbour through a face; over a periodic face too.
@@ -154,7 +157,7 @@ fn block_friction(
         write_friction(at.slot, place, 0.0, none);
         return;
     }
-    let here = solid_at(cell);
+    let here = solid_of(at.slot, place);
     let face = face_of(cell, here);
     if (face != NO_FACE) {
         let law = friction_under(cell, here, face);
@@ -215,7 +218,7 @@ fn list_block_faces(
     if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
         return;
     }
-    let here = solid_at(cell);
+    let here = solid_of(at.slot, at.element * LANES_OF_ELEMENT + at.lane);
     if (here.fraction < FULL || here.interior) {
         return;
     }

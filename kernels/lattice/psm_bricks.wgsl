@@ -4,7 +4,7 @@
 // Their number, and those that blocks reach.
 @group(0) @binding(40) var<storage, read> bricks: array<u32>;
 
-// An invocation for each cell of the bricks that blocks reach.
+// An invocation for each cell of the bricks that blocks reach: neighbours have neighbouring cells, which mostly take the same branches.
 struct PsmPlace {
     slot: u32,
     element: u32,
@@ -15,8 +15,8 @@ fn psm_invocation(index: u32) -> PsmPlace {
     let elements = BRICK_X * BRICK_Y * BRICK_Z;
     return PsmPlace(
         index / (LANES_OF_ELEMENT * elements),
-        (index / LANES_OF_ELEMENT) % elements,
-        index % LANES_OF_ELEMENT,
+        index % elements,
+        (index / elements) % LANES_OF_ELEMENT,
     );
 }
 

@@ -92,9 +92,10 @@ impl Room<'_> {
         step.max(boundary).max(4 + flags + field)
     }
 
-    /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm; mark_blocks has fewer.
+    /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm and list_block_faces; others have fewer.
     fn with_psm_planes(&self, vectors: u32) -> u32 {
-        7.max(5 + vectors * u32::from(self.has_force()))
+        let reads_vectors = self.has_force() || self.setup.wall_model.is_some();
+        7.max(5 + vectors * u32::from(reads_vectors))
     }
 
     /// How a grid of so many scalars, so many of them in bricks, is spread; none if the device does not hold it.

@@ -243,7 +243,7 @@ fn list_block_faces(
 
 // Before the walls and blocks of a step: what a block has left behind that moved away.
 @compute @workgroup_size(64)
-fn forget_near_wall(
+fn clear_near_wall(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,

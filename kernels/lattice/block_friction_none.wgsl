@@ -1,10 +1,10 @@
 // Blocks without a wall model.
 // needs velocity, $lanes
 
-fn rub(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
+fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
     return Real(0.0);
 }
 
-fn with_law(weight: Real, rubs: Real) -> Real {
+fn with_law(weight: Real, share_of_law: Real) -> Real {
     return weight;
 }

@@ -1,10 +1,10 @@
-// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a face of a block along the grid: of the momentum along the face that arrives in the full cell
-// under it, P, what is left after the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The other directions
-// leave with the velocity of the block. A cell that the face cuts exchanges no momentum along it.
-// needs velocity, psm_planes, psm_storage
+// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a face of a block along the grid: of the momentum along the face that arrives in
+// the full cell under it, P, what is left after the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The other
+// directions leave with the velocity of the block. A cell that the face cuts exchanges no momentum along it.
+// needs velocity, moments, psm_planes, psm_storage
 
 // Changes the moments s of the change by the solid, from the moments h before it; returns the part of the law in a full cell.
-fn rub(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
+fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
     let code = get_reals(read_psm(PLANE_FRICTION, slot, local));
     let share = get_reals(read_psm(PLANE_SHARE, slot, local));
     let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
@@ -32,6 +32,6 @@ fn rub(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real,
 }
 
 // The weight of the solid in a cell: all where the law is.
-fn with_law(weight: Real, rubs: Real) -> Real {
-    return max(weight, rubs);
+fn with_law(weight: Real, share_of_law: Real) -> Real {
+    return max(weight, share_of_law);
 }

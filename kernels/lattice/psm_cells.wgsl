@@ -104,9 +104,9 @@ fn collide_with_solid(
         s[k] -= (*h)[k];
     }
     let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, &s);
-    let rubs = rub(slot, local, rho, v, h, &s);
-    let weight = with_law(without_law, rubs);
-    let higher = with_law(higher_without_law, rubs);
+    let share_of_law = apply_wall_stress(slot, local, rho, v, h, &s);
+    let weight = with_law(without_law, share_of_law);
+    let higher = with_law(higher_without_law, share_of_law);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);

@@ -36,11 +36,11 @@ pub struct BlockFaces {
 }
 
 impl Lattice {
-    /// The bricks that blocks reach, where there is a wall model, and how many cells they have.
+    /// The bricks that blocks reach, where these have a wall model, and how many cells they have.
     fn bricks_of_model(&self) -> Option<(&wgpu::Buffer, u32)> {
         let (list, slots) = self
             .psm_bricks()
-            .filter(|_| self.setup.wall_model.is_some())?;
+            .filter(|_| self.setup.has_block_friction())?;
         let cells = self.grid.brick.iter().product::<u32>() * self.grid.lanes;
         Some((list, slots * cells))
     }
@@ -79,13 +79,13 @@ impl Lattice {
     }
 
     /// Clears the eddy viscosity beside walls and blocks before a step, where blocks may move.
-    pub(super) fn forget_near_wall(&self, device: &wgpu::Device) -> Result<Option<Dispatch>> {
-        if self.buffers.psm_slots.is_none() {
+    pub(super) fn clear_near_wall(&self, device: &wgpu::Device) -> Result<Option<Dispatch>> {
+        if !self.setup.has_block_friction() {
             return Ok(None);
         }
         let dispatch = CellDispatch {
             program: &self.cell_program("block_friction"),
-            entry: "forget_near_wall",
+            entry: "clear_near_wall",
             pass: cell_pass(0, 0, &(0..0)),
             buffers: &[],
             constants: &[],

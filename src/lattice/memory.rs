@@ -94,7 +94,7 @@ impl Room<'_> {
 
     /// Bindings of a kernel besides the planes of blocks: of reduce_faces, of velocity_psm and list_block_faces; others have fewer.
     fn with_psm_planes(&self, vectors: u32) -> u32 {
-        let reads_vectors = self.has_force() || self.setup.wall_model.is_some();
+        let reads_vectors = self.has_force() || self.setup.has_block_friction();
         7.max(5 + vectors * u32::from(reads_vectors))
     }
 

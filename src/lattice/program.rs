@@ -94,7 +94,7 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
             .slot(
                 "block_friction",
                 either(
-                    setup.wall_model.is_some(),
+                    setup.has_block_friction(),
                     "block_friction_stored",
                     "block_friction_none",
                 ),

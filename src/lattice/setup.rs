@@ -283,6 +283,11 @@ impl Setup {
         self.solid_operator.or(at_rest)
     }
 
+    /// Whether the wall model acts on blocks. With 16-bit storage a GPU has no registers left for it.
+    pub fn has_block_friction(&self) -> bool {
+        self.wall_model.is_some() && self.solid_operator.is_some() && self.storage == Storage::F32
+    }
+
     /// The weight of the solid operator, which is [`SolidWeight::Standard`] where there is none.
     pub fn weight(&self) -> SolidWeight {
         let usual = match self.operator() {

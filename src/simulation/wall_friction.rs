@@ -102,8 +102,7 @@ impl Simulation {
         let walls = &fluid.lattice.geometry().walls.cells;
         let place = |wall: &WallCell| fluid.wall_friction(wall, &WallStress::default()).place;
         let mut found: HashSet<_> = walls.iter().map(place).collect();
-        let setup = fluid.lattice.setup();
-        if setup.wall_model.is_some() && setup.solid_operator.is_some() {
+        if fluid.lattice.setup().has_block_friction() {
             found.insert(WallPlace::Blocks);
         }
         let faces = Face::ALL.into_iter().map(WallPlace::Face);

@@ -256,8 +256,12 @@ fn assert_equal_faces(name: &str, subject: &Subject) {
     let found = subject.lattice.block_faces(device, queue);
     let found = subject.rig.wait(found).unwrap();
     let expected = subject.twin.block_faces();
-    assert!(expected.len() > 20, "{name}: {} faces", expected.len());
     assert_eq!(found.faces.len(), expected.len(), "{name}");
+    if subject.setup.storage == Storage::F16 {
+        assert!(expected.is_empty() && found.area == 0, "{name}");
+        return;
+    }
+    assert!(expected.len() > 20, "{name}: {} faces", expected.len());
     assert!(found.area as usize > expected.len(), "{name}");
     let grid = subject.lattice.grid();
     for (face, (cell, stress, share)) in found.faces.iter().zip(expected) {

@@ -167,7 +167,7 @@ impl Output<'_> {
             ("mark_blocks", "mark_blocks"),
             ("block_friction", "block_friction"),
             ("block_friction", "list_block_faces"),
-            ("block_friction", "forget_near_wall"),
+            ("block_friction", "clear_near_wall"),
             ("pressure_face", "hold_pressure"),
             ("outflow", "flow_out"),
             ("outflow", "remember"),

@@ -42,13 +42,16 @@ impl WallModelSummary {
 
 impl fmt::Display for WallModelSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let blocks = match self.block_area_share {
+            0.0 => String::new(),
+            share => format!(" and {:.1} % of that of blocks", 100.0 * share),
+        };
         write!(
             f,
-            "  wall model on {:.1} % of the area of walls and {:.1} % of that of blocks: y⁺ half a cell from them {:.1} on average, \
+            "  wall model on {:.1} % of the area of walls{blocks}: y⁺ half a cell from them {:.1} on average, \
              {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, edges, gaps under five cells, faces that lie across \
              cells, open and moving faces)",
             100.0 * self.area_share,
-            100.0 * self.block_area_share,
             self.y_plus_mean,
             self.y_plus_max,
             self.stress_mean

@@ -43,7 +43,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "block_friction",
-        &["block_friction", "list_block_faces", "forget_near_wall"],
+        &["block_friction", "list_block_faces", "clear_near_wall"],
         &[
             "bricks",
             "psm_slots",

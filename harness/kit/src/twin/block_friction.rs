@@ -106,6 +106,7 @@ impl Twin {
 
     /// Of a full cell under a face.
     fn friction_in(&self, cell: usize) -> Option<Friction> {
+        self.wall_model.as_ref().filter(|model| model.on_blocks)?;
         self.friction_under(self.face_of_block(cell)?)
     }
 
@@ -123,7 +124,7 @@ impl Twin {
 
     /// Puts the stress of the law into the change by the solid in a cell, where the block moves with `v`. Under a face, of the momentum P
     /// along it that arrives P − τ returns, and the other directions leave with ρ v; a cell that the face cuts exchanges none.
-    pub(super) fn rub(&self, cell: usize, v: [f64; 3], change: &mut [f64; Q]) {
+    pub(super) fn apply_wall_stress(&self, cell: usize, v: [f64; 3], change: &mut [f64; Q]) {
         let own = self.friction_in(cell);
         let fraction = self.block_at(cell).fraction;
         let cut = || {

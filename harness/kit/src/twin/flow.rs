@@ -242,7 +242,7 @@ impl Twin {
         let how = (*operator, cells[cell].deep);
         let (f, force) = (&self.f[cell], self.force_at(cell));
         let mut change = solid_change(&self.config, how, f, force, tau, u_s);
-        self.rub(cell, u_s, &mut change);
+        self.apply_wall_stress(cell, u_s, &mut change);
         change
     }
 

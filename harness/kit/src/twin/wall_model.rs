@@ -22,6 +22,8 @@ pub struct WallModel {
     pub roughness: [[f64; 2]; 3],
     /// k_s of each solid cell, cells; empty if they are smooth.
     pub solid_roughness: Vec<f32>,
+    /// Whether it acts on blocks.
+    pub on_blocks: bool,
 }
 
 /// A cell whose face `axis`, `side` is a plane wall.

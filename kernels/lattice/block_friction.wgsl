@@ -40,12 +40,12 @@ fn solid_at(cell: vec3<u32>) -> Solid {
     return solid_of(at.x - 1u, at.y);
 }
 
-// The neighbour through a face; over a periodic face too.
-fn through(cell: vec3<u32>, face: u32) -> vec3<u32> {
+// The cell `n` further on through a face; over a periodic face too.
+fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
     let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
     let axis = face / 2u;
     var other = cell;
-    other[axis] = (cell[axis] + select(size[axis] - 1u, 1u, face % 2u == 1u)) % size[axis];
+    other[axis] = (cell[axis] + select(size[axis] - n, n, face % 2u == 1u)) % size[axis];
     return other;
 }
 
@@ -54,16 +54,7 @@ fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
     if ((flags_of(cell) & (1u << face)) != 0u) {
         return 0.0;
     }
-    return solid_at(through(cell, face)).fraction;
-}
-
-// The cell `n` further on through a face.
-fn further(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
-    var other = cell;
-    for (var k = 0u; k < n; k++) {
-        other = through(other, face);
-    }
-    return other;
+    return solid_at(through(cell, face, 1u)).fraction;
 }
 
 // The face of a full cell where the law acts, or NO_FACE: the only open one, along the grid as far as to its neighbours, and with five
@@ -84,7 +75,7 @@ fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
     if (found == NO_FACE) {
         return NO_FACE;
     }
-    let first = through(cell, found);
+    let first = through(cell, found, 1u);
     let before = solid_at(first);
     if (before.several) {
         return NO_FACE;
@@ -101,7 +92,7 @@ fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
         if (closed || (k > 0u && solid_at(at).fraction > 0.0)) {
             return NO_FACE;
         }
-        at = through(at, found);
+        at = through(at, found, 1u);
     }
     return found;
 }
@@ -117,9 +108,9 @@ struct BlockFriction {
 }
 
 fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
-    let first = through(cell, face);
+    let first = through(cell, face, 1u);
     let fraction = solid_at(first).fraction;
-    let at = scalar_of(further(first, face, DEPTH - 1u));
+    let at = scalar_of(through(first, face, DEPTH - 1u));
     var u: vec3<f32>;
     for (var a = 0u; a < 3u; a++) { // unroll
         u[a] = read_velocity(a, at) - read_psm(PLANE_VELOCITY + a, here.slot, here.place);
@@ -164,7 +155,7 @@ fn block_friction(
         write_friction(at.slot, place, f32(face + 1u), law);
         var before = cell;
         for (var k = 0u; k < DEPTH; k++) {
-            before = through(before, face);
+            before = through(before, face, 1u);
             let y = f32(k) + 0.5 - law.fraction;
             let height = select(y, max(0.25, 0.5 * (1.0 - law.fraction)), k == 0u);
             let viscosity = KARMAN * height * taper(height) * law.friction * law.share;
@@ -175,7 +166,7 @@ fn block_friction(
     if (here.fraction > 0.0 && here.fraction < FULL) {
         for (var out = 0u; out < 6u; out++) {
             // The face looks at this cell out of the cell behind.
-            let behind = through(cell, out ^ 1u);
+            let behind = through(cell, out ^ 1u, 1u);
             let solid = solid_at(behind);
             if (solid.fraction >= FULL && face_of(behind, solid) == out) {
                 write_friction(at.slot, place, f32(7u + out / 2u), friction_under(behind, solid, out));
@@ -224,7 +215,7 @@ fn list_block_faces(
     }
     for (var face = 0u; face < 6u; face++) {
         let closed = (flags_of(cell) & (1u << face)) != 0u;
-        let other = solid_at(through(cell, face));
+        let other = solid_at(through(cell, face, 1u));
         if (!closed && other.fraction < FULL && !other.several) {
             atomicAdd(&face_counts[0], 1u);
         }

@@ -137,6 +137,23 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
     }
 }
 
+/// A restart has the same bits; `fill` puts the solids in.
+fn assert_restarts(subject: &mut Subject, fill: impl Fn(&mut Subject)) {
+    let state = subject.rig.populations(&mut subject.lattice);
+    let mut again = Subject::new(&subject.setup);
+    fill(&mut again);
+    let (device, queue) = (&again.rig.device, &again.rig.queue);
+    again
+        .lattice
+        .set_populations(device, queue, &state)
+        .unwrap();
+    let ends = [subject, &mut again].map(|subject| {
+        subject.rig.run(&mut subject.lattice, 3);
+        subject.rig.populations(&mut subject.lattice)
+    });
+    assert!(ends[0] == ends[1], "{:?}", again.setup.storage);
+}
+
 /// Where blocks are near, walls have no model.
 #[test]
 fn a_wall_model_beside_blocks() {
@@ -165,20 +182,8 @@ fn a_wall_model_beside_blocks() {
                 "{storage:?}, {lanes} lanes: {error:e}"
             );
         }
-        // A restart has the same bits: which walls have blocks near them is of the step before.
-        let state = subject.rig.populations(&mut subject.lattice);
-        let mut again = Subject::new(&setup);
-        again.fill(&bricks);
-        let (device, queue) = (&again.rig.device, &again.rig.queue);
-        again
-            .lattice
-            .set_populations(device, queue, &state)
-            .unwrap();
-        let ends = [&mut subject, &mut again].map(|subject| {
-            subject.rig.run(&mut subject.lattice, 3);
-            subject.rig.populations(&mut subject.lattice)
-        });
-        assert!(ends[0] == ends[1], "{storage:?}, {lanes} lanes");
+        // Which walls have blocks near them is of the step before.
+        assert_restarts(&mut subject, |again| again.fill(&bricks));
         let (device, queue) = (&subject.rig.device, &subject.rig.queue);
         let walls = subject
             .rig
@@ -246,6 +251,9 @@ fn friction_of_blocks() {
                 assert!(populations.max(forces) < limit(&setup), "{name}");
                 assert_equal_faces(&name, &subject);
             }
+            assert_restarts(&mut subject, |again| {
+                again.fill_with(&bricks, |cell| plate([13, 16], cell));
+            });
         }
     }
 }

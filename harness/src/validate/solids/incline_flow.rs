@@ -19,7 +19,9 @@ use crate::validate::{
     Outcome, Record, Stand, Trial, fields,
     tank::{Tank, block},
 };
-use riprap::scene::{Block, BlockShape, Boundary, Field, Motion, Probe, ProbePlace, Scene};
+use riprap::scene::{
+    Block, BlockShape, Boundary, Field, Motion, Probe, ProbePlace, Scene, WallModel,
+};
 use std::path::Path;
 
 /// The scene that ships, with 12 cells an edge.
@@ -95,6 +97,7 @@ pub fn run(stand: &Stand) -> Outcome {
         let quantity = "drag at the start, by a line through the grids where cells end, N";
         records.push(trial.relative(quantity, without_cells, push, 5e-2));
     }
+    records.extend(without_wall_model(stand)?);
     let chart = Chart::profile(
         "Drag on a cube held in water that starts down a slope of 30°",
         Measure::linear("time", "s"),
@@ -102,6 +105,19 @@ pub fn run(stand: &Stand) -> Outcome {
         curves,
     );
     stand.draw("solids_incline_flow", &chart)?;
+    Ok(records)
+}
+
+/// What bed and cube receive without the wall model, on the grid of the scene.
+fn without_wall_model(stand: &Stand) -> Outcome {
+    let mut scene = Scene::from_toml(SCENE, Path::new("."), "incline_flow.toml")?;
+    scene.numerics.wall_model = WallModel::None;
+    let depth = scene.domain.size[2];
+    lay_bed(&mut scene);
+    let mut records = measure(stand, &scene, depth)?.records;
+    for record in &mut records {
+        record.quantity += ", no wall model";
+    }
     Ok(records)
 }
 

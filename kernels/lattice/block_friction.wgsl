@@ -5,9 +5,22 @@
 
 // As the bits of numbers that are not negative, in the order of these: a cell before two faces has the larger one.
 @group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<atomic<u32>>;
+// What block_friction_stored.wgsl reads of each cell of the bricks that blocks reach, as the bits of a number: 0 of most, 1 to 6
+// under a face x-, x+, y-, y+, z-, z+ where the law acts, and see CUT.
+@group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
+
+// Cells of blocks that may be under a face of it, by their places in these bricks.
+struct OuterCells {
+    count: atomic<u32>,
+    cells: array<u32>,
+}
+
+@group(0) @binding(47) var<storage, read_write> outer_cells: OuterCells;
 
 // Cells before a face whose eddy viscosity follows from it; the law reads the velocity of the last one.
 const DEPTH = 5u;
+// The code of a cell that a face cuts is this less the face: of two faces the first one counts.
+const CUT = 12u;
 // From this solid fraction on a cell is full.
 const FULL = 0.999;
 // Largest difference of the solid fractions of cells before a face that is along the grid.
@@ -60,7 +73,8 @@ fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
 // The face of a full cell where the law acts, or NO_FACE: the only open one, along the grid as far as to its neighbours, and with five
 // cells of fluid before it.
 fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
-    if (here.fraction < FULL || here.interior || here.several || (flags_of(cell) & (FACES | SOLID)) != 0u) {
+    let beyond = any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z));
+    if (beyond || here.fraction < FULL || here.interior || here.several || (flags_of(cell) & (FACES | SOLID)) != 0u) {
         return NO_FACE;
     }
     var found = NO_FACE;
@@ -122,17 +136,40 @@ fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
     return BlockFriction(stress / max(speed, 1e-30) * u, friction, model_share(friction), fraction);
 }
 
-// Writes what block_friction_stored.wgsl reads.
-fn write_friction(slot: u32, place: u32, code: f32, law: BlockFriction) {
-    write_psm(PLANE_FRICTION, slot, place, code);
-    write_psm(PLANE_SHARE, slot, place, law.share);
-    for (var a = 0u; a < 3u; a++) { // unroll
-        write_psm(PLANE_STRESS + a, slot, place, law.stress[a]);
-    }
+// Cells of the bricks that blocks reach have numbers, slot by slot.
+fn number_of(slot: u32, place: u32) -> u32 {
+    return slot * BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT + place;
 }
 
+struct OuterCell {
+    cell: vec3<u32>,
+    number: u32,
+    solid: Solid,
+}
+
+fn outer_cell(n: u32) -> OuterCell {
+    let number = outer_cells.cells[n];
+    let of_brick = BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT;
+    let slot = number / of_brick;
+    let place = number % of_brick;
+    let cell = cell_at(PsmPlace(slot, place / LANES_OF_ELEMENT, place % LANES_OF_ELEMENT));
+    return OuterCell(cell, number, solid_of(slot, place));
+}
+
+// The face that find_faces has found.
+fn face_above(here: OuterCell) -> u32 {
+    return min(u32(bitcast<f32>(atomicLoad(&face_codes[here.number]))) - 1u, NO_FACE);
+}
+
+// Once blocks have moved, before the next two.
+@compute @workgroup_size(1)
+fn forget_outer_cells() {
+    atomicStore(&outer_cells.count, 0u);
+}
+
+// Lists them and some more: a CPU executes the branches of face_of for each invocation, whether it takes them or not.
 @compute @workgroup_size(64)
-fn block_friction(
+fn list_outer_cells(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
@@ -142,39 +179,93 @@ fn block_friction(
         return;
     }
     let place = at.element * LANES_OF_ELEMENT + at.lane;
-    let none = BlockFriction(vec3(0.0), 0.0, 0.0, 0.0);
-    let cell = cell_at(at);
-    if (any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z))) {
-        write_friction(at.slot, place, 0.0, none);
-        return;
+    let number = number_of(at.slot, place);
+    atomicStore(&face_codes[number], 0u);
+    let sum = read_psm(PLANE_SUM, at.slot, place);
+    if (sum > 0.9 && sum < INTERIOR_SUM) {
+        outer_cells.cells[atomicAdd(&outer_cells.count, 1u)] = number;
     }
-    let here = solid_of(at.slot, place);
-    let face = face_of(cell, here);
-    if (face != NO_FACE) {
-        let law = friction_under(cell, here, face);
-        write_friction(at.slot, place, f32(face + 1u), law);
-        var before = cell;
-        for (var k = 0u; k < DEPTH; k++) {
-            before = through(before, face, 1u);
-            let y = f32(k) + 0.5 - law.fraction;
-            let height = select(y, max(0.25, 0.5 * (1.0 - law.fraction)), k == 0u);
-            let viscosity = KARMAN * height * taper(height) * law.friction * law.share;
-            atomicMax(&near_wall_viscosity[scalar_of(before)], bitcast<u32>(viscosity));
-        }
-        return;
-    }
-    if (here.fraction > 0.0 && here.fraction < FULL) {
-        for (var out = 0u; out < 6u; out++) {
-            // The face looks at this cell out of the cell behind.
-            let behind = through(cell, out ^ 1u, 1u);
-            let solid = solid_at(behind);
-            if (solid.fraction >= FULL && face_of(behind, solid) == out) {
-                write_friction(at.slot, place, f32(7u + out / 2u), friction_under(behind, solid, out));
-                return;
+}
+
+// Finds the faces where the law acts, and the cells that these cut.
+@compute @workgroup_size(64)
+fn find_faces(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let here = outer_cell(n);
+        let face = face_of(here.cell, here.solid);
+        if (face != NO_FACE) {
+            atomicStore(&face_codes[here.number], bitcast<u32>(f32(face + 1u)));
+            let first = psm_place(through(here.cell, face, 1u));
+            if (first.x > 0u && solid_of(first.x - 1u, first.y).fraction > 0.0) {
+                atomicMax(&face_codes[number_of(first.x - 1u, first.y)], bitcast<u32>(f32(CUT - face)));
             }
         }
     }
-    write_friction(at.slot, place, 0.0, none);
+}
+
+// What the law says of these in the coming step.
+@compute @workgroup_size(64)
+fn block_friction(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let here = outer_cell(n);
+        let face = face_above(here);
+        if (face != NO_FACE) {
+            apply_law(here, face);
+        }
+    }
+}
+
+// At the end of the step: none of it is left where a block moves away. Walls give theirs to the cells beside them in each step.
+@compute @workgroup_size(64)
+fn clear_viscosity(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let here = outer_cell(n);
+        let face = face_above(here);
+        var before = here.cell;
+        for (var k = 0u; k < DEPTH && face != NO_FACE; k++) {
+            before = through(before, face, 1u);
+            atomicStore(&near_wall_viscosity[scalar_of(before)], 0u);
+        }
+    }
+}
+
+fn apply_law(here: OuterCell, face: u32) {
+    let law = friction_under(here.cell, here.solid, face);
+    write_friction(here.solid.slot, here.solid.place, law);
+    let first = psm_place(through(here.cell, face, 1u));
+    if (law.fraction > 0.0 && atomicLoad(&face_codes[number_of(first.x - 1u, first.y)]) == bitcast<u32>(f32(CUT - face))) {
+        write_friction(first.x - 1u, first.y, law);
+    }
+    var before = here.cell;
+    for (var k = 0u; k < DEPTH; k++) {
+        before = through(before, face, 1u);
+        let y = f32(k) + 0.5 - law.fraction;
+        let height = select(y, max(0.25, 0.5 * (1.0 - law.fraction)), k == 0u);
+        let viscosity = KARMAN * height * taper(height) * law.friction * law.share;
+        atomicMax(&near_wall_viscosity[scalar_of(before)], bitcast<u32>(viscosity));
+    }
+}
+
+fn write_friction(slot: u32, place: u32, law: BlockFriction) {
+    write_psm(PLANE_SHARE, slot, place, law.share);
+    for (var a = 0u; a < 3u; a++) { // unroll
+        write_psm(PLANE_STRESS + a, slot, place, law.stress[a]);
+    }
 }
 
 // A face where the law acts.
@@ -229,18 +320,5 @@ fn list_block_faces(
         let law = friction_under(cell, here, face);
         let index = cell.x + NX * (cell.y + NY * LANES_Y * cell.z);
         found_faces[n] = BlockFace(index, face, law.friction, law.share, law.stress, law.fraction);
-    }
-}
-
-// Before the walls and blocks of a step: what a block has left behind that moved away.
-@compute @workgroup_size(64)
-fn clear_near_wall(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) local: u32,
-) {
-    let n = invocation(group, groups, local);
-    if (n < arrayLength(&near_wall_viscosity)) {
-        atomicStore(&near_wall_viscosity[n], 0u);
     }
 }

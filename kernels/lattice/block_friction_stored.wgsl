@@ -1,17 +1,26 @@
 // Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a face of a block along the grid: of the momentum along the face that arrives in
 // the full cell under it, P, what is left after the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The other
 // directions leave with the velocity of the block. A cell that the face cuts exchanges no momentum along it.
-// needs velocity, moments, psm_planes, psm_storage
+// needs velocity, moments, psm_planes, psm_storage, workgroup, $reals
+
+// Where the cells lie: 1 to 6 under a face x-, x+, y-, y+, z-, z+, 7 to 12 cut by z+, z-, y+, y-, x+, x-, 0 elsewhere; of each brick that
+// blocks reach.
+@group(0) @binding(39) var<storage, read> face_codes: array<Reals>;
 
 // Changes the moments s of the change by the solid, from the moments h before it; returns the part of the law in a full cell.
 fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
-    let code = get_reals(read_psm(PLANE_FRICTION, slot, local));
-    let share = get_reals(read_psm(PLANE_SHARE, slot, local));
+    let code = get_reals(face_codes[slot * WORKGROUP + local]);
+    let acts = code > Real(0.0);
+    if (!mask_any(acts)) {
+        return Real(0.0);
+    }
+    // Of the other cells the planes still have what the step before has left.
+    let share = select(Real(0.0), get_reals(read_psm(PLANE_SHARE, slot, local)), acts);
     let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
     let stride = array<u32, 3>(1u, 3u, 9u);
     for (var along = 0u; along < 3u; along++) { // unroll
         let t = stride[along];
-        let stress = get_reals(read_psm(PLANE_STRESS + along, slot, local));
+        let stress = select(Real(0.0), get_reals(read_psm(PLANE_STRESS + along, slot, local)), acts);
         let sixth = rho * sixths[along];
         for (var other = 1u; other < 3u; other++) { // unroll
             let normal = (along + other) % 3u;
@@ -25,10 +34,10 @@ fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<functio
             (*s)[t + n] += part * (sign * (returns - sixth) - (*h)[t + n] - (*s)[t + n]);
             (*s)[t + 2u * n] += part * (returns + sixth - THIRD * first - (*h)[t + 2u * n] - (*s)[t + 2u * n]);
             let change = select(Real(0.0), first - (*h)[t], full);
-            (*s)[t] += select(part, share, code == Real(7.0 + f32(normal))) * (change - (*s)[t]);
+            (*s)[t] += select(part, share, (code == Real(12.0 - 2.0 * f32(normal))) | (code == Real(11.0 - 2.0 * f32(normal)))) * (change - (*s)[t]);
         }
     }
-    return select(Real(0.0), share, (code > Real(0.0)) & (code < Real(6.5)));
+    return select(Real(0.0), share, acts & (code < Real(6.5)));
 }
 
 // The weight of the solid in a cell: all where the law is.

@@ -10,9 +10,8 @@ const PLANE_VELOCITY = 1u;
 const PLANE_BETA = 4u;
 const PLANE_A = 5u;
 const PLANE_G = 6u;
-// Before a step with a wall model the same planes hold the friction of blocks: where a cell lies, 1 to 6 under a face x-, x+, y-, y+, z-, z+,
-// 7 to 9 cut by one normal to x, y, z, or 0; the part of the law of the wall; and its stress over the density (3).
-const PLANE_FRICTION = PLANE_BETA;
+// Before a step with a wall model the same planes hold the friction of blocks in the cells at their faces: the part of the law of the
+// wall, and its stress over the density (3).
 const PLANE_SHARE = PLANE_A;
 const PLANE_STRESS = PLANE_G;
 // Fraction that decides the weight of the solid, 0..1.

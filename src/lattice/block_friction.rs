@@ -35,6 +35,23 @@ pub struct BlockFaces {
     pub area: u64,
 }
 
+/// Cells of the bricks that blocks reach for each invocation that goes through the list of those under faces: where more are in the list,
+/// an invocation does several.
+const CELLS_OF_BRICKS: u32 = 16;
+
+/// The dispatches of what depends on where blocks are.
+#[derive(Debug, Default)]
+pub(super) struct BlockPasses {
+    /// Once they have moved: the walls with blocks near them, and the faces where the law of the wall acts.
+    pub faces: Vec<Dispatch>,
+    /// Their friction, in even and odd steps.
+    pub friction: [Vec<Dispatch>; 2],
+    /// What the end of a step takes back of it.
+    pub end: Option<Dispatch>,
+    /// The cells that may be under such a face.
+    pub outer_cells: Option<wgpu::Buffer>,
+}
+
 impl Lattice {
     /// The bricks that blocks reach, where these have a wall model, and how many cells they have.
     fn bricks_of_model(&self) -> Option<(&wgpu::Buffer, u32)> {
@@ -68,30 +85,32 @@ impl Lattice {
         self.cell_dispatch(device, &dispatch)
     }
 
-    /// The dispatches of what depends on the place of blocks: their friction in the coming step of this parity, and the walls with
-    /// blocks near them, which the next step reads.
-    pub(super) fn block_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
-        let mut passes = self.mark_passes(device)?;
-        if let Some(bricks) = self.bricks_of_model() {
-            passes.push(self.pass_of_model(device, "block_friction", odd, bricks, &[])?);
+    /// The dispatches of what depends on where blocks are.
+    pub(super) fn block_passes(&self, device: &wgpu::Device) -> Result<BlockPasses> {
+        let mut passes = BlockPasses {
+            faces: self.mark_passes(device)?,
+            ..BlockPasses::default()
+        };
+        let of_model = self.bricks_of_model().zip(self.streams.face_codes());
+        if let Some(((list, cells), codes)) = of_model {
+            let outer = zeroed(device, "outer cells of blocks", 4 + 4 * u64::from(cells));
+            let buffers = [("face_codes", codes), ("outer_cells", &outer)];
+            let pass = |entry, odd, invocations| {
+                self.pass_of_model(device, entry, odd, (list, invocations), &buffers)
+            };
+            let listed = cells.div_ceil(CELLS_OF_BRICKS);
+            passes.faces.extend([
+                pass("forget_outer_cells", 0, 1)?,
+                pass("list_outer_cells", 0, cells)?,
+                pass("find_faces", 0, listed)?,
+            ]);
+            for (odd, friction) in (0..).zip(&mut passes.friction) {
+                friction.push(pass("block_friction", odd, listed)?);
+            }
+            passes.end = Some(pass("clear_viscosity", 0, listed)?);
+            passes.outer_cells = Some(outer);
         }
         Ok(passes)
-    }
-
-    /// Clears the eddy viscosity beside walls and blocks before a step, where blocks may move.
-    pub(super) fn clear_near_wall(&self, device: &wgpu::Device) -> Result<Option<Dispatch>> {
-        if !self.setup.has_block_friction() {
-            return Ok(None);
-        }
-        let dispatch = CellDispatch {
-            program: &self.cell_program("block_friction"),
-            entry: "clear_near_wall",
-            pass: cell_pass(0, 0, &(0..0)),
-            buffers: &[],
-            constants: &[],
-            invocations: self.grid.scalar_count(),
-        };
-        Ok(Some(self.cell_dispatch(device, &dispatch)?))
     }
 
     /// The faces of blocks where the wall model acts in the coming step; none without it.

@@ -32,7 +32,6 @@ impl Lattice {
                 passes.push(self.cell_dispatch(device, &dispatch)?);
             }
         }
-        passes.extend(self.clear_near_wall(device)?);
         passes.extend(self.wall_passes(device, odd)?);
         let moving = storage(
             device,

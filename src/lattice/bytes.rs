@@ -46,6 +46,7 @@ impl Lattice {
                 "wall model",
                 buffers.walls.iter().map(WallPart::bytes).sum::<u64>()
                     + size(&buffers.near_wall_viscosity)
+                    + size(&self.of_blocks.outer_cells)
                     + size(&buffers.psm_slots),
             ),
             (

@@ -2,6 +2,7 @@
 
 use super::{
     Bindings, Geometry, Grid, Setup,
+    block_friction::BlockPasses,
     buffers::{Buffers, make_buffers},
     cell_kernels::CellKernels,
     spread::PSM_NAMES,
@@ -47,8 +48,10 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
-    /// What the wall model needs of blocks, in even and odd steps.
-    of_blocks: [Vec<Dispatch>; 2],
+    /// What the wall model needs of blocks.
+    pub(super) of_blocks: BlockPasses,
+    /// Whether the faces of blocks have been found where they are now.
+    faces_found: bool,
     /// Kernels for single cells.
     pub(super) cells: CellKernels,
     /// Collision and streaming.
@@ -83,7 +86,8 @@ impl Lattice {
         let mut lattice = Self {
             bindings: memory.bindings,
             boundary: [Vec::new(), Vec::new()],
-            of_blocks: [Vec::new(), Vec::new()],
+            of_blocks: BlockPasses::default(),
+            faces_found: false,
             cells: CellKernels::default(),
             streams,
             setup,
@@ -96,10 +100,7 @@ impl Lattice {
         for odd in [0, 1] {
             lattice.boundary[odd as usize] = lattice.boundary_passes(device, odd)?;
         }
-        lattice.of_blocks = [
-            lattice.block_passes(device, 0)?,
-            lattice.block_passes(device, 1)?,
-        ];
+        lattice.of_blocks = lattice.block_passes(device)?;
         Ok(lattice)
     }
 
@@ -159,9 +160,12 @@ impl Lattice {
     /// loads on the blocks are known after it.
     pub fn record_psm(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.close(pass);
-        for dispatch in &self.of_blocks[self.parity()] {
+        let faces = (!self.faces_found).then_some(&self.of_blocks.faces);
+        let friction = &self.of_blocks.friction[self.parity()];
+        for dispatch in faces.into_iter().flatten().chain(friction) {
             dispatch.record(pass);
         }
+        self.faces_found = true;
         self.streams.record(pass, self.parity(), true);
     }
 
@@ -169,6 +173,9 @@ impl Lattice {
     /// place and every population has one owner a step, so that the bits do not depend on this split.
     pub fn record_rest(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.streams.record(pass, self.parity(), false);
+        if let Some(dispatch) = &self.of_blocks.end {
+            dispatch.record(pass);
+        }
         self.step += 1;
         self.closed = false;
     }
@@ -212,8 +219,15 @@ impl Lattice {
         }
         self.write_psm_slots(queue, bricks);
         // The planes may be other buffers.
-        self.of_blocks = [self.block_passes(device, 0)?, self.block_passes(device, 1)?];
+        self.of_blocks = self.block_passes(device)?;
+        self.blocks_have_moved();
         Ok(())
+    }
+
+    /// Has the wall model find the faces of blocks anew in the coming step. Whoever writes other solid fractions into
+    /// [`Lattice::psm_planes`] calls it; [`Lattice::set_psm_bricks`] does so for other bricks.
+    pub fn blocks_have_moved(&mut self) {
+        self.faces_found = false;
     }
 
     /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of

@@ -83,6 +83,7 @@ impl Room<'_> {
             + u32::from(setup.max_speed > 0.0)
             + u32::from(setup.wall_model.is_some())
             + u32::from(setup.solid_operator.is_some())
+            + u32::from(setup.has_block_friction())
             + 2 * u32::from(!setup.surface.is_empty());
         let boundary = match setup.wall_model {
             Some(_) => 4 + vectors + u32::from(setup.solid_operator.is_some()),

@@ -32,7 +32,9 @@ pub(super) struct Streams {
     streams: Vec<Stream>,
     /// What blocks leave of the cells of the bricks that they reach.
     psm_planes: Vec<wgpu::Buffer>,
-    /// Bytes of that for one brick, in each of them; the first has the most.
+    /// Where each of these cells lies at the faces of blocks, for a wall model.
+    face_codes: Option<wgpu::Buffer>,
+    /// Bytes of the planes for one brick, in each of them; the first has the most.
     brick_bytes: Vec<u64>,
     /// The bricks that blocks reach.
     psm_bricks: Vec<u32>,
@@ -64,6 +66,8 @@ impl Streams {
         .map(|own| own.len() as u64 * plane)
         .collect();
         let psm_planes = psm_buffers(device, &brick_bytes, 1);
+        let codes = || zeroed(device, "face codes", plane);
+        let face_codes = setup.has_block_friction().then(codes);
         let mut streams = Vec::new();
         for (n, ((kind, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
             let kernel = |odd| {
@@ -88,7 +92,8 @@ impl Streams {
                 }
                 storage(device, "bricks", bytemuck::cast_slice(&list))
             });
-            let binds = bind(device, &kernels, buffers, list.as_ref(), &psm_planes)?;
+            let of_blocks = (&psm_planes[..], face_codes.as_ref());
+            let binds = bind(device, &kernels, buffers, list.as_ref(), of_blocks)?;
             streams.push(Stream {
                 kind,
                 kernels,
@@ -100,6 +105,7 @@ impl Streams {
         Ok(Self {
             streams,
             psm_planes,
+            face_codes,
             brick_bytes,
             psm_bricks: Vec::new(),
         })
@@ -108,6 +114,11 @@ impl Streams {
     /// What blocks leave of the cells of the bricks that they reach.
     pub fn psm_planes(&self) -> &[wgpu::Buffer] {
         &self.psm_planes
+    }
+
+    /// Where each of these cells lies at the faces of blocks, for a wall model.
+    pub fn face_codes(&self) -> Option<&wgpu::Buffer> {
+        self.face_codes.as_ref()
     }
 
     /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
@@ -135,16 +146,25 @@ impl Streams {
             if kept.size() < slots * brick_bytes {
                 // Half as much again, so that a block that rotates does not reallocate repeatedly.
                 let most = most_slots(device, brick_bytes, slots)?;
-                self.psm_planes =
-                    psm_buffers(device, &self.brick_bytes, most.min(slots + slots / 2));
+                let room = most.min(slots + slots / 2);
+                self.psm_planes = psm_buffers(device, &self.brick_bytes, room);
+                if let Some(codes) = &mut self.face_codes {
+                    let brick = setup.brick.iter().product::<u32>() * setup.lanes;
+                    *codes = zeroed(device, "face codes", 4 * room * u64::from(brick));
+                }
+                let of_blocks = (&self.psm_planes[..], self.face_codes.as_ref());
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
-                    stream.binds = bind(device, &stream.kernels, buffers, list, &self.psm_planes)?;
+                    stream.binds = bind(device, &stream.kernels, buffers, list, of_blocks)?;
                 }
             }
             if psm.is_empty() {
                 for (kept, bytes) in self.psm_planes.iter().zip(&self.brick_bytes) {
                     queue.write_buffer(kept, 0, &vec![0; *bytes as usize]);
+                }
+                if let Some(codes) = &self.face_codes {
+                    let brick = setup.brick.iter().product::<u32>() * setup.lanes;
+                    queue.write_buffer(codes, 0, &vec![0; 4 * brick as usize]);
                 }
             }
         }
@@ -174,7 +194,7 @@ impl Streams {
         streams.map(move |stream| (&stream.kernels[parity], stream.groups))
     }
 
-    /// Bytes of the lists, and of the planes of partially saturated cells.
+    /// Bytes of the lists, and of what blocks leave of cells.
     pub fn bytes(&self) -> [u64; 2] {
         let lists = self
             .streams
@@ -182,7 +202,11 @@ impl Streams {
             .filter_map(|stream| stream.list.as_ref());
         [
             lists.map(wgpu::Buffer::size).sum(),
-            self.psm_planes.iter().map(wgpu::Buffer::size).sum(),
+            self.psm_planes
+                .iter()
+                .chain(&self.face_codes)
+                .map(wgpu::Buffer::size)
+                .sum(),
         ]
     }
 }
@@ -249,12 +273,13 @@ fn bind(
     kernels: &[Kernel; 2],
     buffers: &Buffers,
     list: Option<&wgpu::Buffer>,
-    psm_planes: &[wgpu::Buffer],
+    (psm_planes, face_codes): (&[wgpu::Buffer], Option<&wgpu::Buffer>),
 ) -> Result<[wgpu::BindGroup; 2]> {
     let bind = |parity: usize| {
         let mut named = buffers.named(parity == 1);
         named.extend(list.map(|list| ("bricks", list)));
         named.extend(PSM_NAMES.into_iter().zip(psm_planes));
+        named.extend(face_codes.map(|codes| ("face_codes", codes)));
         kernels[parity].bind(device, &named)
     };
     Ok([bind(0)?, bind(1)?])

@@ -240,6 +240,9 @@ impl SolidCells {
             self.work.searches += 1;
         }
         self.poses = poses;
+        if anew || !moved.is_empty() {
+            lattice.blocks_have_moved();
+        }
         self.upload_tables(queue, &changed, anew);
         if anew {
             let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();

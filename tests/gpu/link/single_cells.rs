@@ -43,9 +43,18 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "block_friction",
-        &["block_friction", "list_block_faces", "clear_near_wall"],
+        &[
+            "forget_outer_cells",
+            "list_outer_cells",
+            "find_faces",
+            "block_friction",
+            "clear_viscosity",
+            "list_block_faces",
+        ],
         &[
             "bricks",
+            "face_codes",
+            "outer_cells",
             "psm_slots",
             "psm_planes_0",
             "near_wall_viscosity",

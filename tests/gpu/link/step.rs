@@ -60,6 +60,10 @@ fn the_step_in_variants_of_all_slots() {
             ("surface_slots", with_surface),
             ("surface_fractions", with_surface),
             ("psm_planes_0", operator.is_some()),
+            (
+                "face_codes",
+                kind == BrickKind::Psm && setup.has_block_friction(),
+            ),
         ];
         let wanted = wanted.iter().filter(|w| w.1).map(|w| w.0.to_owned());
         let found = names(&linked, "collide_stream");

@@ -9,7 +9,7 @@
 // under a face x-, x+, y-, y+, z-, z+ where the law acts, and see CUT.
 @group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
 
-// Cells of blocks that may be under a face of it, by their places in these bricks.
+// Cells of blocks that may lie under such a face, by their numbers in these bricks: see number_of.
 struct OuterCells {
     count: atomic<u32>,
     cells: array<u32>,
@@ -161,13 +161,13 @@ fn face_above(here: OuterCell) -> u32 {
     return min(u32(bitcast<f32>(atomicLoad(&face_codes[here.number]))) - 1u, NO_FACE);
 }
 
-// Once blocks have moved, before the next two.
+// Once blocks have moved, before list_outer_cells and find_faces.
 @compute @workgroup_size(1)
 fn forget_outer_cells() {
     atomicStore(&outer_cells.count, 0u);
 }
 
-// Lists them and some more: a CPU executes the branches of face_of for each invocation, whether it takes them or not.
+// Lists them, so that the search goes through these alone: software adapters execute all branches of each invocation.
 @compute @workgroup_size(64)
 fn list_outer_cells(
     @builtin(workgroup_id) group: vec3<u32>,

@@ -66,8 +66,7 @@ impl Streams {
         .map(|own| own.len() as u64 * plane)
         .collect();
         let psm_planes = psm_buffers(device, &brick_bytes, 1);
-        let codes = || zeroed(device, "face codes", plane);
-        let face_codes = setup.has_block_friction().then(codes);
+        let face_codes = code_buffer(device, setup, 1);
         let mut streams = Vec::new();
         for (n, ((kind, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
             let kernel = |odd| {
@@ -148,10 +147,7 @@ impl Streams {
                 let most = most_slots(device, brick_bytes, slots)?;
                 let room = most.min(slots + slots / 2);
                 self.psm_planes = psm_buffers(device, &self.brick_bytes, room);
-                if let Some(codes) = &mut self.face_codes {
-                    let brick = setup.brick.iter().product::<u32>() * setup.lanes;
-                    *codes = zeroed(device, "face codes", 4 * room * u64::from(brick));
-                }
+                self.face_codes = code_buffer(device, setup, room);
                 let of_blocks = (&self.psm_planes[..], self.face_codes.as_ref());
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
@@ -163,8 +159,7 @@ impl Streams {
                     queue.write_buffer(kept, 0, &vec![0; *bytes as usize]);
                 }
                 if let Some(codes) = &self.face_codes {
-                    let brick = setup.brick.iter().product::<u32>() * setup.lanes;
-                    queue.write_buffer(codes, 0, &vec![0; 4 * brick as usize]);
+                    queue.write_buffer(codes, 0, &vec![0; codes.size() as usize]);
                 }
             }
         }
@@ -291,6 +286,13 @@ fn psm_buffers(device: &wgpu::Device, brick_bytes: &[u64], slots: u64) -> Vec<wg
     bytes
         .map(|bytes| zeroed(device, "psm_planes", slots * bytes))
         .collect()
+}
+
+/// Where the cells of so many bricks lie at the faces of blocks, if a wall model acts on these.
+fn code_buffer(device: &wgpu::Device, setup: &Setup, slots: u64) -> Option<wgpu::Buffer> {
+    let brick = u64::from(setup.brick.iter().product::<u32>() * setup.lanes);
+    let codes = || zeroed(device, "face codes", 4 * slots * brick);
+    setup.has_block_friction().then(codes)
 }
 
 /// Slots that a binding holds.

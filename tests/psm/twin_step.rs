@@ -198,7 +198,8 @@ fn a_wall_model_beside_blocks() {
     }
 }
 
-/// A plate that moves, with a step on it and a face that leaves the grid a little, from this fraction of a cell on; beyond a hole in it, where no brick is listed, are edges.
+/// A plate that moves, with a step on it and a face that leaves the grid a little, from this fraction of a cell on; beyond a hole in it,
+/// where no brick is listed, are edges.
 fn plate([nx, ny]: [usize; 2], first: f64, cell: usize) -> Solid {
     let (x, y) = (cell % nx, cell / nx % ny);
     let step = usize::from((5..8).contains(&x));

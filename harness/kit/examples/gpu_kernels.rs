@@ -168,6 +168,7 @@ impl Output<'_> {
             ("block_friction", "find_faces"),
             ("block_friction", "list_outer_cells"),
             ("block_friction", "block_friction"),
+            ("block_friction", "clear_viscosity"),
             ("block_friction", "list_block_faces"),
             ("pressure_face", "hold_pressure"),
             ("outflow", "flow_out"),

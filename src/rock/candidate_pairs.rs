@@ -6,7 +6,7 @@ use super::{
     contact_list::NO_CONTACT,
     deforming::{DeformingBlocks, Strain, pose},
     period::{Image, Periods},
-    step::BLOCKS_PER_TASK,
+    threads::{self, each_block},
 };
 #[cfg(doc)]
 use crate::rock::broadphase::Broadphase;
@@ -97,11 +97,8 @@ fn skin_exceeded(
     skin_references: &[SkinReference],
     dt: f64,
 ) -> bool {
-    let all = bodies
-        .par_iter()
-        .zip(states)
-        .zip(skin_references)
-        .with_min_len(BLOCKS_PER_TASK);
+    let all = each_block(bodies, bodies.len()).zip(states);
+    let all = all.zip(skin_references);
     all.filter(|((body, state), _)| !body.is_fixed() && !state.asleep)
         .any(|((body, state), reference)| {
             let step_travel = step_travel(body, state, deforming, dt);
@@ -374,14 +371,24 @@ impl PlacedParts {
 
     /// Moves the parts of the blocks that move.
     pub fn place_moving(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
+        let moves = |block: usize| !bodies[block].is_fixed() && !states[block].asleep;
+        let moving = || (0..bodies.len()).filter(|&block| moves(block));
+        let parts: usize = moving().map(|block| bodies[block].parts.len()).sum();
+        if parts < threads::PARTS {
+            for block in moving() {
+                let pose = pose(&bodies[block], &states[block], strains);
+                self.place_block(&bodies[block], &pose);
+            }
+            return;
+        }
         let all = self.placed.par_iter_mut().zip(&self.block).enumerate();
-        all.with_min_len(BLOCKS_PER_TASK)
-            .for_each(|(index, (placed, &block))| {
-                let (body, state) = (&bodies[block as usize], &states[block as usize]);
-                if !body.is_fixed() && !state.asleep {
-                    place(body, index, &pose(body, state, strains), placed);
-                }
-            });
+        all.for_each(|(index, (placed, &block))| {
+            let block = block as usize;
+            if moves(block) {
+                let pose = pose(&bodies[block], &states[block], strains);
+                place(&bodies[block], index, &pose, placed);
+            }
+        });
     }
 
     /// Puts all parts where their blocks are.

@@ -7,6 +7,7 @@ use super::{
     Block, Blocks, Body, Material,
     body::{MidStep, State},
     contact_list::ContactList,
+    threads::each_block,
 };
 use crate::{
     geometry::{Form, Pose, outer},
@@ -16,7 +17,6 @@ use crate::{
     },
 };
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 /// In place of a number of a deforming block: it is rigid.
 pub(super) const RIGID: u32 = u32::MAX;
@@ -239,9 +239,9 @@ impl DeformingBlocks {
         states: &mut [State],
         mid_steps: &mut [MidStep],
     ) -> Option<usize> {
-        let all = self.list.par_iter().zip(&self.strains);
-        let ends = self.next.par_iter_mut().zip(&mut self.trials);
-        let lost = all.zip(ends).filter_map(|((one, strain), (next, trial))| {
+        let all = each_block(&self.list, self.list.len()).zip(&self.strains);
+        let all = all.zip(&mut self.next).zip(&mut self.trials);
+        let lost = all.filter_map(|(((one, strain), next), trial)| {
             let body = &bodies[one.block];
             *trial = one.kick_drift(body, &before[one.block], strain, next, params);
             (!trial.state.is_finite() || !next.is_sound()).then_some(one.block)

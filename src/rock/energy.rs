@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
+use rayon_cond::CondIterator;
 
 /// Energies since the start, J.
 ///
@@ -58,8 +58,8 @@ impl EnergyLedger {
     }
 }
 
-/// Chunks of contacts that one thread takes at least.
-const CHUNKS_PER_TASK: usize = 8;
+/// Chunks of contacts from which on all threads take some.
+const PARALLEL_CHUNKS: usize = 128;
 
 /// Sums since the start, J, and the powers at the end of the last step, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -112,7 +112,8 @@ impl WorkSums {
             deforming,
         } = all;
         let (damping, dt) = (params.damping, params.dt);
-        let chunks = contacts.chunks.par_iter_mut().with_min_len(CHUNKS_PER_TASK);
+        let many = contacts.chunks.len() >= PARALLEL_CHUNKS;
+        let chunks = CondIterator::new(&mut contacts.chunks, many);
         chunks.for_each(|chunk| work(chunk, &all, dt));
         let mut power = [0.0; 4];
         // One after the other: the bits must not depend on the number of threads.

@@ -50,6 +50,7 @@ mod relax;
 mod setup;
 mod snapshot;
 mod step;
+mod threads;
 mod time_step;
 
 pub use blocks::Blocks;

@@ -1,4 +1,4 @@
-//! The forces of all contacts and bonds: in parallel over the pairs, in the order of the pairs.
+//! The forces of all contacts and bonds: in parallel over many pairs, in the order of the pairs.
 
 use super::{
     Body,
@@ -8,6 +8,7 @@ use super::{
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     period::Periods,
+    threads,
 };
 use crate::{
     Error, Result,
@@ -17,7 +18,8 @@ use crate::{
     },
 };
 use glam::DVec3;
-use rayon::prelude::*;
+use rayon::slice::ParallelSliceMut;
+use rayon_cond::CondIterator;
 use std::{
     fmt,
     sync::{Mutex, PoisonError},
@@ -86,9 +88,14 @@ pub(super) fn resolve(
     let resolver_pool = &*resolver_pool;
     next.resize(pairs.len(), CandidatePair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
-    let places = next.par_chunks_mut(CHUNK).zip(&mut found.chunks);
-    let chunks = pairs.par_chunks(CHUNK).zip(places).enumerate();
-    let failed = chunks.filter_map(|(n, (pairs, (next, found)))| {
+    let chunks = match pairs.len() < threads::PARTS {
+        true => CondIterator::Serial(next.chunks_mut(CHUNK)),
+        false => CondIterator::Parallel(next.par_chunks_mut(CHUNK)),
+    };
+    let chunks = chunks.zip(&mut found.chunks).enumerate();
+    let failed = chunks.filter_map(|(n, (next, found))| {
+        let first = n * CHUNK;
+        let pairs = &pairs[first..first + next.len()];
         let done =
             resolver_pool.with(|resolver| narrowphase.chunk(resolver, n, pairs, next, found));
         done.err().map(|error| (n, error))

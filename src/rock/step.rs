@@ -6,14 +6,12 @@ use super::{
     contact_list::{Contact, ContactList, DISTANCES_PER_LIMIT, sum_contacts},
     deforming::StepParams,
     energy::BodyStates,
-    narrowphase, time_step,
+    narrowphase,
+    threads::each_block,
+    time_step,
 };
 use crate::{Error, Result, error::Overlap, rock::law};
-use rayon::prelude::*;
 use std::time::Instant;
-
-/// Blocks that one thread takes at least: handing out fewer costs more.
-pub(super) const BLOCKS_PER_TASK: usize = 256;
 
 /// Times that the host spends in the phases of steps, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,14 +155,15 @@ impl Blocks {
             .films
             .first_half(&self.bodies, &self.states, &self.contacts, params);
         let films = &self.films;
-        let all = self.bodies.par_iter().zip(&self.states);
-        let ends = self.next_states.par_iter_mut().zip(&mut self.mid_steps);
-        let all = all.zip(ends).enumerate().with_min_len(BLOCKS_PER_TASK);
-        let not_finite = all.filter_map(|(i, ((body, state), (next, mid_step)))| {
-            *next = *state;
-            *mid_step = body::kick_drift(body, next, films.push(i), params);
-            (!next.is_finite()).then_some(i)
-        });
+        let all = each_block(&self.bodies, self.bodies.len()).zip(&self.states);
+        let all = all.zip(&mut self.next_states).zip(&mut self.mid_steps);
+        let not_finite = all
+            .enumerate()
+            .filter_map(|(i, (((body, state), next), mid_step))| {
+                *next = *state;
+                *mid_step = body::kick_drift(body, next, films.push(i), params);
+                (!next.is_finite()).then_some(i)
+            });
         let not_finite = not_finite.min();
         let unsound = self.deforming.kick_drift(
             &self.bodies,
@@ -194,9 +193,8 @@ impl Blocks {
         let (gravity, sleep, params) = (self.gravity, self.sleep, self.step_params(dt));
         self.films
             .before_second_half(&self.bodies, &self.states, &self.contacts);
-        let all = self.bodies.par_iter().zip(&self.contact_sums);
-        let all = all.zip(&mut self.states).with_min_len(BLOCKS_PER_TASK);
-        all.for_each(|((body, sum), state)| {
+        let all = each_block(&self.bodies, self.bodies.len()).zip(&self.contact_sums);
+        all.zip(&mut self.states).for_each(|((body, sum), state)| {
             state.set_contact_forces(sum);
             if let Some(sleep) = &sleep {
                 state.wake(body, sleep, gravity);

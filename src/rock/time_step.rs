@@ -3,7 +3,7 @@
 
 use super::{
     Blocks, Body, body::State, contact_list::ContactSum, deforming::DeformingBlocks,
-    narrowphase::Joints, step::BLOCKS_PER_TASK,
+    narrowphase::Joints, threads::each_block,
 };
 use crate::{
     Error, Result,
@@ -11,7 +11,6 @@ use crate::{
     rock::law::{Joint, Stiffness},
 };
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 /// Share of its surface over which a block is held, before its contacts are known. With all of it the
 /// step would be √2 too long, which the room between the usual and the largest step covers.
@@ -121,19 +120,17 @@ impl Blocks {
             // There is nothing that it could touch.
             return Ok(());
         }
-        let all = self.bodies.par_iter().zip(&self.states);
+        let all = each_block(&self.bodies, self.bodies.len()).zip(&self.states);
         let all = all.zip(&self.next_states).enumerate();
-        let tunnelling =
-            all.with_min_len(BLOCKS_PER_TASK)
-                .filter_map(|(i, ((body, state), next))| {
-                    let travel = next.centre - state.centre;
-                    let length = travel.length();
-                    if length <= NEGLIGIBLE_TRAVEL * body.radius {
-                        return None;
-                    }
-                    let width = width(body, state, &self.deforming, travel / length);
-                    (length > LARGEST_TRAVEL * width).then_some((i, length, width))
-                });
+        let tunnelling = all.filter_map(|(i, ((body, state), next))| {
+            let travel = next.centre - state.centre;
+            let length = travel.length();
+            if length <= NEGLIGIBLE_TRAVEL * body.radius {
+                return None;
+            }
+            let width = width(body, state, &self.deforming, travel / length);
+            (length > LARGEST_TRAVEL * width).then_some((i, length, width))
+        });
         let Some((block, travel, width)) = tunnelling.min_by_key(|found| found.0) else {
             return Ok(());
         };

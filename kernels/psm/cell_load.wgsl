@@ -3,8 +3,9 @@
 // needs solid_cell, wrench
 
 @group(0) @binding(3) var<storage, read> effective_fractions: array<vec2<f32>>;
-// Tiles before each block, and all.
-@group(0) @binding(4) var<storage, read> block_first: array<u32>;
+// Segments: tiles of one block that follow one another. The first of them, and how many come after it, in the highest 4
+// bits.
+@group(0) @binding(4) var<storage, read> segments: array<u32>;
 
 fn add_cell(tile: Tile, motion: Motion, number: u32, local: u32) {
     let effective = effective_fractions[number * WORKGROUP + local].x;
@@ -27,6 +28,22 @@ fn add_cell(tile: Tile, motion: Motion, number: u32, local: u32) {
     wrench[13] += displaced;
 }
 
-fn tile_count() -> u32 {
-    return block_first[arrayLength(&block_first) - 1u];
+fn segment_at(index: u32) -> u32 {
+    if (index < arrayLength(&segments)) {
+        return segments[index];
+    }
+    return NOTHING;
+}
+
+// The cells of a segment, from `local` on every `stride`-th of each tile.
+fn add_segment(segment: u32, local: u32, stride: u32) {
+    let first = segment & 0xfffffffu;
+    for (var number = first; number <= first + (segment >> 28u); number++) {
+        let tile = tiles[number];
+        let motion = motions[tile.block];
+        let reach = reach_of(tile.inside);
+        for (var l = reach.x + local; l < reach.y; l += stride) {
+            add_cell(tile, motion, number, l);
+        }
+    }
 }

@@ -1,9 +1,9 @@
-// Gardner & Sitar 2018, eqs. 11-12: the sum over the tiles of each block, in a fixed order. A workgroup is a block.
+// Gardner & Sitar 2018, eqs. 11-12: the sum over the segments of each block, in a fixed order. A workgroup is a block.
 // needs workgroup_index, sum_of_all
 
-// Tiles before each block, and all.
+// Segments before each block, and all.
 @group(0) @binding(0) var<storage, read> block_first: array<u32>;
-// WRENCH a tile.
+// WRENCH a segment.
 @group(0) @binding(1) var<storage, read> partials: array<f32>;
 // WRENCH a block.
 @group(0) @binding(2) var<storage, read_write> wrenches: array<f32>;
@@ -17,9 +17,9 @@ fn reduce_blocks(
     let block = workgroup_index(group, groups);
     let here = block + 1u < arrayLength(&block_first);
     if (here) {
-        for (var tile = block_first[block] + local; tile < block_first[block + 1u]; tile += 64u) {
+        for (var segment = block_first[block] + local; segment < block_first[block + 1u]; segment += 64u) {
             for (var k = 0u; k < 20u; k++) { // unroll
-                wrench[k] += partials[tile * WRENCH + k];
+                wrench[k] += partials[segment * WRENCH + k];
             }
         }
     }

@@ -1,8 +1,8 @@
-// Gardner & Sitar 2018, eqs. 11-12: the sum over the cells of each tile, and nothing that depends on the order in which
-// the device works.
+// Gardner & Sitar 2018, eqs. 11-12: the sum over the cells of the tiles of each segment, and nothing that depends on the
+// order in which the device works.
 // needs cell_load, $tile_sum
 
-// WRENCH a tile.
+// WRENCH a segment.
 @group(0) @binding(5) var<storage, read_write> partials: array<f32>;
 
 @compute @workgroup_size(64)
@@ -11,5 +11,5 @@ fn reduce_tiles(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    sum_tile(workgroup_index(group, groups), local);
+    sum_segment(workgroup_index(group, groups), local);
 }

@@ -1,18 +1,13 @@
-// A workgroup a tile: its reads are neighbours in memory.
+// A workgroup a segment: its reads are neighbours in memory, and its invocations are added up once for all of its tiles.
 // needs cell_load, sum_of_all
 
-fn sum_tile(index: u32, local: u32) {
-    let here = index < tile_count();
-    if (here) {
-        let tile = tiles[index];
-        let motion = motions[tile.block];
-        let reach = reach_of(tile.inside);
-        for (var l = reach.x + local; l < reach.y; l += 64u) {
-            add_cell(tile, motion, index, l);
-        }
+fn sum_segment(index: u32, local: u32) {
+    let segment = segment_at(index);
+    if (segment != NOTHING) {
+        add_segment(segment, local, 64u);
     }
     let sum = sum_of_all(local);
-    if (here && local < WRENCH) {
+    if (segment != NOTHING && local < WRENCH) {
         partials[index * WRENCH + local] = sum;
     }
 }

@@ -57,7 +57,7 @@ fn loop_iterations(faces: u32) -> u64 {
 }
 
 /// Names of the buffers in WGSL.
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 15] = [
     "tiles",
     "parts",
     "faces",
@@ -72,6 +72,7 @@ const NAMES: [&str; 14] = [
     "tile_work",
     "lane_work",
     "edges",
+    "segments",
 ];
 
 /// The kernels in the order in which they run, with the list that some go through.
@@ -92,6 +93,13 @@ const NOTHING: u32 = u32::MAX;
 /// Most workgroups that folding a dispatch of 2³² adds.
 const MAX_FOLD_SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
 
+/// Fills up a list that a dispatch of `groups` goes through, `each` a workgroup: a folded one has a few workgroups too many,
+/// which find nothing to do.
+fn pad(list: &mut Vec<u32>, groups: u32, each: usize) {
+    let [x, y] = fold(groups);
+    list.resize(x as usize * y as usize * each, NOTHING);
+}
+
 /// Kernels with their memory.
 #[derive(Debug)]
 pub(super) struct Kernels {
@@ -101,9 +109,7 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
-    /// The lists of work that the device has: tiles, and lanes of bricks.
-    work: [Vec<u32>; 2],
-    walk: Walk,
+    pub walk: Walk,
     /// Most cells that an invocation of `voxelise_edges` may do.
     at_once: u64,
 }
@@ -142,7 +148,6 @@ impl Kernels {
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
-            work: [Vec::new(), Vec::new()],
             walk,
             at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_AN_EDGE),
         };
@@ -184,6 +189,8 @@ impl Kernels {
             words(tiles + MAX_FOLD_SURPLUS),
             words(plan.lane_count() + MAX_FOLD_SURPLUS),
             words(tiles) * self.workgroup + 4,
+            words(tiles.next_multiple_of(self.walk.segments_a_group()))
+                + words(self.walk.segments_a_group() * tiles.div_ceil(MAX_GROUPS as usize)),
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
@@ -226,28 +233,32 @@ impl Kernels {
     /// before.
     pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
         let mark = if anew { WHOLE } else { 0 };
-        for (at, (n, list)) in [(0, tiles), (2, lanes)].into_iter().enumerate() {
+        for (n, list) in [(0, tiles), (2, lanes)] {
             self.groups[n] = list.len() as u32;
             if let (Some(name), false) = (KERNELS[n].1, list.is_empty()) {
-                // A folded dispatch has a few workgroups too many, which find nothing to do.
-                let [x, y] = fold(list.len() as u32);
                 let mut list: Vec<u32> = list.iter().map(|number| number | mark).collect();
-                list.resize(x as usize * y as usize, NOTHING);
-                if anew || self.work[at] != list {
-                    queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
-                    self.work[at] = list;
-                }
+                pad(&mut list, self.groups[n], 1);
+                queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(&list));
             }
         }
         let cells = tiles.len() as u64 * self.workgroup;
         self.groups[1] = cells.div_ceil(64 * self.at_once) as u32;
+        self.no_edges(queue);
+    }
+
+    /// Nothing is left to `voxelise_edges` yet: before `voxelise`, which has the work that it had.
+    pub fn no_edges(&self, queue: &wgpu::Queue) {
         queue.write_buffer(self.buffer("edges"), 0, &[0; 4]);
     }
 
-    /// Gives the sums their work: the first tiles and blocks.
-    pub fn set_sums(&mut self, tiles: u32, blocks: usize) {
-        self.groups[3] = self.walk.groups(tiles);
-        self.groups[4] = blocks as u32;
+    /// Gives the sums their work.
+    pub fn set_sums(&mut self, queue: &wgpu::Queue, mut segments: Vec<u32>, block_first: &[u32]) {
+        self.groups[3] = self.walk.groups(segments.len() as u32);
+        self.groups[4] = block_first.len() as u32 - 1;
+        pad(&mut segments, self.groups[3], self.walk.segments_a_group());
+        for (name, list) in [("segments", &segments[..]), ("block_first", block_first)] {
+            queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(list));
+        }
     }
 
     /// Records the kernels `which`, those of them that have work.

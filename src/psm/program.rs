@@ -55,15 +55,30 @@ impl Forms {
     }
 }
 
+/// Most tiles of a segment: what 4 bits count.
+pub(super) const MAX_SEGMENT: u32 = 16;
 /// Invocations that a CPU adapter goes through as one vector.
 const VECTOR: u32 = 8;
 
 impl Walk {
-    /// Workgroups of `reduce_tiles` for a number of tiles.
-    pub fn groups(self, tiles: u32) -> u32 {
+    /// Workgroups of `reduce_tiles` for a number of segments.
+    pub fn groups(self, segments: u32) -> u32 {
+        segments.div_ceil(self.segments_a_group() as u32)
+    }
+
+    /// Segments of a workgroup of `reduce_tiles`.
+    pub(super) fn segments_a_group(self) -> usize {
         match self {
-            Self::Serial => tiles.div_ceil(64),
-            Self::Parallel => tiles,
+            Self::Serial => 64,
+            Self::Parallel => 1,
+        }
+    }
+
+    /// Tiles of a segment, where there are `tiles` of them: a GPU has enough to do with some thousand workgroups.
+    pub(super) fn segment(self, tiles: u32) -> u32 {
+        match self {
+            Self::Serial => 1,
+            Self::Parallel => (tiles / 8192).clamp(1, MAX_SEGMENT),
         }
     }
 }
@@ -117,8 +132,9 @@ pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
     walked("combine_parts", grid, walk)
 }
 
-/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`,
-/// `block_first`, and `partials`, [`super::WRENCH`] numbers a tile.
+/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`, `segments`,
+/// and `partials`, [`super::WRENCH`] numbers a segment. A segment is tiles of one block that follow one another: the number
+/// of the first + 2²⁸ · (their count - 1), or all bits for none.
 pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
         Walk::Serial => "tile_sum_serial",
@@ -127,7 +143,7 @@ pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     base("reduce_tiles", grid).slot("tile_sum", file)
 }
 
-/// `reduce_blocks`: a workgroup a block. Binds `block_first`, `partials`, `wrenches`.
+/// `reduce_blocks`: a workgroup a block. Binds `block_first`, the segments before each block and all, `partials`, `wrenches`.
 pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }

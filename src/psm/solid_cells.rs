@@ -69,6 +69,23 @@ pub struct SolidCells {
     /// `None` unless a block requests faces.
     pub(super) face_sums: Option<FaceSums>,
     work: CellWork,
+    /// The work that the device has, unless it is none or all.
+    listed: Option<Listed>,
+}
+
+/// Tiles and lanes of bricks that some blocks have computed anew.
+#[derive(Debug)]
+struct Listed {
+    moved: Vec<usize>,
+    changed: Vec<usize>,
+    tiles: u64,
+    lanes: u64,
+}
+
+impl Listed {
+    fn is_of(&self, moved: &[usize], changed: &[usize]) -> bool {
+        self.moved == moved && self.changed == changed
+    }
 }
 
 /// What the host passes to the device about blocks, in its order.
@@ -151,6 +168,7 @@ impl SolidCells {
             },
             blocks,
             work: CellWork::default(),
+            listed: None,
         })
     }
 
@@ -248,11 +266,25 @@ impl SolidCells {
             let tiles: Vec<u32> = (0..self.plan.tiles.len() as u32).collect();
             let lanes: Vec<u32> = (0..self.plan.lane_count() as u32).collect();
             self.set_work(queue, &tiles, &lanes, true);
+        } else if let Some(listed) = self
+            .listed
+            .as_ref()
+            .filter(|listed| listed.is_of(&moved, &changed))
+        {
+            self.kernels.no_edges(queue);
+            self.work.tiles += listed.tiles;
+            self.work.lanes += listed.lanes;
         } else {
             let tiles = moved.iter().flat_map(|&block| self.plan.tiles_of(block));
             let tiles: Vec<u32> = tiles.collect();
             let lanes = self.plan.lanes_of(&changed);
             self.set_work(queue, &tiles, &lanes, false);
+            self.listed = Some(Listed {
+                tiles: tiles.len() as u64,
+                lanes: lanes.len() as u64,
+                moved,
+                changed,
+            });
         }
         Ok(())
     }
@@ -322,6 +354,7 @@ impl SolidCells {
         self.kernels.set_work(queue, tiles, lanes, anew);
         self.work.tiles += tiles.len() as u64;
         self.work.lanes += lanes.len() as u64;
+        self.listed = None;
     }
 
     fn upload_plan(&mut self, queue: &wgpu::Queue) {
@@ -330,16 +363,13 @@ impl SolidCells {
             ("tiles", bytemuck::cast_slice(&plan.tiles)),
             ("lane_first", bytemuck::cast_slice(&plan.lane_first)),
             ("lane_tiles", bytemuck::cast_slice(&plan.lane_tiles)),
-            (
-                "block_first",
-                bytemuck::cast_slice(&plan.block_first[..=self.loaded]),
-            ),
         ];
         for (name, bytes) in lists {
             queue.write_buffer(self.kernels.buffer(name), 0, bytes);
         }
-        let tiles = plan.block_first[self.loaded];
-        self.kernels.set_sums(tiles, self.loaded);
+        let most = self.kernels.walk.segment(plan.block_first[self.loaded]);
+        let (segments, block_first) = plan.segments(self.loaded, most);
+        self.kernels.set_sums(queue, segments, &block_first);
     }
 
     /// Computes the rows of the blocks `changed`, ascending, and uploads them with those between; or all with `anew`.

@@ -240,6 +240,9 @@ pub const SKIN: f64 = 1.0;
 /// A block changes how its direct neighbours relax: a cell beyond the block.
 const NEIGHBOURS: f64 = 1.0;
 
+/// Bits of a segment that number its first tile.
+const SEGMENT_SHIFT: u32 = 28;
+
 /// Tiles by block, brick and part.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
@@ -379,6 +382,21 @@ impl Plan {
             self.lane_tiles[*at as usize] = number;
             *at += 1;
         }
+    }
+
+    /// The tiles of the first `blocks` blocks in segments of at most `most`, as `reduce_tiles` reads them, and the segments
+    /// before each block, and all.
+    pub fn segments(&self, blocks: usize, most: u32) -> (Vec<u32>, Vec<u32>) {
+        let (mut segments, mut block_first) = (Vec::new(), vec![0]);
+        for block in 0..blocks {
+            let tiles = self.tiles_of(block);
+            for first in tiles.clone().step_by(most as usize) {
+                let after = (tiles.end - first).min(most) - 1;
+                segments.push(first | after << SEGMENT_SHIFT);
+            }
+            block_first.push(segments.len() as u32);
+        }
+        (segments, block_first)
     }
 
     /// Tiles of a block.

@@ -127,12 +127,29 @@ impl Case {
         all
     }
 
+    /// Tiles of each block in segments of at most `most`, and the segments before each block, and all.
+    fn segments(&self, most: usize) -> (Vec<u32>, Vec<u32>) {
+        let (mut segments, mut block_first) = (Vec::new(), vec![0]);
+        for ends in self.tiling.by_block(BLOCKS).windows(2) {
+            let mut first = ends[0];
+            while first < ends[1] {
+                let count = (ends[1] - first).min(most as u32);
+                segments.push(first + (1 << 28) * (count - 1));
+                first += count;
+            }
+            block_first.push(segments.len() as u32);
+        }
+        (segments, block_first)
+    }
+
     /// Wrenches by the kernels.
-    fn run(&self, width: Option<u32>, walk: Walk) -> Vec<f32> {
+    fn run(&self, width: Option<u32>, walk: Walk, most: usize) -> Vec<f32> {
         let bench = Workbench::new(width);
-        let tiles = self.tiling.tiles.len();
         let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
-        let partials = bench.poisoned(WRENCH * (tiles + 3));
+        let (mut segments, block_first) = self.segments(most);
+        let count = segments.len();
+        segments.extend([u32::MAX; 3]);
+        let partials = bench.poisoned(WRENCH * (count + 3));
         let wrenches = bench.poisoned(WRENCH * (BLOCKS as usize + 1));
         // Tiles of an earlier, longer list lie behind those that count.
         let mut listed = self.tiling.tiles.clone();
@@ -143,11 +160,12 @@ impl Case {
             ("solid_fractions", &bench.buffer(&self.shares)),
             ("effective_fractions", &bench.buffer(&self.effective)),
             ("psm_planes_0", &bench.buffer(&self.saturation)),
-            ("block_first", &bench.buffer(&self.tiling.by_block(BLOCKS))),
+            ("block_first", &bench.buffer(&block_first)),
+            ("segments", &bench.buffer(&segments)),
             ("partials", &partials),
             ("wrenches", &wrenches),
         ];
-        let groups = walk.groups(tiles as u32 + 3) as usize;
+        let groups = walk.groups(count as u32 + 3) as usize;
         let program = reduce_tiles(&self.tiling.grid, walk);
         let numbers = constants(&self.tiling.grid);
         bench.run(&program, "reduce_tiles", &numbers, &buffers, 64 * groups);
@@ -155,7 +173,10 @@ impl Case {
         bench.run(&reduce_blocks(), "reduce_blocks", &[], &buffers, blocks);
         let poison = |numbers: &[f32]| numbers.iter().all(|x| x.to_bits() == POISON);
         let partials: Vec<f32> = bench.read(&partials);
-        assert!(poison(&partials[WRENCH * tiles..]), "tiles behind the last");
+        assert!(
+            poison(&partials[WRENCH * count..]),
+            "segments behind the last"
+        );
         let mut found: Vec<f32> = bench.read(&wrenches);
         let behind = found.split_off(WRENCH * BLOCKS as usize);
         assert!(poison(&behind), "a block behind the last");
@@ -177,8 +198,13 @@ fn loads_are_sums_over_cells() {
         let expected = case.twin();
         let first = case.tiling.by_block(BLOCKS);
         most_tiles = most_tiles.max(first.windows(2).map(|w| w[1] - w[0]).max().unwrap());
-        for walk in [Walk::Serial, Walk::Parallel] {
-            let found = case.run(width, walk);
+        for (walk, most) in [
+            (Walk::Serial, 1),
+            (Walk::Parallel, 1),
+            (Walk::Parallel, 3),
+            (Walk::Parallel, 16),
+        ] {
+            let found = case.run(width, walk, most);
             for (block, (found, expected)) in found.chunks(WRENCH).zip(&expected).enumerate() {
                 for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
                     // Sums of some thousand terms in f32; arms are exact to 1e-6 of a cell.
@@ -191,7 +217,7 @@ fn loads_are_sums_over_cells() {
                 }
                 assert_eq!(expected[13].1 == 0.0, [3, 8].contains(&block));
             }
-            let again = case.run(None, walk);
+            let again = case.run(None, walk, most);
             assert!(again == found, "the same bits in any dispatch");
         }
     }

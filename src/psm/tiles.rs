@@ -89,12 +89,51 @@ struct Span {
 pub struct Tiling {
     grid: Grid,
     periodic: [bool; 3],
+    /// Of a tile that lies in the domain as a whole.
+    eighths: Eighths,
+}
+
+/// The boxes around the eighths of a tile, in cells from its lowest corner: middle, and half of the edges. Rows that an eighth
+/// holds a part of count as whole ones, and so do layers. None where it has no cell in the domain.
+type Eighths = [Option<[DVec3; 2]>; Tile::EIGHTHS as usize];
+
+/// Of a tile that has `inside` of the cells of a brick in the domain.
+fn eighths(brick: [u32; 3], inside: [u32; 3]) -> Eighths {
+    let cells: u32 = brick.iter().product();
+    let size = cells.div_ceil(Tile::EIGHTHS);
+    let place = |k: u32| {
+        [
+            k % brick[0],
+            k / brick[0] % brick[1],
+            k / (brick[0] * brick[1]),
+        ]
+    };
+    std::array::from_fn(|eighth| {
+        let [first, last] = [eighth as u32, eighth as u32 + 1].map(|end| (end * size).min(cells));
+        if first == last {
+            return None;
+        }
+        let [first, last] = [place(first), place(last - 1)];
+        let whole = [first[1..] != last[1..], first[2] != last[2], false];
+        let side = |axis: usize| match whole[axis] {
+            true => [0, inside[axis]],
+            false => [first[axis], (last[axis] + 1).min(inside[axis])],
+        };
+        let sides = [0, 1, 2].map(side);
+        let [low, high] = [0, 1].map(|end| DVec3::from_array(sides.map(|side| side[end].into())));
+        let half = 0.5 * (high - low);
+        (half.min_element() > 0.0).then_some([low + half, half])
+    })
 }
 
 impl Tiling {
     /// Of a grid with periodic axes.
     pub fn new(grid: Grid, periodic: [bool; 3]) -> Self {
-        Self { grid, periodic }
+        Self {
+            grid,
+            periodic,
+            eighths: eighths(grid.brick, grid.brick),
+        }
     }
 
     /// Cells of the domain, and which of its axes are periodic.
@@ -154,39 +193,18 @@ impl Tiling {
         margin: f64,
         (cell, inside): ([i32; 3], [u32; 3]),
     ) -> Option<[u32; 2]> {
-        let brick = self.grid.brick;
-        let cells: u32 = brick.iter().product();
         let corner = DVec3::from_array(cell.map(f64::from)) - outline.centre;
-        let place = |k: u32| {
-            [
-                k % brick[0],
-                k / brick[0] % brick[1],
-                k / (brick[0] * brick[1]),
-            ]
+        let margin = DVec3::splat(margin);
+        let reaches = |of: &Option<[DVec3; 2]>| {
+            of.is_some_and(|[middle, half]| !outline.is_off(corner + middle, half + margin))
         };
-        let reaches = |eighth: &u32| {
-            let size = cells.div_ceil(Tile::EIGHTHS);
-            let [first, last] = [eighth * size, (eighth + 1) * size].map(|end| end.min(cells));
-            if first == last {
-                return false;
-            }
-            let [first, last] = [place(first), place(last - 1)];
-            // Rows that it holds a part of count as whole ones, and so do layers.
-            let whole = [first[1..] != last[1..], first[2] != last[2], false];
-            let side = |axis: usize| match whole[axis] {
-                true => [0, inside[axis]],
-                false => [first[axis], (last[axis] + 1).min(inside[axis])],
-            };
-            let sides = [0, 1, 2].map(side);
-            let [low, high] =
-                [0, 1].map(|end| DVec3::from_array(sides.map(|side| side[end].into())));
-            let half = 0.5 * (high - low);
-            half.min_element() > 0.0
-                && !outline.is_off(corner + low + half, half + DVec3::splat(margin))
+        let eighths = match inside == self.grid.brick {
+            true => self.eighths,
+            false => eighths(self.grid.brick, inside),
         };
-        let first = (0..Tile::EIGHTHS).find(reaches)?;
-        let last = (first..Tile::EIGHTHS).rfind(reaches)?;
-        Some([first, last + 1])
+        let first = eighths.iter().position(reaches)?;
+        let last = eighths.iter().rposition(reaches)?;
+        Some([first as u32, last as u32 + 1])
     }
 
     /// Spans of bricks between `low` and `high` on an axis, and periods away where what lies there is `imaged`.

@@ -6,10 +6,8 @@ use rayon_cond::CondIterator;
 
 /// Blocks from which on they move on all threads.
 const BLOCKS: usize = 2048;
-/// Convex parts from which on they are placed on all threads.
+/// Convex parts from which on they are placed on all threads, and pairs from which on their contacts are found there.
 pub(super) const PARTS: usize = 256;
-/// Pairs from which on their contacts are found on all threads.
-pub(super) const PAIRS: usize = 1024;
 
 /// Iterates over what there is one of for each of `count` blocks: on all threads where they are many.
 pub(super) fn each_block<I, P, S>(items: I, count: usize) -> CondIterator<P, S>

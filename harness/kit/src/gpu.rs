@@ -4,7 +4,10 @@ use riprap::{Error, Result, wgpu};
 use std::{
     future::Future,
     pin::pin,
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     task::{Context, Poll, Wake, Waker},
     time::{Duration, Instant},
 };
@@ -105,6 +108,8 @@ pub fn open(
 
 /// Time between two looks at a GPU: short beside a step of it.
 const NAP: Duration = Duration::from_micros(20);
+/// How long the host looks at a silent GPU all the time, which takes a core.
+const AWAKE: Duration = Duration::from_millis(2);
 
 /// Runs `future` to its end, polling the device for it.
 ///
@@ -134,16 +139,24 @@ pub fn drive_by<T>(
     what: &str,
     future: impl Future<Output = T>,
 ) -> Result<T> {
-    struct Idle;
-    impl Wake for Idle {
-        fn wake(self: Arc<Self>) {}
+    /// Whether something has come from the device.
+    #[derive(Default)]
+    struct Came(AtomicBool);
+    impl Wake for Came {
+        fn wake(self: Arc<Self>) {
+            self.0.store(true, Ordering::Relaxed);
+        }
     }
-    let waker = Waker::from(Arc::new(Idle));
+    let came = Arc::new(Came::default());
+    let waker = Waker::from(Arc::clone(&came));
     let mut future = pin!(future);
-    let start = Instant::now();
+    let mut start = Instant::now();
     loop {
         if let Poll::Ready(value) = future.as_mut().poll(&mut Context::from_waker(&waker)) {
             return Ok(value);
+        }
+        if came.0.swap(false, Ordering::Relaxed) {
+            start = Instant::now();
         }
         let left = patience.saturating_sub(start.elapsed());
         let waited = device.poll(match looks {
@@ -157,8 +170,11 @@ pub fn drive_by<T>(
             Err(wgpu::PollError::Timeout) | Ok(_) => {}
             Err(error) => return Err(Error::DeviceLost(error.to_string())),
         }
-        if looks {
-            std::thread::sleep(NAP);
+        match looks {
+            // A nap lasts longer than it is meant to: a step of a small scene would wait for it.
+            true if start.elapsed() < AWAKE => std::thread::yield_now(),
+            true => std::thread::sleep(NAP),
+            false => {}
         }
         if start.elapsed() >= patience {
             return Err(Error::Timeout {

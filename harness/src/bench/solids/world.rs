@@ -13,7 +13,7 @@ use riprap::{
 };
 use std::{path::Path, time::Instant};
 
-/// Speed of what moves: a cell in fifty steps.
+/// Speed of fluid and blocks: a cell in fifty steps.
 const SPEED: f64 = 0.02;
 /// Edge of the blocks of a stack, cells.
 const BRICK: u32 = 3;
@@ -32,7 +32,7 @@ impl World {
     /// # Errors
     /// If the scene is none.
     pub fn empty(n: u32) -> riprap::Result<Self> {
-        Self::of(n, "", String::new())
+        Self::of(n, SPEED, "", String::new())
     }
 
     /// The same with spheres that move, or stand.
@@ -55,7 +55,7 @@ impl World {
                 0.5 * across
             );
         }
-        Self::of(n, "rock = { gravity = [0, 0, 0] }", blocks)
+        Self::of(n, SPEED, "rock = { gravity = [0, 0, 0] }", blocks)
     }
 
     /// The same with spheres that the fluid moves.
@@ -116,7 +116,8 @@ impl World {
         })
     }
 
-    /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference.
+    /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference. The fluid is slow:
+    /// as fast as elsewhere it would throw them against each other.
     ///
     /// # Errors
     /// If the scene is none.
@@ -142,17 +143,17 @@ impl World {
             "rock = {{ gravity = [0, 0, {gravity:e}], corner_area = 0.25 }}\ncoupling = {{ lubrication = false }}"
         );
         let floor = "[boundaries]\nz_min = { kind = \"wall\" }\nz_max = { kind = \"wall\" }\n";
-        Self::of(n, &rock, format!("{floor}{blocks}"))
+        Self::of(n, 0.05 * SPEED, &rock, format!("{floor}{blocks}"))
     }
 
-    fn of(n: u32, rock: &str, tables: String) -> riprap::Result<Self> {
+    fn of(n: u32, speed: f64, rock: &str, tables: String) -> riprap::Result<Self> {
         let text = format!(
             r#"
             domain = {{ size = [{n}, {n}, {n}], cell = 1 }}
             fluid = {{ density = 1, viscosity = 0.03 }}
             numerics = {{ time_step = 1 }}
             run = {{ steps = 1 }}
-            initial = {{ velocity = ["0.02*sin(2*pi*y/{n})", "0.02*sin(2*pi*z/{n})", "0.02*sin(2*pi*x/{n})"] }}
+            initial = {{ velocity = ["{speed}*sin(2*pi*y/{n})", "{speed}*sin(2*pi*z/{n})", "{speed}*sin(2*pi*x/{n})"] }}
             {rock}
             [[materials]]
             name = "rock"

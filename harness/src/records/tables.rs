@@ -78,6 +78,9 @@ impl Table {
 }
 
 fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
+    if request == "headline" {
+        return Ok(format!("\n{}\n", headline(machines)?.markdown()));
+    }
     let mut text = String::new();
     for index in machines {
         let table = match request.split_once(' ') {
@@ -85,13 +88,11 @@ fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
             Some(("values", patterns)) => values(index, &cases(patterns)?)?,
             Some(("bench", part)) => bench(index, part)?,
             Some(("targets", part)) => targets(index, part)?,
-            None if request == "headline" => headline(index)?,
             _ => bail!(
                 "there is no such table: validate GLOB, values GLOB, bench PART, targets PART and headline are known"
             ),
         };
-        // The front page shows a table without rows, too.
-        if !table.rows.is_empty() || request == "headline" {
+        if !table.rows.is_empty() {
             write!(text, "\n{}\n*{}.*\n\n", table.markdown(), index.machine)?;
         }
     }
@@ -308,22 +309,47 @@ fn targets(index: &Index, part: &str) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-fn headline(index: &Index) -> anyhow::Result<Table> {
-    let mut table = Table::new(&["quantity", "result", "error", "limit"]);
+/// The limits of the front page, with a column for each machine.
+fn headline(machines: &[Index]) -> anyhow::Result<Table> {
     let contents = contents()?;
+    let name = |index: &Index| {
+        let end = index.machine.find([',', '(']);
+        index.machine[..end.unwrap_or(index.machine.len())]
+            .trim()
+            .to_owned()
+    };
+    let mut table = Table::new(&["quantity", "limit of the error"]);
+    table.heads.extend(machines.iter().map(name));
+    let mut add = |about: String, found: Vec<Option<(String, String)>>| {
+        let Some((_, limit)) = found.iter().flatten().next() else {
+            return;
+        };
+        let mut row = vec![about, limit.clone()];
+        let none = || "–".to_owned();
+        row.extend(found.iter().map(|cell| {
+            cell.as_ref()
+                .map_or_else(none, |(result, _)| result.clone())
+        }));
+        table.rows.push(row);
+    };
     for Headline {
         about,
         case,
         quantity,
     } in contents.headlines
     {
-        let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
-        let shown = |row: &&Measured| row.quantity.starts_with(&quantity) && row.limit.is_some();
-        let found = rows.iter().find(shown);
-        let cells = |row: &Measured| vec![about, row.judged(), row.error(), row.limit()];
-        table.rows.extend(found.map(cells));
+        let of = |index: &Index| {
+            let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
+            let shown =
+                |row: &&Measured| row.quantity.starts_with(&quantity) && row.limit.is_some();
+            let cell = |row: &Measured| (format!("{}; {}", row.judged(), row.error()), row.limit());
+            Ok(rows.iter().find(shown).map(cell))
+        };
+        add(
+            about,
+            machines.iter().map(of).collect::<anyhow::Result<_>>()?,
+        );
     }
-    let rows = bench_rows(index, "fluid", false)?;
     for Speed {
         kernel,
         storage,
@@ -331,20 +357,25 @@ fn headline(index: &Index) -> anyhow::Result<Table> {
         limit,
     } in contents.speeds
     {
-        let found = rows.iter().find(|row| {
-            word(row, "variant") == kernel
-                && word(row, "storage") == storage
-                && row.get("grid").and_then(Value::as_u64) == Some(grid)
-        });
-        let Some(mlups) = found.and_then(|row| row.get("mlups")?.as_f64()) else {
-            continue;
+        let of = |index: &Index| {
+            let rows = bench_rows(index, "fluid", false)?;
+            let found = rows.iter().find(|row| {
+                word(row, "variant") == kernel
+                    && word(row, "storage") == storage
+                    && row.get("grid").and_then(Value::as_u64) == Some(grid)
+            });
+            let mlups = found.and_then(|row| row.get("mlups")?.as_f64());
+            let cell = |mlups: f64| {
+                let missed = if mlups >= limit { "" } else { MISSED };
+                (number(mlups) + missed, format!("at least {limit}"))
+            };
+            Ok(mlups.map(cell))
         };
-        table.rows.push(vec![
-            format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS"),
-            number(mlups) + if mlups >= limit { "" } else { MISSED },
-            "–".into(),
-            format!("at least {limit}"),
-        ]);
+        let about = format!("speed of the kernel {kernel} in {storage} on {grid}³ cells, MLUPS");
+        add(
+            about,
+            machines.iter().map(of).collect::<anyhow::Result<_>>()?,
+        );
     }
     Ok(table)
 }

@@ -150,15 +150,15 @@ pub fn drive_by<T>(
     let came = Arc::new(Came::default());
     let waker = Waker::from(Arc::clone(&came));
     let mut future = pin!(future);
-    let mut start = Instant::now();
+    let mut heard = Instant::now();
     loop {
         if let Poll::Ready(value) = future.as_mut().poll(&mut Context::from_waker(&waker)) {
             return Ok(value);
         }
         if came.0.swap(false, Ordering::Relaxed) {
-            start = Instant::now();
+            heard = Instant::now();
         }
-        let left = patience.saturating_sub(start.elapsed());
+        let left = patience.saturating_sub(heard.elapsed());
         let waited = device.poll(match looks {
             true => wgpu::PollType::Poll,
             false => wgpu::PollType::Wait {
@@ -172,11 +172,11 @@ pub fn drive_by<T>(
         }
         match looks {
             // A nap lasts longer than it is meant to: a step of a small scene would wait for it.
-            true if start.elapsed() < AWAKE => std::thread::yield_now(),
+            true if heard.elapsed() < AWAKE => std::thread::yield_now(),
             true => std::thread::sleep(NAP),
             false => {}
         }
-        if start.elapsed() >= patience {
+        if heard.elapsed() >= patience {
             return Err(Error::Timeout {
                 what: what.into(),
                 seconds: patience.as_secs_f64(),

@@ -3,9 +3,11 @@
 // needs solid_cell, wrench
 
 @group(0) @binding(3) var<storage, read> effective_fractions: array<vec2<f32>>;
-// Segments: tiles of one block that follow one another. The first of them, and how many come after it, in the highest 4
-// bits.
+// Segments: tiles of one block that follow one another. The first of them, and above SEGMENT_SHIFT bits how many come
+// after it.
 @group(0) @binding(4) var<storage, read> segments: array<u32>;
+
+const SEGMENT_SHIFT = 28u;
 
 fn add_cell(tile: Tile, motion: Motion, number: u32, local: u32) {
     let effective = effective_fractions[number * WORKGROUP + local].x;
@@ -37,8 +39,8 @@ fn segment_at(index: u32) -> u32 {
 
 // The cells of a segment, from `local` on every `stride`-th of each tile.
 fn add_segment(segment: u32, local: u32, stride: u32) {
-    let first = segment & 0xfffffffu;
-    for (var number = first; number <= first + (segment >> 28u); number++) {
+    let first = segment & ((1u << SEGMENT_SHIFT) - 1u);
+    for (var number = first; number <= first + (segment >> SEGMENT_SHIFT); number++) {
         let tile = tiles[number];
         let motion = motions[tile.block];
         let reach = reach_of(tile.inside);

@@ -1,5 +1,6 @@
 //! Which files and numbers make the kernels of immersed blocks.
 
+use super::tiles::MAX_SEGMENT;
 use crate::{
     gpu::link::Program,
     lattice::{Grid, Lattice, PsmAccess, SolidWeight, psm_storage},
@@ -55,8 +56,8 @@ impl Forms {
     }
 }
 
-/// Most tiles of a segment: what 4 bits count.
-pub(super) const MAX_SEGMENT: u32 = 16;
+/// Workgroups that keep a GPU busy.
+const BUSY: u32 = 8192;
 /// Invocations that a CPU adapter goes through as one vector.
 const VECTOR: u32 = 8;
 
@@ -74,11 +75,11 @@ impl Walk {
         }
     }
 
-    /// Tiles of a segment, where there are `tiles` of them: a GPU has enough to do with some thousand workgroups.
+    /// Tiles of a segment, where there are `tiles` of them.
     pub(super) fn segment(self, tiles: u32) -> u32 {
         match self {
             Self::Serial => 1,
-            Self::Parallel => (tiles / 8192).clamp(1, MAX_SEGMENT),
+            Self::Parallel => (tiles / BUSY).clamp(1, MAX_SEGMENT),
         }
     }
 }

@@ -258,8 +258,10 @@ pub const SKIN: f64 = 1.0;
 /// A block changes how its direct neighbours relax: a cell beyond the block.
 const NEIGHBOURS: f64 = 1.0;
 
-/// Bits of a segment that number its first tile.
+/// Bits of a segment that number its first tile: `SEGMENT_SHIFT` of the kernel. Those above count the tiles after it.
 const SEGMENT_SHIFT: u32 = 28;
+/// Most tiles of a segment.
+pub const MAX_SEGMENT: u32 = 1 << (u32::BITS - SEGMENT_SHIFT);
 
 /// Tiles by block, brick and part.
 #[derive(Clone, Debug, Default)]

@@ -374,7 +374,7 @@ impl PlacedParts {
         let moves = |block: usize| !bodies[block].is_fixed() && !states[block].asleep;
         let moving = || (0..bodies.len()).filter(|&block| moves(block));
         let parts: usize = moving().map(|block| bodies[block].parts.len()).sum();
-        if parts < threads::PARTS {
+        if parts < threads::PAIRS {
             for block in moving() {
                 let pose = pose(&bodies[block], &states[block], strains);
                 self.place_block(&bodies[block], &pose);

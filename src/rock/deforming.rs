@@ -7,7 +7,7 @@ use super::{
     Block, Blocks, Body, Material,
     body::{MidStep, State},
     contact_list::ContactList,
-    threads::each_block,
+    threads,
 };
 use crate::{
     geometry::{Form, Pose, outer},
@@ -17,6 +17,7 @@ use crate::{
     },
 };
 use glam::{DMat3, DVec3};
+use rayon_cond::CondIterator;
 
 /// In place of a number of a deforming block: it is rigid.
 pub(super) const RIGID: u32 = u32::MAX;
@@ -239,7 +240,8 @@ impl DeformingBlocks {
         states: &mut [State],
         mid_steps: &mut [MidStep],
     ) -> Option<usize> {
-        let all = each_block(&self.list, self.list.len()).zip(&self.strains);
+        let all =
+            CondIterator::new(&self.list, self.list.len() >= threads::PAIRS).zip(&self.strains);
         let all = all.zip(&mut self.next).zip(&mut self.trials);
         let lost = all.filter_map(|(((one, strain), next), trial)| {
             let body = &bodies[one.block];

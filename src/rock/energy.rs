@@ -5,6 +5,7 @@ use super::{
     body::State,
     contact_list::{Chunk, ContactList},
     deforming::{DeformingBlocks, StepParams},
+    threads,
 };
 use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
@@ -58,9 +59,6 @@ impl EnergyLedger {
     }
 }
 
-/// Chunks of contacts from which on all threads take some.
-const PARALLEL_CHUNKS: usize = 128;
-
 /// Sums since the start, J, and the powers at the end of the last step, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
@@ -112,7 +110,7 @@ impl WorkSums {
             deforming,
         } = all;
         let (damping, dt) = (params.damping, params.dt);
-        let many = contacts.chunks.len() >= PARALLEL_CHUNKS;
+        let many = contacts.chunks.len() >= threads::CHUNKS;
         let chunks = CondIterator::new(&mut contacts.chunks, many);
         chunks.for_each(|chunk| work(chunk, &all, dt));
         let mut power = [0.0; 4];

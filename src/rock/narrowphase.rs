@@ -88,7 +88,7 @@ pub(super) fn resolve(
     let resolver_pool = &*resolver_pool;
     next.resize(pairs.len(), CandidatePair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
-    let chunks = match pairs.len() < threads::PARTS {
+    let chunks = match pairs.len() < threads::PAIRS {
         true => CondIterator::Serial(next.chunks_mut(CHUNK)),
         false => CondIterator::Parallel(next.par_chunks_mut(CHUNK)),
     };

@@ -4,10 +4,12 @@
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rayon_cond::CondIterator;
 
-/// Blocks from which on they move on all threads.
+/// Rigid blocks from which on they move on all threads.
 const BLOCKS: usize = 2048;
-/// Convex parts from which on they are placed on all threads, and pairs from which on their contacts are found there.
-pub(super) const PARTS: usize = 256;
+/// Dearer work: deforming blocks that move, convex parts that are placed, and pairs whose contacts are found.
+pub(super) const PAIRS: usize = 256;
+/// Chunks of contacts whose works are summed.
+pub(super) const CHUNKS: usize = 128;
 
 /// Iterates over what there is one of for each of `count` blocks: on all threads where they are many.
 pub(super) fn each_block<I, P, S>(items: I, count: usize) -> CondIterator<P, S>

@@ -122,20 +122,39 @@ impl Measured {
         }
     }
 
+    fn value(&self) -> String {
+        self.value.map_or("no number".into(), number)
+    }
+
+    /// What the value is compared with: a reference or a bound; none of an error itself.
+    fn compared(&self) -> Option<String> {
+        let reference = self.reference.filter(|reference| *reference != 0.0)?;
+        let kind = match self.limit == Some(0.0) {
+            true => "bound",
+            false => "reference",
+        };
+        Some(format!("{kind} {}", number(reference)))
+    }
+
     /// The value, with what it is compared with.
     fn result(&self) -> String {
-        let mut text = self.value.map_or("no number".into(), number);
-        match self.reference {
-            // An error itself, or a bound.
-            Some(0.0) | None => {}
-            Some(reference) if self.limit == Some(0.0) => {
-                let _ = write!(text, ", bound {}", number(reference));
-            }
-            Some(reference) => {
-                let _ = write!(text, ", reference {}", number(reference));
-            }
-        }
-        text
+        let compared = self.compared().map(|with| format!(", {with}"));
+        self.value() + &compared.unwrap_or_default()
+    }
+
+    /// What is wanted of the value, and the value with its error, as the front page has them.
+    fn headline(&self) -> (String, String) {
+        let most = format!("error at most {}", self.limit());
+        let missed = if self.passed { "" } else { MISSED };
+        let (wanted, found) = match (self.compared(), self.limit) {
+            (None, _) => (most, self.value()),
+            (Some(bound), Some(0.0)) => (bound, self.value()),
+            (Some(with), _) => (
+                format!("{with}, {most}"),
+                format!("{}, error {}", self.value(), self.error()),
+            ),
+        };
+        (wanted, found + missed)
     }
 
     /// `value` with the verdict on the row.
@@ -318,19 +337,24 @@ fn headline(machines: &[Index]) -> anyhow::Result<Table> {
             .trim()
             .to_owned()
     };
-    let mut table = Table::new(&["quantity", "limit of the error"]);
+    let mut table = Table::new(&["quantity", "wanted"]);
     table.heads.extend(machines.iter().map(name));
+    // What is wanted, and what each machine has.
     let mut add = |about: String, found: Vec<Option<(String, String)>>| {
-        let Some((_, limit)) = found.iter().flatten().next() else {
-            return;
-        };
-        let mut row = vec![about, limit.clone()];
-        let none = || "–".to_owned();
-        row.extend(found.iter().map(|cell| {
-            cell.as_ref()
-                .map_or_else(none, |(result, _)| result.clone())
-        }));
-        table.rows.push(row);
+        let wanted = found
+            .iter()
+            .flatten()
+            .map(|(wanted, _)| wanted.clone())
+            .next();
+        if let Some(wanted) = wanted {
+            let none = || "–".to_owned();
+            let found = found
+                .into_iter()
+                .map(|cell| cell.map_or_else(none, |(_, found)| found));
+            table
+                .rows
+                .push([about, wanted].into_iter().chain(found).collect());
+        }
     };
     for Headline {
         about,
@@ -342,8 +366,7 @@ fn headline(machines: &[Index]) -> anyhow::Result<Table> {
             let rows: Vec<Measured> = index.rows(&format!("validate/{case}"))?;
             let shown =
                 |row: &&Measured| row.quantity.starts_with(&quantity) && row.limit.is_some();
-            let cell = |row: &Measured| (format!("{}; {}", row.judged(), row.error()), row.limit());
-            Ok(rows.iter().find(shown).map(cell))
+            Ok(rows.iter().find(shown).map(Measured::headline))
         };
         add(
             about,
@@ -367,7 +390,7 @@ fn headline(machines: &[Index]) -> anyhow::Result<Table> {
             let mlups = found.and_then(|row| row.get("mlups")?.as_f64());
             let cell = |mlups: f64| {
                 let missed = if mlups >= limit { "" } else { MISSED };
-                (number(mlups) + missed, format!("at least {limit}"))
+                (format!("at least {limit}"), number(mlups) + missed)
             };
             Ok(mlups.map(cell))
         };

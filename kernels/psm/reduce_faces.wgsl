@@ -1,70 +1,5 @@
-// Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
-// layer of cells along it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
-// no force belongs to one face: full cells reflect what was in them when they were covered. A workgroup is a job.
-// needs solid_cell, psm_planes, face_layer, face_siblings
-
-// Of the fluid, lattice units.
-override VISCOSITY: f32;
-
-struct FaceJob {
-    tile: u32,
-    // Number of the face in its part.
-    face: u32,
-}
-
-@group(0) @binding(4) var<storage, read> jobs: array<FaceJob>;
-@group(0) @binding(5) var<storage, read> parts: array<Part>;
-// FACE_LOAD a job, sums over the cells: traction (3), its moment about the block's centroid (3), height, their feet on
-// the face from there (3) and the products of these (xx, yy, zz, yz, zx, xy), cells with fluid, cells.
-@group(0) @binding(7) var<storage, read_write> face_partials: array<f32>;
-
-var<private> sums: array<f32, FACE_LOAD>;
-// Those of an invocation next to each other, so that the invocations that add them read from different banks.
-var<workgroup> sums_of_all: array<f32, 64 * FACE_LOAD>;
-
-fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
-    let part = parts[tile.part];
-    let cell = tile.cell + vec3<i32>(place_in_brick(local));
-    let layer = layer_cell(part, job.face, centre_from(cell, part.base, part.fraction));
-    if (!layer.here) {
-        return;
-    }
-    let hidden = sibling_over_face(tile, cell, layer);
-    if (hidden == SEAM) {
-        return;
-    }
-    let at = local * LANES_OF_ELEMENT + tile.lane;
-    // Another block may be in the cell, or a wall.
-    let sum = decode_sum(read_psm(PLANE_SUM, tile.slot, at));
-    let fluid = sum.adjacent && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
-    if (!fluid && hidden == CUT) {
-        return;
-    }
-    sums[FACE_LOAD - 1u] += 1.0;
-    if (!fluid) {
-        return;
-    }
-    let motion = motions[tile.block];
-    let foot = centre_from(cell, motion.base, motion.fraction) - layer.height * layer.normal;
-    let u = vec3(
-        read_psm(PLANE_G, tile.slot, at),
-        read_psm(PLANE_G + 1u, tile.slot, at),
-        read_psm(PLANE_G + 2u, tile.slot, at),
-    ) - velocity_at(motion, foot);
-    let along = u - dot(u, layer.normal) * layer.normal;
-    let p = read_psm(PLANE_A, tile.slot, at) / 3.0;
-    let traction = VISCOSITY / layer.height * along - p * layer.normal;
-    let moment = cross(foot, traction);
-    for (var i = 0u; i < 3u; i++) { // unroll
-        sums[i] += traction[i];
-        sums[3u + i] += moment[i];
-        sums[7u + i] += foot[i];
-        sums[10u + i] += foot[i] * foot[i];
-        sums[13u + i] += foot[(i + 1u) % 3u] * foot[(i + 2u) % 3u];
-    }
-    sums[6] += layer.height;
-    sums[FACE_LOAD - 2u] += 1.0;
-}
+// Batchelor 1967, eq. 3.3.11 at a wall: the sum of the tractions in the layer of cells along a face, for each job.
+// needs workgroup_index, $face_sum
 
 @compute @workgroup_size(64)
 fn reduce_faces(
@@ -72,27 +7,5 @@ fn reduce_faces(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let index = workgroup_index(group, groups);
-    let here = index < arrayLength(&jobs);
-    if (here) {
-        let job = jobs[index];
-        let tile = tiles[job.tile];
-        for (var l = local; l < WORKGROUP; l += 64u) {
-            if (solid_fractions[job.tile * WORKGROUP + l] < 0.0) {
-                add_layer_cell(job, tile, l);
-            }
-        }
-    }
-    for (var k = 0u; k < FACE_LOAD; k++) {
-        sums_of_all[local * FACE_LOAD + k] = sums[k];
-    }
-    workgroupBarrier();
-    if (!here || local >= FACE_LOAD) {
-        return;
-    }
-    var sum = 0.0;
-    for (var n = 0u; n < 64u; n++) {
-        sum += sums_of_all[n * FACE_LOAD + local];
-    }
-    face_partials[index * FACE_LOAD + local] = sum;
+    sum_job(workgroup_index(group, groups), local);
 }

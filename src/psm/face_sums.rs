@@ -1,7 +1,7 @@
 //! The kernels of loads on faces, and the memory that only they have.
 
 use super::{
-    FACE_LOAD, FaceJob, Plan, Tile,
+    FACE_LOAD, FaceJob, Plan, Tile, Walk,
     kernels::{Growing, Kernels},
     program,
     tiles::{Outline, SKIN, imaged},
@@ -27,6 +27,7 @@ const REACH: f64 = 1.9;
 pub(super) struct FaceSums {
     /// Blocks that request them, in the order of the device, ascending.
     pub requested: Vec<usize>,
+    walk: Walk,
     reduce: Kernel,
     sum: Kernel,
     binds: Option<[wgpu::BindGroup; 2]>,
@@ -38,13 +39,19 @@ pub(super) struct FaceSums {
 }
 
 impl FaceSums {
-    pub fn new(device: &wgpu::Device, lattice: &Lattice, requested: Vec<usize>) -> Result<Self> {
+    pub fn new(
+        device: &wgpu::Device,
+        lattice: &Lattice,
+        walk: Walk,
+        requested: Vec<usize>,
+    ) -> Result<Self> {
         let grid = lattice.grid();
-        let linked = program::spread(program::reduce_faces(grid), lattice).link()?;
+        let linked = program::spread(program::reduce_faces(grid, walk), lattice).link()?;
         let mut constants = linked.constants_of(&program::constants(grid));
         constants.push(("VISCOSITY", lattice.setup().nu));
         Ok(Self {
             requested,
+            walk,
             reduce: Kernel::new(device, &linked, "reduce_faces", &constants)?,
             sum: Kernel::new(device, &program::sum_faces().link()?, "sum_faces", &[])?,
             binds: None,
@@ -139,7 +146,8 @@ impl FaceSums {
             return;
         };
         if !self.jobs.is_empty() {
-            self.reduce.record(pass, reduce, self.jobs.len() as u32);
+            let groups = self.walk.groups(self.jobs.len() as u32);
+            self.reduce.record(pass, reduce, groups);
         }
         let numbers = self.count() as u32;
         if numbers > 0 {

@@ -62,9 +62,9 @@ const BUSY: u32 = 8192;
 const VECTOR: u32 = 8;
 
 impl Walk {
-    /// Workgroups of `reduce_tiles` for a number of segments.
-    pub fn groups(self, segments: u32) -> u32 {
-        segments.div_ceil(self.segments_a_group() as u32)
+    /// Workgroups of `reduce_tiles` for a number of segments, and of `reduce_faces` for a number of jobs.
+    pub fn groups(self, sums: u32) -> u32 {
+        sums.div_ceil(self.segments_a_group() as u32)
     }
 
     /// Segments of a workgroup of `reduce_tiles`.
@@ -149,14 +149,18 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: a workgroup a job. Of a face it looks at the layer of cells along it, from where cells no longer
+/// `reduce_faces`: [`Walk::groups`] workgroups. Of a face it looks at the layer of cells along it, from where cells no longer
 /// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
 /// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
 /// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers a job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
-pub fn reduce_faces(grid: &Grid) -> Program {
-    base("reduce_faces", grid)
+pub fn reduce_faces(grid: &Grid, walk: Walk) -> Program {
+    let file = match walk {
+        Walk::Serial => "face_sum_serial",
+        Walk::Parallel => "face_sum_parallel",
+    };
+    base("reduce_faces", grid).slot("face_sum", file)
 }
 
 /// `sum_faces`: an invocation a number of a face, 64 a workgroup. Binds `face_first` (jobs before each

@@ -142,9 +142,10 @@ impl SolidCells {
         }
         let requests = |block: &usize| blocks[*block].faces;
         let requested: Vec<usize> = (0..blocks.len()).filter(requests).collect();
+        let kernels = Kernels::new(device, lattice, forms, most)?;
         let face_sums = match requested.is_empty() {
             true => None,
-            false => Some(FaceSums::new(device, lattice, requested)?),
+            false => Some(FaceSums::new(device, lattice, kernels.walk, requested)?),
         };
         let parts = first_face.len() - 1;
         Ok(Self {
@@ -153,7 +154,7 @@ impl SolidCells {
             tiling: Tiling::new(*lattice.grid(), lattice.setup().periodic_axes()),
             loaded: blocks.iter().filter(|block| block.loaded).count(),
             plan: Plan::new(blocks.len()),
-            kernels: Kernels::new(device, lattice, forms, most)?,
+            kernels,
             frame,
             number,
             first_part,

@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 use kit::{POISON, Random, Workbench, assert_relative};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
-    psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces},
+    psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, Walk, constants, reduce_faces, sum_faces},
 };
 
 /// Of the fluid, cells² a step.
@@ -167,7 +167,7 @@ impl Case {
     }
 
     /// The same by the kernels.
-    fn run(&self, width: Option<u32>) -> Vec<f32> {
+    fn run(&self, walk: Walk, width: Option<u32>) -> Vec<f32> {
         let bench = Workbench::new(width);
         let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
         for (part, face) in self.faces() {
@@ -194,10 +194,10 @@ impl Case {
         ];
         let mut numbers = constants(&self.tiling.grid);
         numbers.push(("VISCOSITY", VISCOSITY));
-        let program = reduce_faces(&self.tiling.grid);
-        // One group more than there are jobs.
-        let groups = 64 * (jobs.len() + 1);
-        bench.run(&program, "reduce_faces", &numbers, &buffers, groups);
+        let program = reduce_faces(&self.tiling.grid, walk);
+        // One workgroup more than the jobs need.
+        let groups = walk.groups(jobs.len() as u32) as usize + 1;
+        bench.run(&program, "reduce_faces", &numbers, &buffers, 64 * groups);
         let invocations = FACE_LOAD * (faces + 8);
         bench.run(&sum_faces(), "sum_faces", &[], &buffers, invocations);
         let poison = |numbers: &[f32]| numbers.iter().all(|x| x.to_bits() == POISON);
@@ -228,13 +228,15 @@ fn blocks(noise: &mut Random) -> Vec<Placed> {
 
 fn check(case: &Case, width: Option<u32>) {
     let expected = case.twin();
-    let found = case.run(width);
-    assert_eq!(found.len(), FACE_LOAD * expected.len());
-    for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
-        for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
-            // f32 in each cell; heights have the rounding of places some 10 cells away.
-            let error = (f64::from(*found) - value).abs();
-            assert!(error <= 3e-6 * size, "face {face}, {k}: {found} {value}");
+    for walk in [Walk::Serial, Walk::Parallel] {
+        let found = case.run(walk, width);
+        assert_eq!(found.len(), FACE_LOAD * expected.len());
+        for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
+            for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
+                // f32 in each cell; heights have the rounding of places some 10 cells away.
+                let error = (f64::from(*found) - value).abs();
+                assert!(error <= 3e-6 * size, "face {face}, {k}: {found} {value}");
+            }
         }
     }
     // The narrow sides of a slab may have none.
@@ -277,7 +279,7 @@ fn the_layer_beside_a_face_has_its_area() {
         let shares = voxelise::all(&Workbench::new(None), &tiling);
         let case = Case::new(tiling, Some(shares), &mut noise);
         check(&case, None);
-        let found = case.run(None);
+        let found = case.run(Walk::Serial, None);
         for (face, found) in shape.faces().iter().zip(found.chunks(FACE_LOAD)) {
             let across = [8.0, 6.0, 5.0];
             let along = (0..3).find(|a| face.normal[*a].abs() > 0.5).unwrap();

@@ -8,7 +8,7 @@ use riprap::{
     },
     psm::{
         FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, Part,
-        SHARED_SUM, TOUCHES, Tile, WRENCH, reduce_faces,
+        SHARED_SUM, TOUCHES, Tile, WRENCH, Walk, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -55,7 +55,9 @@ fn structures() {
         ("tile", offset_of!(FaceJob, tile)),
         ("face", offset_of!(FaceJob, face)),
     ];
-    let linked = reduce_faces(&grid([8; 3], 1, [4; 3])).link().unwrap();
+    let linked = reduce_faces(&grid([8; 3], 1, [4; 3]), Walk::Parallel)
+        .link()
+        .unwrap();
     check::<FaceJob>(&linked.module, "FaceJob", &job).unwrap();
 }
 

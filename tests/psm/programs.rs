@@ -35,7 +35,8 @@ fn bindings_by_name() {
         ("combine_parts", combine_parts(&grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(&grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(&grid, Walk::Parallel)),
-        ("reduce_faces", reduce_faces(&grid)),
+        ("reduce_faces", reduce_faces(&grid, Walk::Serial)),
+        ("reduce_faces", reduce_faces(&grid, Walk::Parallel)),
         ("sum_faces", sum_faces()),
         ("reduce_blocks", reduce_blocks()),
     ];

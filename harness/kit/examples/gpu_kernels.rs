@@ -206,7 +206,7 @@ impl Output<'_> {
             ("voxelise_edges", psm::voxelise_edges(&grid, forms, weight)),
             ("combine_parts", psm::combine_parts(&grid, Walk::Parallel)),
             ("reduce_tiles", psm::reduce_tiles(&grid, Walk::Parallel)),
-            ("reduce_faces", psm::reduce_faces(&grid)),
+            ("reduce_faces", psm::reduce_faces(&grid, Walk::Parallel)),
             ("sum_faces", psm::sum_faces()),
             ("reduce_blocks", psm::reduce_blocks()),
         ] {

@@ -60,7 +60,8 @@ fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
         ("combine_parts", combine_parts(grid, Walk::Parallel)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
         ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
-        ("reduce_faces", reduce_faces(grid)),
+        ("reduce_faces", reduce_faces(grid, Walk::Serial)),
+        ("reduce_faces", reduce_faces(grid, Walk::Parallel)),
         ("sum_faces", sum_faces()),
         ("reduce_blocks", reduce_blocks()),
     ]

@@ -1,15 +1,15 @@
-// Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall of wall_model.wgsl, on faces of blocks along the grid. The stress of each
-// full cell under such a face, and the eddy viscosity of the fluid before it, from the velocity of the step before; what a step does with
-// it is in block_friction_stored.wgsl.
+// Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall of wall_model.wgsl on grid-aligned faces of blocks. Computes
+// the stress in each full cell under such a face, and the eddy viscosity of the fluid in front of it, from the velocity of the
+// previous step; block_friction_stored.wgsl applies the stress.
 // needs psm_bricks, psm_places, psm_planes, psm_storage_written, cell_velocities, law_of_the_wall, mixing_length, $neighbour_flags
 
-// As the bits of numbers that are not negative, in the order of these: a cell before two faces has the larger one.
+// Bits of non-negative floats, which have the order of the floats: a cell in front of two faces gets the larger value.
 @group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<atomic<u32>>;
-// What block_friction_stored.wgsl reads of each cell of the bricks that blocks reach, as the bits of a number: 0 of most, 1 to 6
-// under a face x-, x+, y-, y+, z-, z+ where the law acts, and see CUT.
+// Code of each cell of the bricks that blocks reach, as the bits of a float, for block_friction_stored.wgsl: 1 to 6 under a face
+// x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, 0 elsewhere.
 @group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
 
-// Cells of blocks that may lie under such a face, by their numbers in these bricks: see number_of.
+// Cells of blocks that may lie under such a face, by their number in these bricks (number_of).
 struct OuterCells {
     count: atomic<u32>,
     cells: array<u32>,
@@ -17,20 +17,20 @@ struct OuterCells {
 
 @group(0) @binding(47) var<storage, read_write> outer_cells: OuterCells;
 
-// Cells before a face whose eddy viscosity follows from it; the law reads the velocity of the last one.
+// Number of cells in front of a face whose eddy viscosity follows from the law; the law reads the velocity of the last one.
 const DEPTH = 5u;
-// The code of a cell that a face cuts is this less the face: of two faces the first one counts.
+// The code of a cell that a face cuts is CUT less the face: of two faces the first one counts.
 const CUT = 12u;
-// From this solid fraction on a cell is full.
+// Solid fraction from which a cell is full.
 const FULL = 0.999;
-// Largest difference of the solid fractions of cells before a face that is along the grid.
+// Largest difference of the solid fractions of adjacent cells in front of a grid-aligned face.
 const SLOPE = 0.1;
 const NO_FACE = 6u;
-// Of the flags of a cell: no fluid at one of its faces, and none in it.
+// Bits of the flags of a cell: the neighbour through a face is not fluid; the cell is not fluid.
 const FACES = 63u;
 const SOLID = 128u;
 
-// What a block leaves of a cell.
+// The solid in a cell, with its place in the planes.
 struct Solid {
     slot: u32,
     place: u32,
@@ -53,7 +53,7 @@ fn solid_at(cell: vec3<u32>) -> Solid {
     return solid_of(at.x - 1u, at.y);
 }
 
-// The cell `n` further on through a face; over a periodic face too.
+// The cell at distance `n` through a face, also across a periodic face.
 fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
     let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
     let axis = face / 2u;
@@ -62,7 +62,7 @@ fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
     return other;
 }
 
-// What blocks fill of the neighbour through a face, 0 of one that is not fluid.
+// Solid fraction of the neighbour through a face; 0 if the neighbour is not fluid.
 fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
     if ((flags_of(cell) & (1u << face)) != 0u) {
         return 0.0;
@@ -70,8 +70,8 @@ fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
     return solid_at(through(cell, face, 1u)).fraction;
 }
 
-// The face of a full cell where the law acts, or NO_FACE: the only open one, along the grid as far as to its neighbours, and with five
-// cells of fluid before it.
+// The face of a full cell where the law acts, or NO_FACE. It is the only open face of the cell, is grid-aligned up to its
+// neighbours, and has five cells of fluid in front of it.
 fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
     let beyond = any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z));
     if (beyond || here.fraction < FULL || here.interior || here.several || (flags_of(cell) & (FACES | SOLID)) != 0u) {
@@ -111,13 +111,13 @@ fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
     return found;
 }
 
-// What the law says of a full cell under a face.
+// Result of the law for a full cell under a face.
 struct BlockFriction {
-    // Over the density, along the face; and the friction velocity and the part of the model.
+    // Stress over density, along the face; friction velocity; share of the law.
     stress: vec3<f32>,
     friction: f32,
     share: f32,
-    // Part of the cell before the face that the block fills.
+    // Solid fraction of the cell in front of the face.
     fraction: f32,
 }
 
@@ -136,7 +136,7 @@ fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
     return BlockFriction(stress / max(speed, 1e-30) * u, friction, model_share(friction), fraction);
 }
 
-// Cells of the bricks that blocks reach have numbers, slot by slot.
+// Number of a cell of the bricks that blocks reach, slot by slot.
 fn number_of(slot: u32, place: u32) -> u32 {
     return slot * BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT + place;
 }
@@ -161,13 +161,13 @@ fn face_above(here: OuterCell) -> u32 {
     return min(u32(bitcast<f32>(atomicLoad(&face_codes[here.number]))) - 1u, NO_FACE);
 }
 
-// Once blocks have moved, before list_outer_cells and find_faces.
+// Runs after blocks have moved, before list_outer_cells and find_faces.
 @compute @workgroup_size(1)
 fn forget_outer_cells() {
     atomicStore(&outer_cells.count, 0u);
 }
 
-// Lists them, so that the search goes through these alone: software adapters execute all branches of each invocation.
+// Lists the outer cells, so that find_faces visits only these: software adapters execute all branches of each invocation.
 @compute @workgroup_size(64)
 fn list_outer_cells(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -187,7 +187,7 @@ fn list_outer_cells(
     }
 }
 
-// Finds the faces where the law acts, and the cells that these cut.
+// Finds the faces where the law acts, and the cells that these faces cut.
 @compute @workgroup_size(64)
 fn find_faces(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -208,7 +208,7 @@ fn find_faces(
     }
 }
 
-// What the law says of these in the coming step.
+// Applies the law at these faces, for the next step.
 @compute @workgroup_size(64)
 fn block_friction(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -225,7 +225,7 @@ fn block_friction(
     }
 }
 
-// At the end of the step: none of it is left where a block moves away. Walls give theirs to the cells beside them in each step.
+// Runs at the end of the step, so that no eddy viscosity remains where a block moves away. At walls it is rewritten in each step.
 @compute @workgroup_size(64)
 fn clear_viscosity(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -270,22 +270,22 @@ fn write_friction(slot: u32, place: u32, law: BlockFriction) {
 
 // A face where the law acts.
 struct BlockFace {
-    // Of the full cell under it, in the padded grid.
+    // Index of the full cell under the face, in the padded grid.
     cell: u32,
-    // As the face of a cell, x-, x+, y-, y+, z-, z+.
+    // Face of that cell: x-, x+, y-, y+, z-, z+.
     face: u32,
     friction: f32,
     share: f32,
     stress: vec3<f32>,
-    // How far it lies beyond that cell.
+    // Distance of the face beyond that cell, cells.
     fraction: f32,
 }
 
-// Faces of full cells of blocks that fluid touches, and those of them where the law acts.
+// Number of faces of full block cells in contact with fluid, and number of these where the law acts.
 @group(0) @binding(43) var<storage, read_write> face_counts: array<atomic<u32>, 2>;
 @group(0) @binding(44) var<storage, read_write> found_faces: array<BlockFace>;
 
-// For output: the faces where the law acts, in no order.
+// For output: the faces where the law acts, in no particular order.
 @compute @workgroup_size(64)
 fn list_block_faces(
     @builtin(workgroup_id) group: vec3<u32>,

@@ -1,20 +1,20 @@
-// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a face of a block along the grid: of the momentum along the face that arrives in
-// the full cell under it, P, what is left after the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The other
-// directions leave with the velocity of the block. A cell that the face cuts exchanges no momentum along it.
+// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a grid-aligned face of a block. The tangential momentum P that
+// arrives in the full cell under the face returns less the stress of the law of the wall: sum over c_n = 1 of f* c_t = P -
+// stress. The other directions leave with the velocity of the block. A cell that the face cuts exchanges no tangential momentum.
 // needs velocity, moments, psm_planes, psm_storage, workgroup, $reals
 
-// Where the cells lie: 1 to 6 under a face x-, x+, y-, y+, z-, z+, 7 to 12 cut by z+, z-, y+, y-, x+, x-, 0 elsewhere; of each brick that
-// blocks reach.
+// Codes of the cells of each brick that blocks reach: 1 to 6 under a face x-, x+, y-, y+, z-, z+; 7 to 12 cut by a face z+, z-,
+// y+, y-, x+, x-; 0 elsewhere.
 @group(0) @binding(39) var<storage, read> face_codes: array<Reals>;
 
-// Changes the moments s of the change by the solid, from the moments h before it; returns the part of the law in a full cell.
+// Modifies the moments s of the change by the solid, given the moments h before it; returns the share of the law in a full cell.
 fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
     let code = get_reals(face_codes[slot * WORKGROUP + local]);
     let acts = code > Real(0.0);
     if (!mask_any(acts)) {
         return Real(0.0);
     }
-    // Of the other cells the planes still have what the step before has left.
+    // In other cells the planes still hold the values of the previous step.
     let share = select(Real(0.0), get_reals(read_psm(PLANE_SHARE, slot, local)), acts);
     let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
     let stride = array<u32, 3>(1u, 3u, 9u);
@@ -40,7 +40,7 @@ fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<functio
     return select(Real(0.0), share, acts & (code < Real(6.5)));
 }
 
-// The weight of the solid in a cell: all where the law is.
+// The weight of the solid in a cell, at least the share of the law.
 fn with_law(weight: Real, share_of_law: Real) -> Real {
     return max(weight, share_of_law);
 }

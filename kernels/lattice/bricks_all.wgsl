@@ -1,6 +1,6 @@
 // Every brick of the grid runs.
 
-// How many there are.
+// Number of bricks.
 override BRICKS: u32;
 
 fn brick_count() -> u32 {

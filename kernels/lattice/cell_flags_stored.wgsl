@@ -1,5 +1,5 @@
-// Cells that are not fluid, and their neighbours.
-// A byte a cell: bits 0-5 the neighbour at x-, x+, y-, y+, z-, z+ is not fluid; 6 next to a wall; 7 solid.
+// Flags of cells that are not fluid, and of their neighbours.
+// One byte per cell: bits 0-5 the neighbour at x-, x+, y-, y+, z-, z+ is not fluid; 6 next to a wall; 7 solid.
 // needs $lanes, velocity, grid
 
 @group(0) @binding(32) var<storage, read> flags: array<u32>;
@@ -7,7 +7,7 @@
 override CELLS_X: u32;
 override CELLS_Y: u32;
 override CELLS_Z: u32;
-// Faces of the domain that are neither walls at rest nor periodic: a bit each, x-, x+, y-, y+, z-, z+.
+// Faces of the domain that are neither walls at rest nor periodic: one bit each, x-, x+, y-, y+, z-, z+.
 override NO_WALLS: u32;
 
 fn cell_class(p: Place) -> u32 {
@@ -38,7 +38,7 @@ fn wall_at(p: Place, cell: u32, face: u32) -> Mask {
     return flag(cell, face) & !(open & end);
 }
 
-// Whether the cells of an element at i, of n along an axis with `lanes` of them, are in the layer `layer`.
+// Whether the cells of element i of n are in the layer `layer`, along an axis with `lanes` cells per element.
 fn in_layer(i: u32, n: u32, lanes: u32, layer: u32) -> Mask {
     if (lanes > 1u) {
         return in_slice(i, n, layer);

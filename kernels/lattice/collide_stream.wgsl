@@ -1,5 +1,5 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
-// One step of the fluid, fused: load, moments, collide, back, store. In moments h the step adds
+// One fused step of the fluid: load, transform to moments, collide, transform back, store. In moments h the step adds
 // R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
 // needs moments, stream, velocity, $bricks, $cell_flags, $psm, $equilibrium, $eddy, $force, $relax, $store_velocity, $guard, workgroup
 
@@ -18,7 +18,7 @@ fn collide_stream(
         return;
     }
     let cell = cell_class(p);
-    // First, while few values are held.
+    // Computed first, while few values are live.
     let psm = psm_cell(index, local);
     let tau_excess = tau_minus_half(p, cell, psm);
     let shear_rate = 1.0 / (0.5 + tau_excess);
@@ -34,8 +34,8 @@ fn collide_stream(
         d[k] -= h[k];
     }
     take_half_source(p, u, &d);
-    // Only the change goes back from moments: its round-off is relative to the change, not to f, and
-    // weak forces are not lost in that of f.
+    // Only the change is transformed back from moments: its round-off is relative to the change, not to
+    // f, so that weak forces are not lost in the round-off of f.
     let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, third_order_rate(cell, psm, shear_rate), rho, u, &h);
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);

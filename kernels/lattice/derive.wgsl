@@ -1,4 +1,4 @@
-// Hunt, Wray & Moin 1988 and others: a number from the velocity gradient of each domain cell, lattice units.
+// Hunt, Wray & Moin 1988 and others: a scalar from the velocity gradient of each domain cell, lattice units.
 // needs scalar_grid, cell_gradient, $quantity
 
 @group(0) @binding(54) var<storage, read_write> derived: array<f32>;

@@ -1,5 +1,5 @@
-// Lehmann 2022, Computation 10(6):92: populations of one direction in canonical order, out of the grid or
-// into it: domain cells, x fastest, no parity, no padding, shifted by the weight, f32.
+// Lehmann 2022, Computation 10(6):92: copies populations of one direction in canonical order out of the grid
+// or into it: domain cells, x fastest, no parity, no padding, shifted by the weight, f32.
 // needs scalar_grid, incoming
 
 @group(0) @binding(50) var<storage, read> direction: u32;

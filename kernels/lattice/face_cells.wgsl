@@ -12,9 +12,9 @@ struct FaceCell {
 struct OpenFace {
     // Outward.
     normal: vec3<f32>,
-    // In cell 0 of the domain, and its increase from cell to cell along the face.
+    // Density in cell 0 of the domain; `gradient` is its increase from cell to cell along the face.
     density: f32,
-    // Of the difference to that density what an outflow face removes each step, and what of its sum over time.
+    // Fractions of the difference to that density, and of its sum over time, that an outflow face removes in each step.
     hold: f32,
     integral: f32,
     gradient: vec3<f32>,
@@ -22,7 +22,7 @@ struct OpenFace {
 
 @group(0) @binding(46) var<uniform> open_face: OpenFace;
 
-// What the face holds at a padded cell, less 1.
+// Density that the face holds at a padded cell, less 1.
 fn held_excess(cell: u32) -> f32 {
     return open_face.density + dot(open_face.gradient, vec3<f32>(padded_cell(cell))) - 1.0;
 }

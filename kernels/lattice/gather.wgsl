@@ -2,7 +2,7 @@
 // needs scalar_grid
 
 @group(0) @binding(50) var<storage, read> gather_from: array<f32>;
-// Places of the cells, x fastest.
+// Indices of the cells, x fastest.
 @group(0) @binding(51) var<storage, read> listed: array<u32>;
 @group(0) @binding(54) var<storage, read_write> gathered: array<f32>;
 

@@ -1,5 +1,5 @@
 // The grid of elements: an element holds LANES_Y cells, NY apart in y, or LANES_Z, NZ apart in z; the grid is a torus.
-// Non-periodic axes carry at least one layer of cells that are not fluid behind the last one.
+// Non-periodic axes have at least one layer of cells that are not fluid after the last one.
 // needs $lanes
 
 override NX: u32;
@@ -19,7 +19,7 @@ struct Place {
     y: vec3<u32>,
     z: vec3<u32>,
     coordinates: vec3<u32>,
-    // The first, the last along the axis of the lanes: the neighbour is in another lane.
+    // First or last element along the axis of the lanes: the neighbour beyond it is in another lane.
     lowest: bool,
     highest: bool,
     outside: bool,
@@ -61,7 +61,7 @@ fn along_lanes(c: vec3<i32>) -> i32 {
     return select(c.z, c.y, LANES_Y > 1u);
 }
 
-// What was read at the neighbour in direction c, in the lanes of this element.
+// A value read at the neighbour in direction c, shifted to the lanes of this element.
 fn from_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
     let step = along_lanes(c);
     if (step == 1) {
@@ -73,7 +73,7 @@ fn from_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
     return v;
 }
 
-// What is to be written at the neighbour in direction c, in the lanes of that one.
+// A value to be written at the neighbour in direction c, shifted to the lanes of the neighbour.
 fn to_neighbour(p: Place, c: vec3<i32>, v: Real) -> Real {
     let step = along_lanes(c);
     if (step == 1) {

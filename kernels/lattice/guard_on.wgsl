@@ -1,15 +1,15 @@
-// Divergence guard: NaN, a density that is not positive, or a speed above MAX_SPEED; of the first step
-// where it happens the cell of the lowest index. Bits are compared as integers, because a compiler
-// may assume that there is no NaN: for a square they order as the numbers do, NaN above all.
-// A CPU adapter runs both sides of every branch, so that what is done only once is kept short.
+// Divergence guard: detects NaN, a density that is not positive, or a speed above MAX_SPEED, and keeps the
+// cell of the lowest index in the first step with a fault. Bits are compared as integers, because a compiler
+// may assume that there is no NaN: the bits of a square have the order of its values, with NaN above all.
+// A CPU adapter executes both sides of every branch, so the code that runs only once is kept short.
 // needs $lanes, velocity, grid, $cell_flags
 
 struct Guard {
-    // Steps done after an even one, after an odd one: each is written only while the other is read.
+    // Number of steps done, after an even step and after an odd step: each is written only while the other is read.
     // The step after the first fault marks the count as STOPPED and keeps it.
     even: u32,
     odd: u32,
-    // Lowest cell at fault in the even steps, in the odd ones, until the count stops.
+    // Lowest cell at fault in the even steps and in the odd steps, until the count stops.
     even_cell: atomic<u32>,
     odd_cell: atomic<u32>,
 }
@@ -17,7 +17,7 @@ struct Guard {
 @group(0) @binding(34) var<storage, read_write> guard_state: Guard;
 
 override MAX_SPEED_SQUARED: f32;
-// Parity of the step, and whether this dispatch is the one of its step that counts.
+// Parity of the step, and whether this dispatch counts the step.
 override GUARD_ODD: bool;
 override GUARD_COUNTS: bool;
 
@@ -29,7 +29,7 @@ fn out_of_range(cell: u32, rho: Real, u: Vector) -> Mask {
     return (above(q, MAX_SPEED_SQUARED) | not_positive(rho)) & !solid(cell);
 }
 
-// Notes the cells at fault; one invocation of the step counts it.
+// Records the cells at fault; one invocation per step counts the step.
 fn guard(p: Place, bad: Mask, first: bool) {
     if (mask_any(bad)) {
         if (steps_done() < STOPPED) {

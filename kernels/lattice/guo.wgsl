@@ -1,6 +1,6 @@
 // Guo, Zheng & Shi 2002, Phys. Rev. E 65:046308: S_i = w_i [3 (c_i - u).F + 9 (c_i.u)(c_i.F)], u = (j + F/2) / rho.
-// Its Hermite moments are F, then u_a F_b + u_b F_a, and 0 above. The step reads
-// h* = h + R (h_eq - h - S/2) + S, which is (1 - s/2) S moment by moment.
+// Its Hermite moments are F, then u_a F_b + u_b F_a, and 0 above. The step is
+// h* = h + R (h_eq - h - S/2) + S, which adds (1 - s/2) S to each moment.
 // needs velocity, grid, $body_force
 
 fn fluid_velocity(p: Place, rho: Real, j: Vector) -> Vector {

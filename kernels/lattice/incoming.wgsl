@@ -1,5 +1,5 @@
-// Lehmann 2022, Computation 10(6):92: where the population lies that a cell loads next in direction q.
-// The one place that knows the parity for single cells: see stream.wgsl.
+// Lehmann 2022, Computation 10(6):92: location of the population that a cell loads next in direction q.
+// For single cells only this file depends on the parity; see stream.wgsl.
 // needs scalar_grid, scalars
 
 struct Word {

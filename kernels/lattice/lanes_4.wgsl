@@ -1,4 +1,4 @@
-// Henretty et al. 2011, dimension lifting: four cells an invocation, those of an element in grid.wgsl.
+// Henretty et al. 2011, dimension lifting: four cells per invocation, the cells of an element in grid.wgsl.
 
 alias Real = vec4<f32>;
 alias Mask = vec4<bool>;
@@ -8,8 +8,8 @@ fn mask_any(m: Mask) -> bool {
     return any(m);
 }
 
-// A neighbour value seen from the top slice, whose upper neighbour is the bottom slice of the
-// next lane; and back.
+// The upper neighbour of the top slice is the bottom slice of the next lane: rotate_up shifts a value of the
+// bottom slice to the lanes of the top slice, and rotate_down back.
 fn rotate_up(v: Real) -> Real {
     return v.yzwx;
 }
@@ -28,7 +28,7 @@ fn in_slice(z: u32, slices: u32, layer: u32) -> Mask {
     return vec4(z) + slices * vec4(0u, 1u, 2u, 3u) == vec4(layer);
 }
 
-// Bits as integers: above `limit` or NaN; zero, negative, infinite or NaN.
+// Bits are compared as integers. above: at least `limit`, or NaN; not_positive: zero, negative, infinite or NaN.
 fn above(v: Real, limit: f32) -> Mask {
     return bitcast<vec4<u32>>(v) >= vec4<u32>(bitcast<u32>(limit));
 }

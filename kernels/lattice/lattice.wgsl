@@ -18,8 +18,8 @@ const C = array<vec3<i32>, 27>(
     vec3(-1, 1, 1), vec3(1, -1, -1),
 );
 
-// Place of direction q in tensor order, (1 + c_x) + 3 (1 + c_y) + 9 (1 + c_z): what the factorised
-// transforms of moments.wgsl work on.
+// Index of direction q in tensor order, (1 + c_x) + 3 (1 + c_y) + 9 (1 + c_z), the order of the factorised
+// transforms of moments.wgsl.
 const T = array<u32, 27>(
     13u, 14u, 12u, 16u, 10u, 22u, 4u,
     17u, 9u, 23u, 3u, 25u, 1u, 11u, 15u, 5u, 21u, 7u, 19u,

@@ -1,4 +1,4 @@
-// Ladd 1994, J. Fluid Mech. 271:285: a population that has arrived behind a wall, and where it returns to.
+// Ladd 1994, J. Fluid Mech. 271:285: a population that has arrived behind a wall, and the location to which it returns.
 // needs scalar_grid, scalars
 
 // Scalar read, scalar written, and the directions of both words as they are in an even step.

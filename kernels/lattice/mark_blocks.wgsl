@@ -1,5 +1,5 @@
-// Gardner & Sitar 2018, section 3.4: which walls have a block within five cells. The gap between them is too narrow for a law of the
-// wall.
+// Gardner & Sitar 2018, section 3.4: marks the walls with a block within five cells. The gap between them is too narrow for a
+// law of the wall.
 // needs wall_cells, psm_places, psm_planes, psm_storage
 
 @group(0) @binding(42) var<storage, read_write> wall_blocks: array<u32>;
@@ -23,6 +23,6 @@ fn mark_blocks(
 
 fn solid_in(cell: vec3<u32>) -> bool {
     let at = psm_place(cell);
-    // A sum with its code is above zero where there is solid: see encode_sum.
+    // A sum with its code is positive in a cell with solid: see encode_sum.
     return at.x > 0u && read_psm(PLANE_SUM, at.x - 1u, at.y) > 0.0;
 }

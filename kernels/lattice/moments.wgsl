@@ -1,8 +1,8 @@
 // Malaspinas 2015, arXiv:1505.06900: Hermite moments on the tensor-product lattice D3Q27.
 // h_abc = sum_i f_i He_a(c_ix) He_b(c_iy) He_c(c_iz) with He = 1, x, x^2 - 1/3, at place a + 3 b + 9 c.
 // Orthogonal with the lattice weights: the weights have h_000 = 1 and every other moment 0, so that
-// shifted populations f - w have h_000 = rho - 1 and all else unchanged. Both ways factorise into
-// nine one-dimensional transforms an axis.
+// shifted populations f - w have h_000 = rho - 1 and all other moments unchanged. Both transforms factorise
+// into nine one-dimensional transforms per axis.
 // needs $lanes
 
 fn to_moments(f: ptr<function, array<Real, 27>>) {

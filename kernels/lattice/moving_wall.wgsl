@@ -3,7 +3,7 @@
 // cell has with these populations: rho = (1 + known + reflected) / (1 + 6 sum w c.u_w).
 // needs scalar_grid, moving_cells, incoming, weights
 
-// For each of them the velocity of its face normal to x, y, z.
+// For each moving cell the velocities of its faces normal to x, y, z.
 @group(0) @binding(41) var<storage, read> wall_velocity: array<f32>;
 
 @compute @workgroup_size(64)
@@ -22,7 +22,7 @@ fn move_wall(
     let u_x = face_velocity(n, 0u);
     let u_y = face_velocity(n, 1u);
     let u_z = face_velocity(n, 2u);
-    // What comes back in direction q or is known of it, and 6 w (c.u_w) of the face that q leads through.
+    // For direction q, the reflected or the known population, and 6 w (c.u_w) of the face that q leads through.
     var f: array<f32, 27>;
     var push: array<f32, 27>;
     var sum = 1.0 + read_incoming(cell, 0u);
@@ -50,7 +50,7 @@ fn move_wall(
     }
 }
 
-// Of the face normal to an axis.
+// Velocity of the face normal to an axis.
 fn face_velocity(n: u32, axis: u32) -> vec3<f32> {
     let at = 9u * n + 3u * axis;
     return vec3(wall_velocity[at], wall_velocity[at + 1u], wall_velocity[at + 2u]);

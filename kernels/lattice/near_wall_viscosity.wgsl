@@ -1,5 +1,5 @@
-// Prandtl 1925, Z. angew. Math. Mech. 5:136: the eddy viscosity that carries the stress of a wall model through the cells beside the
-// wall, where WALE vanishes: what wall_model.wgsl has written, and 0 elsewhere.
+// Prandtl 1925, Z. angew. Math. Mech. 5:136: the eddy viscosity that carries the stress of a wall model through the cells next to
+// the wall, where WALE vanishes. wall_model.wgsl and block_friction.wgsl write it; it is 0 elsewhere.
 // needs grid, $reals
 
 @group(0) @binding(36) var<storage, read> near_wall_viscosity: array<Reals>;

@@ -1,4 +1,4 @@
-// Odd moments next to walls as wall_rates.wgsl says.
+// The odd moments relax at the rates of wall_rates.wgsl.
 // needs wall_rates, $psm
 
 fn odd_rates(cell: u32, psm: PsmCell) -> OddRates {

@@ -1,9 +1,9 @@
-// Holdych 2003, PhD thesis, University of Illinois: the solid bounces back what moves against it,
+// Holdych 2003, PhD thesis, University of Illinois: bounce-back relative to the solid,
 // f_opposite - f_eq_opposite(rho, u_s) - f + f_eq(rho, u_s): twice the odd moments of f_eq(u_s) - f, no even ones.
 // needs velocity, $equilibrium
 
-// Makes the moments of the operator of those of f_eq(rho, u_s) - f; returns how often rho u_s is in its momentum.
-// In the interior of a block the equilibrium replaces all: noise there would be reflected for ever.
+// Converts the moments of f_eq(rho, u_s) - f to those of the operator; returns the factor of rho u_s in its momentum.
+// In the interior of a block the equilibrium replaces all populations: noise there would be reflected forever.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,

@@ -1,9 +1,9 @@
 // Noble & Torczynski 1998, Int. J. Mod. Phys. C 9:1189: f_opposite - f_eq_opposite(rho, u) - f + f_eq(rho, u_s):
-// in moments (f_eq(u_s) - f) + (f_eq(u) - f) where odd, the difference where even.
+// (f_eq(u_s) - f) + (f_eq(u) - f) for odd moments, the difference of the two for even moments.
 // needs velocity, $equilibrium
 
-// Makes the moments of the operator of those of f_eq(rho, u_s) - f; returns how often rho u_s is in its momentum.
-// In the interior of a block the equilibrium replaces all: noise there would be reflected for ever.
+// Converts the moments of f_eq(rho, u_s) - f to those of the operator; returns the factor of rho u_s in its momentum.
+// In the interior of a block the equilibrium replaces all populations: noise there would be reflected forever.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,

@@ -1,8 +1,8 @@
 // Noble & Torczynski 1998, second form: f_eq(rho, u_s) - f + (1 - 1/tau)(f - f_eq(rho, u)).
 // needs velocity, $equilibrium
 
-// Makes the moments of the operator of those of f_eq(rho, u_s) - f; returns how often rho u_s is in its momentum.
-// In the interior of a block the equilibrium replaces all.
+// Converts the moments of f_eq(rho, u_s) - f to those of the operator; returns the factor of rho u_s in its momentum.
+// In the interior of a block the equilibrium replaces all populations.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,

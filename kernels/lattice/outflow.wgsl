@@ -1,11 +1,11 @@
-// Orlanski 1976, J. Comput. Phys. 21:251, on populations: those that enter through the face follow
-// df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. Towards the
-// given density they get hold times the difference and, so that none is left in the mean,
-// integral times its sum over time.
+// Orlanski 1976, J. Comput. Phys. 21:251, on populations: populations that enter through the face follow
+// df/dt + (c_s + u_n) df/dn = 0, upwind from the inner neighbour, so that sound and vortices leave. They are
+// corrected by `hold` times the difference to the given density and, so that the mean difference vanishes,
+// by `integral` times the sum of the difference over time.
 // needs scalar_grid, incoming, weights, face_cells
 
-// For each face cell its populations as the face will want them in the next step; in place of the
-// one at rest the sum over time.
+// For each face cell the populations that enter through the face in the next step; in place of the
+// population at rest, the sum over time.
 @group(0) @binding(41) var<storage, read_write> carried: array<f32>;
 
 struct Inside {
@@ -72,7 +72,7 @@ fn flow_out(
     let cell = neighbourhood(padded_cell(here.cell));
     let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))));
     let anchor = open_face.hold * (held - inner_state.excess) + carried[27u * n];
-    // All before the first write, so that the loads do not wait for each other.
+    // All loads precede the first write, so that they are independent.
     var kept: array<f32, 27>;
     for (var q = 1u; q < 27u; q++) { // unroll
         kept[q] = carried[27u * n + q];

@@ -1,10 +1,10 @@
 // Gardner & Sitar 2018, section 3.4: the cells of the bricks that blocks reach, one by one.
 // needs scalar_grid
 
-// Their number, and those that blocks reach.
+// Number of bricks that blocks reach, followed by these bricks.
 @group(0) @binding(40) var<storage, read> bricks: array<u32>;
 
-// An invocation for each cell of the bricks that blocks reach: neighbours have neighbouring cells, which mostly take the same branches.
+// One invocation per cell of the bricks that blocks reach: adjacent invocations have adjacent cells and mostly the same branches.
 struct PsmPlace {
     slot: u32,
     element: u32,
@@ -20,12 +20,12 @@ fn psm_invocation(index: u32) -> PsmPlace {
     );
 }
 
-// Of a slot that has a brick.
+// The cell of a slot that has a brick.
 fn cell_at(at: PsmPlace) -> vec3<u32> {
     return cell_in(bricks[1u + at.slot], at.element, at.lane);
 }
 
-// An element of a brick in one of its lanes; beyond the domain where it would be in the next lane.
+// The cell of an element of a brick in one lane; beyond the domain if the cell belongs to the next lane.
 fn cell_in(brick: u32, element: u32, lane: u32) -> vec3<u32> {
     let bricks_x = (NX + BRICK_X - 1u) / BRICK_X;
     let bricks_y = (NY + BRICK_Y - 1u) / BRICK_Y;

@@ -1,23 +1,23 @@
-// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid, with the weight B of the fraction e of the cell that
-// blocks fill, and of the relaxation time tau. The operator of the solid is linear in rho and in the
-// solid's velocity, so that the force of each block in a cell follows from its own fraction and velocity.
+// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid. The weight B depends on the fraction e of the cell that
+// blocks fill and on the relaxation time tau. The operator of the solid is linear in rho and in the velocity
+// of the solid, so that the force of each block in a cell follows from its own fraction and velocity.
 // needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface, $block_friction
 
 // B of the momentum in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations
-// in such a cell for ever: the block would keep the pressure at the time its joint closed, and would be tied to its neighbour by
-// the momentum between them. With less fluid flows along the joint, and blocks slide on it.
+// in such a cell forever: the block would keep the pressure of the time when its joint closed, and would be tied to its neighbour
+// by the momentum between them. With a smaller B, fluid flows along the joint, and blocks slide on it.
 override JOINT_WEIGHT: f32;
-// The same in joints with two rows of cells, which let through as much.
+// The same in joints with two rows of cells; with a prescribed aperture these let through as much as joints with one row.
 override FACING_WEIGHT: f32;
-// As the joint opens, the cells become ordinary ones; but while both faces are in a cell, B is at least this, since the weight of a
-// cell without friction is zero.
+// As a joint opens, its cells become ordinary ones. While both faces are in one cell, B is at least this value, since the weight
+// of a cell without friction is zero.
 const SHARED_WEIGHT = 0.25;
-// The same for all other moments. Full cells throw back what leaves a joint, after two steps, and blocks feel it late: what nothing
-// damps here grows between blocks of few cells, with a period of four steps.
+// The same for all other moments. Full cells reflect the populations that leave a joint, after two steps, and the loads reach
+// blocks late: without damping here, oscillations with a period of four steps grow between blocks of few cells.
 const JOINT_DAMPING = 0.0625;
 
 struct PsmCell {
-    // e, and the sum over the parts, of which each has its part of the force; more than 1 where blocks overlap.
+    // e, and the sum of the fractions of the parts, which share the force in proportion; more than 1 where blocks overlap.
     fraction: Real,
     shares: Real,
     velocity: Vector,
@@ -42,7 +42,7 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
     return with_surface(blocks, slot, local);
 }
 
-// The velocity for the eddy viscosity of the next step: the solid's velocity in the solid.
+// The velocity for the eddy viscosity of the next step: that of the solid in the solid part of the cell.
 fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
     let e = psm.fraction;
     return Vector(
@@ -52,18 +52,18 @@ fn mean_velocity(psm: PsmCell, u: Vector) -> Vector {
     );
 }
 
-// Solid rotation has an eddy viscosity by the formula, which it must not have.
+// The formula gives an eddy viscosity to the rotation of a solid, where there must be none.
 fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t * (1.0 - psm.fraction);
 }
 
-// How far the change of a moment is drawn to that of the solid: of mass and momentum, and of the others.
+// Weights that blend the change of a moment with the change by the solid: of momentum, and of higher moments.
 struct SolidWeights {
     momentum: Real,
     higher: Real,
 }
 
-// Before the collision: stores what the loads need, and puts the change by the solid alone in the place of the moments h, so
+// Runs before the collision: stores the values for the loads, and replaces the moments h by the change by the solid alone, so
 // that a GPU holds no more values than without solids.
 fn collide_with_solid(
     p: Place,
@@ -90,7 +90,7 @@ fn collide_with_solid(
         lost = lost_to_wall(face, here, h, lost);
     }
     let joint = select(Real(0.0), closure, psm.joint | at_wall);
-    // 1 from half a cell on that is full.
+    // Reaches 1 in a cell that is half full.
     let in_one = select(Real(0.0), min(2.0 * e, Real(1.0)), psm.several);
     let momentum = max(open, in_one * SHARED_WEIGHT);
     let closed = select(Real(JOINT_WEIGHT), Real(FACING_WEIGHT), psm.facing & !at_wall);
@@ -111,7 +111,7 @@ fn collide_with_solid(
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
     let adjacent = psm.adjacent & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
-    // What lies beyond the domain may be no number, and nothing of it counts.
+    // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;
     let each = 2.0 * closure / max(psm.shares, Real(1.0));
     write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
@@ -122,7 +122,7 @@ fn collide_with_solid(
     return SolidWeights(weight, higher);
 }
 
-// Draws the change by the collision to that by the solid.
+// Blends the change by the collision with the change by the solid.
 fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
     for (var k = 1u; k < 27u; k++) { // unroll
         let part = select(weights.higher, weights.momentum, Mask(k == 1u || k == 3u || k == 9u));
@@ -130,9 +130,9 @@ fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, c
     }
 }
 
-// Adds half the momentum that comes back from a wall along it, the sum of f c over the directions that leave the wall, where
-// `here`. A full cell at a wall has the friction of the lattice there, which acts on no block by itself: all of it acts on
-// the block, and less the more its joint is open.
+// Where `here`, adds half the tangential momentum that returns from a wall, the sum of f c over the directions that leave the
+// wall. In a full cell at a wall, the wall friction of the lattice acts on no block by itself: it is applied to the
+// block, in full in a closed joint and less as the joint opens.
 fn lost_to_wall(face: u32, here: Mask, h: ptr<function, array<Real, 27>>, before: Vector) -> Vector {
     let sign_half = select(Real(0.5), Real(-0.5), Mask(face % 2u == 1u));
     let zero = Real(0.0);
@@ -155,7 +155,7 @@ fn lost_to_wall(face: u32, here: Mask, h: ptr<function, array<Real, 27>>, before
     );
 }
 
-// The sum of f c_t over the directions with c_n = 1 or -1, from those of f c_t, f c_t c_n and f c_t (c_n^2 - 1/3).
+// The sum of f c_t over the directions with c_n = 1 or -1, from the moments f c_t, f c_t c_n and f c_t (c_n^2 - 1/3).
 fn leaving(first: Real, second: Real, third: Real, sign_half: Real) -> Real {
     return 0.5 * (third + first * THIRD) + sign_half * second;
 }

@@ -1,7 +1,7 @@
-// Gardner & Sitar 2018, section 3.4: where the planes of a cell are that blocks may reach.
+// Gardner & Sitar 2018, section 3.4: location of the planes of a cell that blocks may reach.
 // needs scalar_grid
 
-// Of each brick its place among those that blocks reach, from 1; 0 for the others.
+// Slot of each brick among those that blocks reach, from 1; 0 for the others.
 @group(0) @binding(41) var<storage, read> psm_slots: array<u32>;
 
 // The slot of the brick of a cell, from 1, and the place of the cell in it; 0 where no block reaches the brick.

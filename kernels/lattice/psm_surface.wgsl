@@ -1,5 +1,5 @@
-// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid in cells that solids at rest fill in part. Full cells reflect:
-// with the exact weight a plane along the grid lies where it should be for that.
+// Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid in cells that solids at rest fill in part. Full cells reflect
+// populations; with the exact weight, a grid-aligned plane then lies where it should.
 // needs velocity, moments, surface_fraction, $operator, $weight
 
 struct PsmCell {
@@ -22,12 +22,12 @@ fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t * (1.0 - psm.fraction);
 }
 
-// How far the change of the moments is drawn to that of the solid.
+// Weight that blends the change of the moments with the change by the solid.
 struct SolidWeights {
     all: Real,
 }
 
-// Before the collision: puts the change by the solid alone in the place of the moments h.
+// Runs before the collision: replaces the moments h by the change by the solid alone.
 fn collide_with_solid(
     p: Place,
     slot: u32,
@@ -50,7 +50,7 @@ fn collide_with_solid(
     return SolidWeights(solid_weight(psm.fraction, tau_minus_half, odd_rate));
 }
 
-// Draws the change by the collision to that by the solid.
+// Blends the change by the collision with the change by the solid.
 fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
     for (var k = 1u; k < 27u; k++) { // unroll
         (*change)[k] += weights.all * ((*solid)[k] - (*change)[k]);

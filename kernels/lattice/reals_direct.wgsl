@@ -1,4 +1,4 @@
-// Values of an element in memory as they are computed.
+// Values of an element are stored as they are computed.
 // needs $lanes
 
 alias Reals = Real;

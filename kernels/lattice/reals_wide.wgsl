@@ -1,5 +1,5 @@
-// Values of an element in memory, two in a word of 64 bits: a CPU adapter that goes through its invocations
-// one by one for each word of an access goes half as often.
+// Values of an element are stored two per 64-bit word: a CPU adapter that loops over its invocations for each
+// word of an access then loops half as often.
 // needs lanes_4
 
 alias Reals = vec2<u64>;

@@ -1,7 +1,7 @@
 // Bhatnagar, Gross & Krook 1954: every moment relaxes at the one rate 1/tau.
 // needs $cell_flags, $psm
 
-// Of 120 + 102, and for y and z.
+// Rate of the moments 120 + 102, and likewise for y and z.
 fn third_order_rate(cell: u32, psm: PsmCell, shear_rate: Real) -> Real {
     return shear_rate;
 }

@@ -8,7 +8,7 @@ override S17: f32;
 override S18: f32;
 override S20: f32;
 
-// Of 120 + 102, and for y and z.
+// Rate of the moments 120 + 102, and likewise for y and z.
 fn third_order_rate(cell: u32, psm: PsmCell, shear_rate: Real) -> Real {
     return Real(odd_rates(cell, psm).s10);
 }
@@ -26,7 +26,7 @@ fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real,
     (*h)[10u] += shear_rate * (*d)[10u];
     (*h)[12u] += shear_rate * (*d)[12u];
 
-    // 120 + 102 at s10, 120 - 102 at s23, and for y and z.
+    // 120 + 102 at s10, 120 - 102 at s23, and likewise for y and z.
     let sum = 0.5 * (odd.s10 + odd.s23);
     let difference = 0.5 * (odd.s10 - odd.s23);
     (*h)[7u] += sum * (*d)[7u] + difference * (*d)[19u];

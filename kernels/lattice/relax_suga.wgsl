@@ -1,7 +1,7 @@
 // Suga et al. 2015, Comput. Math. Appl. 69:518, eq. 4-10: the published operator, orthogonal with unit weights.
-// delta f = sum_k s_k / |M_k|^2 M_k (M_k . d). The rows are polynomials in c: with Hermite moments made
-// raw ones the products are short sums, block by parity; transposed they give delta f as a polynomial,
-// whose Hermite moments follow axis by axis. No 27 x 27 matrix.
+// delta f = sum_k s_k / |M_k|^2 M_k (M_k . d). The rows are polynomials in c: with Hermite moments converted
+// to raw moments the products are short sums, in blocks of equal parity. The transposed products give delta f
+// as a polynomial, whose Hermite moments follow axis by axis. No 27 x 27 matrix is needed.
 // needs $cell_flags, $odd_rates
 
 override S4: f32;
@@ -10,7 +10,7 @@ override S17: f32;
 override S18: f32;
 override S20: f32;
 
-// Of 120 + 102, and for y and z.
+// Rate of the moments 120 + 102, and likewise for y and z.
 fn third_order_rate(cell: u32, psm: PsmCell, shear_rate: Real) -> Real {
     return Real(odd_rates(cell, psm).s10);
 }
@@ -96,7 +96,7 @@ fn relax(cell: u32, psm: PsmCell, shear_rate: Real, d: ptr<function, array<Real,
     g[17u] = 9.0 * fifth_z;
     g[13u] = odd.s26 * (*d)[13u] * (1.0 / 8.0);
 
-    // Polynomial to Hermite moments: 3 g0 + 2 g2, 2 g1, g0 + 4/3 g2 an axis.
+    // Polynomial to Hermite moments: 3 g0 + 2 g2, 2 g1, g0 + 4/3 g2 per axis.
     for (var r = 0u; r < 9u; r++) { // unroll
         let constant = g[3u * r];
         let square = g[3u * r + 2u * 1u];

@@ -1,4 +1,4 @@
-// A sample for statistics.wgsl (Chan, Golub & LeVeque 1983): what macroscopic.wgsl and those after it have written.
+// A sample for statistics.wgsl (Chan, Golub & LeVeque 1983): the fields that macroscopic.wgsl and later kernels have written.
 // needs scalar_grid
 
 // Density minus one and velocity of each domain cell.

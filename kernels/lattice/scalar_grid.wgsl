@@ -1,4 +1,4 @@
-// Cells one by one: for the kernels that run on surfaces, at the start, or for output.
+// Access to single cells, for kernels that run on surfaces, at the start, or for output.
 // needs lattice
 
 override NX: u32;
@@ -16,20 +16,20 @@ override BRICK_X: u32;
 override BRICK_Y: u32;
 override BRICK_Z: u32;
 
-// What the dispatches of one kernel differ in.
+// Parameters in which the dispatches of one kernel differ.
 struct CellPass {
     // Parity of the step that loads.
     odd: u32,
     // Half of the words that is written where two cells share a word.
     half: u32,
-    // The cells of the kernel's list that are completed.
+    // Range of the kernel's list of cells that is processed.
     first: u32,
     end: u32,
 }
 
 @group(0) @binding(45) var<uniform> cell_pass: CellPass;
 
-// Invocations of a workgroup of 64, folded over two dimensions.
+// Index of an invocation, for workgroups of 64 that are dispatched over two dimensions.
 fn invocation(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
     return (group.x + group.y * groups.x) * 64u + local;
 }

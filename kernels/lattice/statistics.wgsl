@@ -3,8 +3,8 @@
 // needs scalar_grid, $sample
 
 @group(0) @binding(54) var<storage, read_write> derived: array<f32>;
-// Of each 64 cells of the pass one after the other: 4 means, 7 covariances, and of the open block 4 sums and 7 sums of
-// products. What an invocation touches lies close together.
+// For each group of 64 cells of the pass in turn: 4 means, 7 covariances, and for the open block 4 sums and 7 sums of
+// products. The values of an invocation lie close together.
 @group(0) @binding(56) var<storage, read_write> statistics: array<f32>;
 
 struct StatisticsPass {
@@ -27,12 +27,12 @@ fn place(plane: u32, n: u32) -> u32 {
     return (n / 64u * PLANES + plane) * 64u + n % 64u;
 }
 
-// Whose product is number k of the covariances: density, xx, yy, zz, xy, yz, xz.
+// The two factors of covariance k: density, xx, yy, zz, xy, yz, xz.
 fn factors(k: u32) -> vec2<u32> {
     return select(vec2(k), vec2(k - 3u, k % 3u + 1u), k > 3u);
 }
 
-// What a mean or covariance is with the samples of the open block.
+// A mean or covariance including the samples of the open block.
 fn merged(plane: u32, n: u32) -> f32 {
     let before = statistics[place(plane, n)];
     let samples = statistics_pass.samples;

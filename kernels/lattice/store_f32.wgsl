@@ -1,4 +1,4 @@
-// Populations in memory as they are computed: f - w in f32.
+// Populations are stored as they are computed: f - w in f32.
 // needs $lanes, $reals
 
 fn decode(word: Word) -> Real {

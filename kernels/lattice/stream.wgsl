@@ -1,7 +1,7 @@
-// Lehmann 2022, Computation 10(6):92, Esoteric-Pull: streaming in place, one owner a population and step.
+// Lehmann 2022, Computation 10(6):92, Esoteric-Pull: in-place streaming, one owner per population and step.
 // For each pair of opposite directions (q, r = q + 1) a cell owns two words: one of its own and one
 // at its neighbour in direction q. Odd and even steps exchange the roles of the words of a pair, so
-// that what one cell stored is what its neighbour loads in the next step.
+// that a cell loads in the next step the populations that its neighbours have stored.
 // needs lattice, grid, populations, $store
 
 // Parity of the step that loads.

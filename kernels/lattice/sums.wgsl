@@ -1,5 +1,5 @@
-// Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums: over 64 domain cells an invocation, in a fixed
-// order, excess mass, momentum, kinetic energy rho u.u/2, enstrophy (curl u)^2/2, largest u.u; the caller adds
+// Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums. Each invocation sums 64 domain cells in a fixed
+// order: excess mass, momentum, kinetic energy rho u.u/2, enstrophy (curl u)^2/2, largest u.u. The caller adds
 // the partial sums in f64.
 // needs scalar_grid, cell_gradient
 
@@ -35,7 +35,7 @@ fn sum_cells(
     }
     var sums = Sums();
     for (var k = 0u; k < RUN; k++) {
-        // Cells that are neighbours in memory go to invocations that are.
+        // Adjacent invocations read cells that are adjacent in memory.
         let n = first + k * runs;
         if (n >= total) {
             break;

@@ -1,9 +1,9 @@
-// Gardner & Sitar 2018, eq. 8, of solids at rest: the part of a cell that they fill, in the bricks that hold a surface.
+// Gardner & Sitar 2018, eq. 8, for solids at rest: the fraction of a cell that they fill, in the bricks with a surface.
 // needs $lanes, $bricks, $reals, workgroup
 
-// Of each brick its place in `surface_fractions`, from 1; 0 without a surface.
+// Slot of each brick in `surface_fractions`, from 1; 0 without a surface.
 @group(0) @binding(37) var<storage, read> surface_slots: array<u32>;
-// WORKGROUP elements a brick: 0 to 1, and -1 next to a cell that solids fill in part.
+// WORKGROUP elements per brick: 0 to 1, and -1 next to a cell that solids fill in part.
 @group(0) @binding(38) var<storage, read> surface_fractions: array<Reals>;
 
 struct Surface {

@@ -1,5 +1,5 @@
-// Gardner & Sitar 2018, eq. 8: cells in which blocks meet solids at rest. The solids count as one more part; their share of the force
-// is not summed. A joint between a block and a solid closes as one between two blocks does.
+// Gardner & Sitar 2018, eq. 8: cells in which blocks meet solids at rest. The solids count as one more part; their share of the
+// force is not summed. A joint between a block and a solid closes as one between two blocks does.
 // needs surface_fraction
 
 fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {

@@ -1,18 +1,18 @@
-// Kraichnan 1970, Phys. Fluids 13:22; Smirnov, Shi & Celik 2001, J. Fluids Eng. 123:359: turbulence that a velocity face feeds, a sum
-// of Fourier modes that the mean flow carries in. The amplitudes are normal to (sin kx, sin ky, sin kz), so that central differences
-// have no divergence. Phases are parts of a turn in 32 bits: their sums wrap and never round.
+// Kraichnan 1970, Phys. Fluids 13:22; Smirnov, Shi & Celik 2001, J. Fluids Eng. 123:359: turbulence at a velocity inlet, a sum of
+// Fourier modes that the mean flow carries in. The amplitudes are normal to (sin kx, sin ky, sin kz), so that central differences
+// have no divergence. Phases are fractions of a cycle in 32 bits: their sums wrap and never round.
 // needs scalar_grid, moving_cells
 
 struct Mode {
-    // Of the cosine, and turns a cell along the lower axis of the face.
+    // Amplitude of the cosine, and cycles per cell along the lower axis of the face.
     a: vec3<f32>,
     lower: u32,
-    // Of the sine, and turns a cell along the upper axis.
+    // Amplitude of the sine, and cycles per cell along the upper axis.
     b: vec3<f32>,
     upper: u32,
     // Mean normal velocity of the mode over the face: of the cosine and of the sine of its phase in the first cell.
     mean: vec2<f32>,
-    // Turns in the normal direction for 2^-16 cell.
+    // Cycles per 2^-16 cell in the normal direction.
     normal: u32,
     phase: u32,
 }
@@ -20,11 +20,11 @@ struct Mode {
 const MODES = 66u;
 
 struct TurbulentFace {
-    // At unit intensity.
+    // Modes at unit intensity.
     modes: array<Mode, MODES>,
-    // Normal to the face.
+    // Axis normal to the face.
     axis: u32,
-    // What the mean flow travels in a step, signed, 2^-16 cell.
+    // Signed distance that the mean flow travels in a step, 2^-16 cell.
     advance: u32,
     // RMS of each component.
     intensity: f32,
@@ -36,10 +36,10 @@ struct TurbulentFace {
 // The cells of this face among the moving cells, and the mean velocity of each.
 @group(0) @binding(42) var<storage, read> turbulent_cells: array<u32>;
 @group(0) @binding(43) var<storage, read> mean_velocity: array<f32>;
-// How far the mean flow has come before an even and an odd step, 2^-16 cell: one is read, the other written.
+// Distance that the mean flow has travelled before an even and an odd step, 2^-16 cell: one is read, the other written.
 @group(0) @binding(44) var<storage, read_write> travelled: array<u32, 2>;
 
-// Cosine and sine of a part of a turn, to 1e-7: a device may give sin() to 5e-4 only.
+// Cosine and sine of a phase, accurate to 1e-7: sin() of a device may be accurate to 5e-4 only.
 fn turn(part: u32) -> vec2<f32> {
     let quarter = (part + 0x20000000u) >> 30u;
     let x = f32(i32(part - (quarter << 30u))) * 1.4629180792671596e-9;

@@ -1,4 +1,4 @@
-// Vectors whose components are Real: a scalar, or one value a lane.
+// Vectors whose components are Real: a scalar, or one value per lane.
 // needs $lanes
 
 struct Vector {

@@ -1,7 +1,7 @@
-// Noble & Torczynski 1998, eq. 4: in a partially saturated cell the momentum of a step is that in its middle, after half of
-// the body force on what is fluid, (1 - B) F, and half of what the solid does. A plane of cells then carries in a steady flow what
-// crosses it, wherever solids are: exactly with the operator of Holdych; the others have a part of the body force more. Corrects what
-// macroscopic.wgsl has written.
+// Noble & Torczynski 1998, eq. 4: in a partially saturated cell the momentum of a step is the momentum at mid-step, after half
+// of the body force on the fluid, (1 - B) F, and half of the change by the solid. In a steady flow the momentum of a plane of
+// cells then equals the flux across it, wherever solids are: exactly with the operator of Holdych, plus a part of the body force
+// with the others. Corrects the output of macroscopic.wgsl.
 // needs psm_bricks, psm_planes, psm_storage, $cell_force
 
 @group(0) @binding(50) var<storage, read> density: array<f32>;

@@ -1,8 +1,8 @@
-// Noble & Torczynski 1998, eq. 4: the velocity in partially saturated cells as velocity_psm.wgsl wrote it in the run that wrote a
-// checkpoint; what solids did in its last step is no part of the state. Corrects what macroscopic.wgsl has written.
+// Noble & Torczynski 1998, eq. 4: the velocity in partially saturated cells, from a checkpoint, as velocity_psm.wgsl wrote it. It
+// depends on the change by solids in the last step, which is not part of the state. Corrects the output of macroscopic.wgsl.
 // needs scalar_grid
 
-// Places of the cells, x fastest, and their velocities, component by component.
+// Indices of the cells, x fastest, and their velocities, component by component.
 @group(0) @binding(54) var<storage, read> restored_cells: array<u32>;
 @group(0) @binding(55) var<storage, read> restored_velocity: array<f32>;
 @group(0) @binding(51) var<storage, read_write> velocity_x_out: array<f32>;

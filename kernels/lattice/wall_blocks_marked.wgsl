@@ -1,4 +1,4 @@
-// Where a block was within five cells of a wall in the step before, the wall has no model: what mark_blocks.wgsl has found.
+// A wall with a block within five cells in the previous step has no wall model: marks of mark_blocks.wgsl.
 
 @group(0) @binding(44) var<storage, read> wall_blocks: array<u32>;
 

@@ -1,6 +1,6 @@
-// Reichardt 1951, Z. angew. Math. Mech. 31:208: u+ = ln(1 + k y+)/k + c (1 - exp(-y+/11) - y+/11 exp(-y+/3)) at any distance, with
-// k = 0.384 and c = B - ln(k)/k of the log law with B = 4.27. The wall stress of a smooth wall from the speed u at the distance y, by
-// Newton's method from the power law of Werner & Wengle 1991.
+// Reichardt 1951, Z. angew. Math. Mech. 31:208: u+ = ln(1 + k y+)/k + c (1 - exp(-y+/11) - y+/11 exp(-y+/3)) at any distance,
+// with k = 0.384 and c = B - ln(k)/k of the log law with B = 4.27. The wall stress of a smooth wall from the speed u at the
+// distance y, by Newton's method from the power law of Werner & Wengle 1991.
 
 // Kinematic viscosity of the fluid, lattice units.
 override VISCOSITY: f32;
@@ -8,7 +8,7 @@ override VISCOSITY: f32;
 const KARMAN_SMOOTH = 0.384;
 const BUFFER = 6.762481;
 
-// Over the density.
+// Stress over density.
 fn smooth_wall_stress(u: f32, y: f32) -> f32 {
     let re = u * y / VISCOSITY;
     if (!(re > 1e-3)) {

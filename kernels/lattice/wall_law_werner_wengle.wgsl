@@ -7,7 +7,7 @@ override VISCOSITY: f32;
 const LINEAR_UP_TO = 11.81;
 const POWER_FACTOR = 8.3;
 
-// Over the density.
+// Stress over density.
 fn smooth_wall_stress(u: f32, y: f32) -> f32 {
     let s = u / POWER_FACTOR;
     let r = sqrt(sqrt(VISCOSITY / y));

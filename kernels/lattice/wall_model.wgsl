@@ -1,19 +1,19 @@
-// Asmuth, Janssen, Olivares-Espinosa & Ivanell 2021, Phys. Fluids 33:105111: the stress of a law of the wall, handed over through the
-// velocity of the wall in half-way bounce-back. P, the tangential momentum that arrives at the wall, returns against 6 w c.m with
-// m = 3 (2 P - stress), so that the fluid loses the stress exactly. The law reads the velocity of the step before in the fifth
-// cell; where a flow is laminar, m goes to 0 and the wall is one without slip, to the bit.
+// Asmuth, Janssen, Olivares-Espinosa & Ivanell 2021, Phys. Fluids 33:105111: the stress of a law of the wall, imposed through the
+// velocity of the wall in half-way bounce-back. The populations return less 6 w c.m with m = 3 (2 P - stress), where P is the
+// tangential momentum that arrives at the wall, so that the fluid loses the stress exactly. The law reads the velocity of the
+// previous step in the fifth cell. Where the flow is laminar, m goes to 0 and the wall is bit-identical to a no-slip wall.
 // needs wall_cells, scalars, link, cell_velocities, law_of_the_wall, mixing_length, $wall_blocks
 
 struct WallStress {
-    // Tangential, on the wall, along the lower and the upper axis of the face.
+    // Tangential stress on the wall, along the lower and the upper axis of the face.
     stress: vec2<f32>,
-    // Friction velocity of the law, and the part of the stress that is the law's: 0 without slip, 1 all.
+    // Friction velocity of the law, and share of the stress that follows from the law: 0 for no slip, 1 for the law alone.
     friction: f32,
     share: f32,
 }
 
-// Into the wall, nine for each cell: link j of all cells before link j + 1. The tangential direction of link j is j % 3 - 1 along the
-// lower and j / 3 - 1 along the upper axis of the face.
+// Links into the wall, nine per cell: link j of all cells precedes link j + 1. The tangential direction of link j is j % 3 - 1
+// along the lower and j / 3 - 1 along the upper axis of the face.
 @group(0) @binding(41) var<storage, read> wall_links: array<Link>;
 @group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<f32>;
 @group(0) @binding(43) var<storage, read_write> wall_stress: array<WallStress>;
@@ -21,13 +21,13 @@ struct WallStress {
 // The cell, counted from 0, whose velocity the law reads.
 const SAMPLE = 4u;
 
-// What the law of the wall says of a wall cell.
+// Result of the law of the wall for a wall cell.
 struct Friction {
-    // Tangential velocity that it reads, its size, and the stress over the density.
+    // Tangential velocity that the law reads, its magnitude, and the stress over the density.
     velocity: vec2<f32>,
     speed: f32,
     stress: f32,
-    // Friction velocity, and the part of the model there.
+    // Friction velocity, and the share of the law.
     friction: f32,
     share: f32,
 }
@@ -40,7 +40,7 @@ fn friction_of(here: WallCell, blocked: bool) -> Friction {
     return Friction(u, speed, stress, friction, select(model_share(friction), 0.0, blocked));
 }
 
-// The eddy viscosity of the cells beside the wall.
+// Sets the eddy viscosity of the cells next to the wall.
 fn set_near_wall(here: WallCell, law: Friction) {
     for (var layer = 0u; layer < 4u; layer++) { // unroll
         if (layer < here.layers) {
@@ -50,7 +50,7 @@ fn set_near_wall(here: WallCell, law: Friction) {
     }
 }
 
-// That alone: of a state that is complete, at the start or after a restart.
+// Sets only this eddy viscosity, for a complete state at the start or after a restart.
 @compute @workgroup_size(64)
 fn near_wall(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -84,7 +84,7 @@ fn wall_model(
         arriving += f[j] * vec2(f32(j % 3u) - 1.0, f32(j / 3u) - 1.0);
     }
     let full = 3.0 * (2.0 * arriving - law.stress / max(law.speed, 1e-30) * law.velocity);
-    // No more than twice the velocity that the law has read.
+    // Limits m to twice the velocity that the law has read.
     let momentum = law.share * full * min(1.0, 2.0 * law.speed / max(length(full), 1e-30));
     for (var j = 0u; j < 9u; j++) { // unroll
         let a = j % 3u;

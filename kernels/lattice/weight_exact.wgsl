@@ -1,5 +1,5 @@
-// The weight of the operator of Holdych with which a plane along the grid lies where it should, in steady shear, at every
-// place in its cell, tau and rate s of the third odd moments (docs/src/theory/solids.md):
+// The weight of the operator of Holdych with which a grid-aligned plane lies where it should, in steady shear, for every
+// position in its cell, tau and rate s of the third odd moments (docs/src/theory/solids.md):
 // B = 2 s e / (b + sqrt(b^2 + 12 (2 - s) (1 + x) s e)), b = s (1 + 2 x) - 3 (2 - s) e, x = (1 - e) / (tau - 1/2).
 // needs $lanes
 
@@ -10,6 +10,6 @@ fn solid_weight(e: Real, tau_minus_half: Real, odd_rate: Real) -> Real {
     let b = s * (1.0 + 2.0 * x) - 3.0 * (2.0 - s) * e;
     let a = 6.0 * (2.0 - s) * (1.0 + x);
     let root = sqrt(b * b + 2.0 * a * s * e);
-    // The same twice: a difference where b is negative, and where it is not, would cost digits.
+    // Two equal forms: each would lose digits by cancellation for the other sign of b.
     return select((root - b) / a, 2.0 * s * e / (root + b), b > Real(0.0));
 }

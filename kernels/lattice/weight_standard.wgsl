@@ -1,4 +1,4 @@
-// Noble & Torczynski 1998, eq. 5; Gardner & Sitar 2018, eq. 10, with the relaxation time where that has its inverse:
+// Noble & Torczynski 1998, eq. 5; Gardner & Sitar 2018, eq. 10, with the relaxation time in place of its inverse:
 // B = e (tau - 1/2) / ((1 - e) + (tau - 1/2)).
 // needs $lanes
 

@@ -1,4 +1,4 @@
-// Two cells in a word: the lower one in the low half.
+// Two cells per word: the lower one in the low half.
 // needs lanes_2
 
 fn pack(value: Real) -> u32 {

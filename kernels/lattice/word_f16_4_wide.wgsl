@@ -1,4 +1,4 @@
-// Four cells in a word of 64 bits, low halves first.
+// Four cells per 64-bit word, low halves first.
 // needs lanes_4
 
 fn pack(value: Real) -> u64 {

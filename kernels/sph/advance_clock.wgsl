@@ -6,7 +6,7 @@
 @group(0) @binding(0) var<storage, read> limits: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
 
-// What lists of neighbours reach beyond the support; negative: they are made for each step.
+// Skin of the neighbour lists beyond the support, spacings; negative: the lists are rebuilt in each step.
 override SKIN: f32;
 
 @compute @workgroup_size(1)

@@ -4,7 +4,7 @@
 @group(0) @binding(5) var<storage, read_write> moved: array<Particle>;
 @group(0) @binding(6) var<storage, read_write> clock: ClockAtomic;
 
-// Where a particle is still in the domain or not yet through a wall, quanta.
+// Half-open range of coordinates of particles that have not escaped, quanta.
 override KEPT_FROM_X: i32;
 override KEPT_FROM_Y: i32;
 override KEPT_FROM_Z: i32;

@@ -1,20 +1,20 @@
-// Volkov 2010, Better performance at lower occupancy: loads that do not wait for each other. A GPU loads several neighbours
-// before it adds the first, and adds without branches, which would part the loads. A CPU adapter takes one after the other.
+// Volkov 2010, Better performance at lower occupancy: independent loads. A GPU loads several neighbours before it adds the
+// first, and adds without branches, which would separate the loads. A CPU adapter visits one neighbour at a time.
 
-// Neighbours that are loaded before the first of them is added, 4 at most.
+// Number of neighbours that are loaded before the first of them is added, 4 at most.
 override NEIGHBOURS_AT_ONCE: u32;
 
-// Place k + i of the places up to `end`; for those beyond it the last one.
+// Index k + i, or the last index before `end` if k + i is not before `end`.
 fn place_of(k: u32, i: u32, end: u32) -> u32 {
     return select(min(k + i, end - 1u), k, i == 0u);
 }
 
-// Whether that place is before `end`.
+// Whether the index k + i is before `end`.
 fn is_before(k: u32, i: u32, end: u32) -> bool {
     return (i == 0u) | (k + i < end);
 }
 
-// Whether a neighbour is added; one that is not inside must then count for nothing.
+// Whether a neighbour is added. In batches all are; a neighbour that is not inside must then contribute zero.
 fn is_added(inside: bool) -> bool {
     return (NEIGHBOURS_AT_ONCE > 1u) | inside;
 }

@@ -20,7 +20,7 @@ override EDGE_Z: i32;
 override CELLS_X: i32;
 override CELLS_Y: i32;
 override CELLS_Z: i32;
-// Spacings a quantum.
+// Spacings per quantum.
 override QUANTUM: f32;
 // Square of the support of the kernel function.
 override SUPPORT_SQUARED: f32;

@@ -1,4 +1,4 @@
-// Contiguous ranges of the cells around one, along x, in a domain that is not periodic.
+// Contiguous ranges along x of the cells around a cell, in a domain that is not periodic.
 // needs cell_grid
 
 const CELL_RANGES = 25;
@@ -13,7 +13,7 @@ fn cell_range(home: vec3<i32>, n: i32) -> vec2<u32> {
     return vec2<u32>(select(vec2(0), cells, inside));
 }
 
-// From b to a, spacings.
+// Vector from b to a, spacings.
 fn separation(a: vec3<i32>, b: vec3<i32>) -> vec3<f32> {
     return vec3<f32>(a - b) * QUANTUM;
 }

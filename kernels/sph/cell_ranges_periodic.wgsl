@@ -1,4 +1,4 @@
-// Contiguous ranges of the cells around one, along x, with periodic axes. A period has at least five cells, so that no
+// Contiguous ranges along x of the cells around a cell, with periodic axes. A period has at least five cells, so that no
 // cell is visited twice.
 // needs cell_grid
 
@@ -31,7 +31,7 @@ fn cell_range(home: vec3<i32>, n: i32) -> vec2<u32> {
     return vec2<u32>(select(vec2(0), row + cells, inside));
 }
 
-// From the nearest image of b to a, spacings.
+// Vector from the nearest image of b to a, spacings.
 fn separation(a: vec3<i32>, b: vec3<i32>) -> vec3<f32> {
     let period = vec3(PERIOD_X, PERIOD_Y, PERIOD_Z);
     var d = a - b;

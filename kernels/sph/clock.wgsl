@@ -3,7 +3,7 @@
 struct Clock {
     // Length of the next step; 0 when the exchange is complete.
     step: f32,
-    // Longest step that the last step allows for the next.
+    // Upper bound on the length of the next step.
     step_limit: f32,
     // Time since the start of the exchange.
     elapsed: f32,
@@ -17,7 +17,7 @@ struct Clock {
     escaped: u32,
     // Length of the longest list of a fluid particle that exceeds its capacity; 0 if none does.
     overflow: u32,
-    // Step that is postponed until the lists have the capacity.
+    // Length of the step that is postponed until the lists have been enlarged.
     pending_step: f32,
     // Length of the longest list of a boundary particle that exceeds its capacity; 0 if none does.
     boundary_overflow: u32,

@@ -11,7 +11,7 @@ override GRAVITY_Y: f32;
 override GRAVITY_Z: f32;
 // delta.
 override DENSITY_DIFFUSION: f32;
-// The particle, its new velocity and the sums over those around it.
+// The particle, its new velocity and the sums over its neighbours.
 var<private> here: Particle;
 var<private> velocity: vec3<f32>;
 var<private> flux: f32;

@@ -1,5 +1,5 @@
-// Visits the fluid particles in the cells around a point: visit_fluid(j, counts), also for particles beyond the support, and
-// with `counts` false for some that have been visited.
+// Visits the fluid particles in the cells around a point: calls visit_fluid(j, counts), also for particles beyond the
+// support, and with `counts` false for repeated visits.
 // needs cell_grid, $cell_ranges, at_once
 
 // Index of the first particle of each cell.

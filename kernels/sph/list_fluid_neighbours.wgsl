@@ -5,7 +5,7 @@
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(4) var<storage, read_write> neighbour_list_out: array<u32>;
 
-// Writes as many as the list holds, and returns how many there are.
+// Writes as many neighbours as the list holds, and returns the number found.
 fn list_fluid_neighbours(at: vec3<i32>, first: u32) -> u32 {
     let home = cell_of(at);
     var count = 0u;
@@ -29,7 +29,7 @@ fn list_fluid_neighbours(at: vec3<i32>, first: u32) -> u32 {
     return count;
 }
 
-// Writes particle j, which is at `other`, if it counts and is near, and returns how many the list has then.
+// Adds particle j at `other` if `counts` is true and it is within the list radius; returns the new number of neighbours.
 fn listed(at: vec3<i32>, other: vec3<i32>, counts: bool, j: u32, first: u32, count: u32) -> u32 {
     let r = separation(at, other);
     if (counts & (dot(r, r) < LIST_SQUARED)) {

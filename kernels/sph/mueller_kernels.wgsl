@@ -1,5 +1,5 @@
 // Müller, Charypar & Gross 2003, SCA: poly6 for density, the gradient of the spiky function for pressure, and the
-// Laplacian for viscosity, with the support of the other scheme. In a plane the factors make W and r^2 Laplacian/4
+// Laplacian for viscosity, with the support of the delta-SPH scheme. In a plane the factors make W and r^2 Laplacian/4
 // integrate to one.
 
 // Support, spacings.

@@ -8,12 +8,12 @@ struct Range {
 
 @group(0) @binding(12) var<uniform> range: Range;
 
-// Square of what the lists reach: the support and the skin.
+// Square of the list radius: the support plus the skin.
 override LIST_SQUARED: f32;
-// Room in each list.
+// Capacity of each list.
 override CAPACITY: u32;
 
-// Index of the particle of an invocation; beyond all others if it has none.
+// Index of the particle of an invocation; the largest u32 if it has none.
 fn particle_of(invocation: u32) -> u32 {
     let n = range.first + invocation;
     return select(0xffffffffu, n, n < range.end);

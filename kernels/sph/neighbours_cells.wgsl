@@ -1,4 +1,4 @@
-// Visits the fluid and boundary particles in the cells around one; particles beyond the support are visited too.
+// Visits the fluid and boundary particles in the cells around a particle; particles beyond the support are visited too.
 // needs cell_grid, $cell_ranges, fluid_neighbours_cells
 
 @group(0) @binding(11) var<storage, read> boundary_starts: array<u32>;

@@ -1,4 +1,4 @@
-// Visits the fluid and boundary particles in the neighbour list of one.
+// Visits the fluid and boundary particles in the neighbour list of a particle.
 // needs neighbour_list_layout, fluid_neighbours_lists
 
 fn visit_neighbours(n: u32, at: vec3<i32>) {

@@ -21,7 +21,7 @@ struct Hull {
 override PENALTY_STIFFNESS: f32;
 override PENALTY_DAMPING: f32;
 
-// Acceleration of the particle by the hull, where the body is `elapsed` after the start of the exchange.
+// Acceleration of the particle by the hull, with the body at its position `elapsed` after the start of the exchange.
 fn penalty(hull: Hull, at: vec3<i32>, velocity: vec3<f32>, elapsed: f32) -> vec3<f32> {
     let motion = motions[hull.body];
     let offset = separation(at, wrapped(motion.centre)) - elapsed * motion.velocity;

@@ -1,6 +1,6 @@
 // Adami, Hu & Adams 2012, J. Comput. Phys. 231:7057, eq. 27: the pressure of the water at probes, extrapolated as in
-// water at rest, and 0 without water, integrated over time. A wall probe that water covers in part has a proportional
-// part of the pressure.
+// water at rest, and 0 without water, integrated over time. A wall probe that water covers only in part gets the
+// proportional part of the pressure.
 // needs invocation, cell_grid, $cell_ranges, extrapolated_pressure, wendland, clock, fluid_neighbours_cells
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;

@@ -1,4 +1,4 @@
-// Merrill & Grimshaw 2009, Parallel scan for stream architectures, upsweep: of each group of 64 the largest speed,
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, upsweep: for each group of 64, the largest speed,
 // the boundary and penalty work, and the longest step that all allow.
 // needs invocation
 
@@ -21,7 +21,7 @@ fn reduce_limits(
     let end = min((n + 1u) * GROUP_SIZE, arrayLength(&limits));
     var combined = limits[n * GROUP_SIZE];
     for (var k = n * GROUP_SIZE + 1u; k < end; k += 8u) {
-        // Eight loads that do not wait for each other.
+        // Eight independent loads.
         var next: array<vec4<f32>, 8>;
         for (var i = 0u; i < 8u; i++) { // unroll
             next[i] = select(vec4(0.0, 0.0, 0.0, combined.w), limits[k + i], k + i < end);

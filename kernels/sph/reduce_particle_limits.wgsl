@@ -1,4 +1,4 @@
-// Merrill & Grimshaw 2009, Parallel scan for stream architectures, first upsweep: of each group of 64 particles the
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, first upsweep: for each group of 64 particles, the
 // largest speed, the boundary and penalty work, and the longest step that all allow.
 // needs invocation, wall_work
 
@@ -25,7 +25,7 @@ fn reduce_particle_limits(
     var square = 0.0;
     var works = vec2(0.0);
     for (var k = n * GROUP_SIZE; k < end; k += 8u) {
-        // Loads that do not wait for each other.
+        // Independent loads.
         var next: array<vec4<f32>, 8>;
         var next_works: array<vec2<f32>, 8>;
         for (var i = 0u; i < 8u; i++) { // unroll

@@ -1,4 +1,4 @@
-// Green 2010, Particle simulation using CUDA, last step of a counting sort: the particles by cell, within a cell by id.
+// Green 2010, Particle simulation using CUDA, last step of a counting sort: the particles by cell, and by id within a cell.
 // The order of sums over them is then independent of the order of arrival.
 // needs invocation, cell_grid, clock
 

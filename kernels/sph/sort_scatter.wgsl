@@ -2,7 +2,7 @@
 // needs invocation, cell_grid, clock
 
 @group(0) @binding(0) var<storage, read> unsorted: array<Particle>;
-// Particles in the cells before each.
+// Number of particles in the cells before each cell.
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read> arrivals: array<u32>;
 @group(0) @binding(3) var<storage, read_write> list: array<u32>;

@@ -1,4 +1,5 @@
-//! CSV: what a probe saw, a row a step, and reading it back. A value that does not exist, such as the level of a dry gauge, is `NaN`.
+//! CSV tables of probe measurements, one row per step, and their reader. A value that does not exist, such as the level of
+//! a dry gauge, is `NaN`.
 
 use super::{failure, replace};
 use crate::{Error, Result};
@@ -10,18 +11,18 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A growing table `step,time,…`; every row is on its way to the disk when [`Csv::append`] returns.
+/// A growing table `step,time,…`; every row has been passed to the system when [`Csv::append`] returns.
 #[derive(Debug)]
 pub struct Csv {
     path: PathBuf,
     file: File,
     columns: usize,
-    /// The row of the step at which a run goes on, as it was.
+    /// The existing row of the step at which a run continues.
     written: Option<(u64, String)>,
 }
 
 impl Csv {
-    /// Begins a table at `path`, over an older one: the header `step,time` and then `columns`.
+    /// Begins a table at `path`, replacing an older one, with the header `step,time` and then `columns`.
     ///
     /// # Errors
     /// [`Error::File`] if a column's name holds a comma, a quote or a line break, or the file
@@ -32,9 +33,9 @@ impl Csv {
         Self::begin(path, columns.len(), &header)
     }
 
-    /// Continues the table at `path` for a run that starts again at `step`: rows from that step
-    /// on are dropped, since the run writes them anew, and so is a last row that was cut off; that of `step` itself
-    /// comes back as it was if the run writes it. Begins a new table if there is none.
+    /// Continues the table at `path` for a run that restarts at `step`. Rows from that step on are dropped, since the run
+    /// writes them again, and so is a truncated last row. If the run appends the row of `step` itself, the old row is
+    /// written unchanged. Begins a new table if there is none.
     ///
     /// # Errors
     /// [`Error::File`] if the table has other columns, holds a row without a step, or cannot be
@@ -88,16 +89,16 @@ impl Csv {
         Ok(table)
     }
 
-    /// Adds a row: `step`, `time` (s), and a value for each column, all digits that f64 needs.
+    /// Adds a row: `step`, `time` (s), and a value for each column, with all digits that f64 needs.
     ///
     /// # Errors
-    /// [`Error::File`] if the number of values is not that of the columns, or the disk is full.
+    /// [`Error::File`] if the number of values differs from the number of columns, or the disk is full.
     pub fn append(&mut self, step: u64, time: f64, values: &[f64]) -> Result<()> {
         if values.len() != self.columns {
             return Err(Error::file(
                 &self.path,
                 format!(
-                    "a row of {} values for {} columns; give one value a column",
+                    "a row of {} values for {} columns; give one value per column",
                     values.len(),
                     self.columns
                 ),
@@ -107,7 +108,7 @@ impl Csv {
             Some((known, row)) if known == step => row,
             _ => row(step, time, values),
         };
-        // One call a row: a killed run ends between rows.
+        // One call per row: a killed run ends between rows.
         self.file
             .write_all(row.as_bytes())
             .map_err(|error| failure("append to", &self.path, &error))
@@ -169,8 +170,8 @@ impl Table {
     /// Reads a file of comma-separated numbers under one line of names.
     ///
     /// # Errors
-    /// [`Error::File`], with the line, if the file cannot be read, a row has not one value a
-    /// column, or a value is no number.
+    /// [`Error::File`], with the line, if the file cannot be read, a row does not have one
+    /// value per column, or a value is not a number.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let text = fs::read_to_string(path).map_err(|error| failure("read", path, &error))?;

@@ -1,5 +1,6 @@
-//! Cell data on a regular lattice, the host's picture of a flow at one time; between cell centres, and the gradient of the
-//! velocity: vorticity, and Q (Hunt, Wray and Moin, 1988). A plain reference on the host; cost grows with the cells.
+//! Cell data of a flow at one time on a regular lattice, with interpolation between cell centres and quantities of the
+//! velocity gradient: vorticity, and Q (Hunt, Wray and Moin, 1988). A plain reference on the host; the cost grows with the
+//! number of cells.
 
 use glam::DVec3;
 
@@ -19,16 +20,16 @@ pub struct Image {
 /// One quantity on every cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Array {
-    /// Name shown in ParaView, with the quantity's SI unit implied by it.
+    /// Name shown in ParaView; it implies the SI unit of the quantity.
     pub name: String,
-    /// Components per cell: 1 for a scalar, 3 for a vector.
+    /// Components per cell: 1 for a scalar, 3 for a vector, 6 for a symmetric tensor.
     pub components: usize,
     /// `components` values per cell, interleaved, in the unit of the quantity.
     pub values: Vec<f32>,
 }
 
 impl Array {
-    /// A scalar on each of some cells or points.
+    /// An array of one scalar per cell or point.
     pub fn scalars(name: &str, values: impl IntoIterator<Item = f64>) -> Self {
         Self {
             name: name.into(),
@@ -37,7 +38,7 @@ impl Array {
         }
     }
 
-    /// A vector on each of some cells or points.
+    /// An array of one vector per cell or point.
     pub fn vectors(name: &str, values: impl IntoIterator<Item = DVec3>) -> Self {
         let values = values.into_iter().flat_map(|v| v.to_array());
         Self {
@@ -58,19 +59,19 @@ impl Image {
         self.cells.iter().product()
     }
 
-    /// Position of cell (`i`, `j`, `k`) in an array of scalars.
+    /// Index of cell (`i`, `j`, `k`) in an array of scalars.
     pub fn cell_index(&self, i: usize, j: usize, k: usize) -> usize {
         i + self.cells[0] * (j + self.cells[1] * k)
     }
 
-    /// Whether cell number `cell` is solid; false where there is no array `solid`.
+    /// Whether cell number `cell` is solid; false without an array `solid`.
     pub fn is_solid(&self, cell: usize) -> bool {
         self.array("solid")
             .and_then(|solid| solid.values.get(cell))
             .is_some_and(|&value| value != 0.0)
     }
 
-    /// What is wrong with the sizes, if anything: every array must fill every cell.
+    /// Describes the first invalid size; `None` if every array fills all cells.
     pub(super) fn fault(&self) -> Option<String> {
         if self.spacing <= 0.0 || !self.spacing.is_finite() {
             return Some(format!(
@@ -102,10 +103,9 @@ impl Image {
 
     /// The array `name` at `point` (m), by trilinear interpolation between cell centres.
     ///
-    /// A point outside the outermost centres takes the value at the nearest place between them.
-    /// Solid cells carry no weight, so that a value next to a wall is the fluid's. `None` where
-    /// there is no such array, where all cells around the point are solid, or where the point is
-    /// not a number.
+    /// A point outside the outermost centres takes the value at the nearest point between them.
+    /// Solid cells have no weight, so that a value next to a wall is a value of the fluid. `None` if
+    /// there is no such array, if all cells around the point are solid, or if the point is NaN.
     pub fn sample(&self, name: &str, point: [f64; 3]) -> Option<Vec<f64>> {
         let array = self.array(name)?;
         let solid = self.array("solid");
@@ -151,9 +151,8 @@ impl Image {
 
 /// Derivatives of an image's `velocity`, m/s, taken among fluid cells only.
 ///
-/// Central differences, second order; next to a solid or a face of the domain one-sided, second
-/// order where two fluid cells follow each other there, first order where only one does, zero
-/// where none does.
+/// Second-order central differences. Next to a solid or a face of the domain they are one-sided: second
+/// order with two fluid cells in a row on that side, first order with one, zero with none.
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityQuantities<'a> {
     image: &'a Image,
@@ -163,7 +162,7 @@ pub struct VelocityQuantities<'a> {
 }
 
 impl<'a> VelocityQuantities<'a> {
-    /// Of `image`, whose opposite faces join where `periodic` says so.
+    /// The quantities of `image`, whose axes are periodic as given by `periodic`.
     ///
     /// `None` if the image has no array `velocity` of three components on every cell, or its
     /// array `solid` does not fill the cells.
@@ -278,7 +277,7 @@ impl<'a> VelocityQuantities<'a> {
     }
 }
 
-/// Derivative towards a side with values `near` and, maybe, `far`, one and two cells away.
+/// One-sided difference per cell towards the value `near`, one cell away, and `far`, two cells away, if available.
 fn one_sided(centre: f64, near: f64, far: Option<f64>) -> f64 {
     match far {
         Some(far) => (4.0 * near - 3.0 * centre - far) / 2.0,

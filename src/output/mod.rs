@@ -1,9 +1,9 @@
-//! Files that others read: VTI, VTU, VTP and PVD for ParaView, CSV for probes.
+//! Output files: VTI, VTU, VTP and PVD for ParaView, CSV for probes.
 //!
-//! A run fills an [`Image`] with cell data and hands it to [`write_vti`]; a [`Pvd`] collects the
-//! images over time, a [`Csv`] the numbers of a probe. An image or a collection replaces its
-//! predecessor only when complete, and [`Pvd::resume`] and [`Csv::resume`] continue after a
-//! restart as if there had been none.
+//! A run fills an [`Image`] with cell data and passes it to [`write_vti`]; a [`Pvd`] collects the
+//! images over time, a [`Csv`] the values of a probe. An image or a collection replaces its
+//! predecessor only when complete. [`Pvd::resume`] and [`Csv::resume`] continue after a
+//! restart as if the run had not been interrupted.
 //!
 //! ```
 //! use riprap::output::{Array, Image, write_vti};
@@ -38,8 +38,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Writes `path` through `content`, next to it first and renamed at the end, so that a killed run
-/// or a full disk leaves the former file, never half of the new one.
+/// Writes `path` with `content`: first to a file next to it, which is renamed when complete, so that
+/// a killed run or a full disk leaves the old file and never a part of the new one.
 ///
 /// # Errors
 /// [`Error::File`] with the system's reason and a remedy.
@@ -61,7 +61,7 @@ pub fn replace(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<(
         })
         .and_then(|()| fs::rename(&draft, path));
     written.map_err(|error| {
-        // The draft is of no use to anyone; that it may not exist is fine.
+        // The incomplete draft is removed; it may not exist.
         let _ = fs::remove_file(&draft);
         failure("write", path, &error)
     })
@@ -73,14 +73,14 @@ fn fill(file: &File, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
     writer.flush()
 }
 
-/// The name under which `path` grows: in the same folder, since a rename cannot cross file systems.
+/// Name of the incomplete file for `path`: in the same folder, since a rename cannot cross file systems.
 fn draft_of(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(".part");
     path.with_file_name(name)
 }
 
-/// The error for `path`, with what to do about it.
+/// The error for `path`, with a remedy.
 pub(crate) fn failure(action: &str, path: &Path, error: &io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

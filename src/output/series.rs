@@ -1,16 +1,16 @@
 //! Moments of a series of correlated samples, and the statistical error of its mean.
 
-/// Most batches; when there are so many, pairs of them become one.
+/// Largest number of batches; at this number, pairs of batches are merged.
 const BATCHES: usize = 64;
-/// Fewest batches from which an error follows.
+/// Smallest number of batches for an estimate of the error.
 const FEWEST: usize = 16;
 
-/// Statistics of a quantity over time, one sample after the other, with a memory that does not grow.
+/// Running statistics of a quantity over time, in constant memory.
 ///
-/// The error of the mean is that of batch means: the samples are cut into 32 to 64 batches of equal length (16 at least), and
-/// the scatter of their means, widened by (1 + ρ)/(1 − ρ) where neighbours are still correlated by ρ, is that of the mean
-/// (Steiger & Wilson 2002, Management Science 48:1569, §2; Bartlett's first-order correction). A series that drifts has batches that are
-/// much alike, and so a large error.
+/// The error of the mean follows from batch means: the samples are divided into 32 to 64 batches of equal length (16 at least),
+/// and the variance of their mean is multiplied by (1 + ρ)/(1 − ρ), with the correlation ρ of neighbouring batches
+/// (Steiger & Wilson 2002, Management Science 48:1569, §2; Bartlett's first-order correction). In a series that drifts,
+/// neighbouring batches are strongly correlated, and so the error is large.
 ///
 /// ```
 /// use riprap::output::Series;
@@ -26,11 +26,11 @@ pub struct Series {
     /// Sums of the second and third power of deviations.
     powers: [f64; 2],
     range: [f64; 2],
-    /// Means of whole batches.
+    /// Means of complete batches.
     batches: Vec<f64>,
-    /// Samples of a batch.
+    /// Samples per batch.
     length: u64,
-    /// Sum of the samples of the batch that is not whole, and their number.
+    /// Sum and number of the samples of the incomplete batch.
     open: (f64, u64),
 }
 
@@ -49,12 +49,12 @@ impl Default for Series {
 }
 
 impl Series {
-    /// Adds a sample; one that is not a number, such as the level of a dry gauge, is left out.
+    /// Adds a sample; a value that is not finite, such as the level of a dry gauge, is skipped.
     pub fn push(&mut self, value: f64) {
         if !value.is_finite() {
             return;
         }
-        // Pébay 2008, Sandia report SAND2008-6212, eqs. 2.1 to 2.3 for one sample more.
+        // Pébay 2008, Sandia report SAND2008-6212, eqs. 2.1 to 2.3 for one additional sample.
         let before = self.count as f64;
         self.count += 1;
         let n = self.count as f64;
@@ -83,7 +83,7 @@ impl Series {
         self.count
     }
 
-    /// Mean; not a number without samples.
+    /// Mean; NaN without samples.
     pub fn mean(&self) -> f64 {
         match self.count {
             0 => f64::NAN,
@@ -91,7 +91,7 @@ impl Series {
         }
     }
 
-    /// Mean square of the deviations from the mean; not a number without samples.
+    /// Mean square of the deviations from the mean; NaN without samples.
     pub fn variance(&self) -> f64 {
         self.powers[0] / self.count as f64
     }
@@ -101,7 +101,7 @@ impl Series {
         self.variance().sqrt()
     }
 
-    /// Mean cube of the deviations over the cube of their root mean square; 0 of a constant.
+    /// Mean cube of the deviations over the cube of their root mean square; 0 for a constant.
     pub fn skewness(&self) -> f64 {
         let cube = self.rms().powi(3);
         match cube == 0.0 {
@@ -110,7 +110,7 @@ impl Series {
         }
     }
 
-    /// Smallest and largest sample; not a number without samples.
+    /// Smallest and largest sample; NaN without samples.
     pub fn range(&self) -> [f64; 2] {
         match self.count {
             0 => [f64::NAN; 2],
@@ -133,13 +133,13 @@ impl Series {
         }
         let product = |pair: &[f64]| (pair[0] - mean) * (pair[1] - mean);
         let together: f64 = batches.windows(2).map(product).sum();
-        // The estimate of ρ is low by about 1/n; beyond 0.99 the series is no sample of anything.
+        // The estimate of ρ is low by about 1/n; beyond 0.99 the series is no useful sample.
         let rho = (together / scatter + 1.0 / n).clamp(0.0, 0.99);
         Some((scatter / (n * (n - 1.0)) * (1.0 + rho) / (1.0 - rho)).sqrt())
     }
 
-    /// Integral time scale in samples: that many lie between two that are independent, which is half of what
-    /// error² · count/variance says; `None` where there is no error, or nothing varies.
+    /// Integral time scale in samples: half of error² · count/variance. `None` without an estimate of the error, or for a
+    /// constant.
     pub fn integral_time(&self) -> Option<f64> {
         let error = self.error()?;
         let variance = self.variance();
@@ -151,7 +151,7 @@ impl Series {
 mod tests {
     use super::*;
 
-    /// Numbers of zero mean and unit variance that follow from a seed: sums of twelve of a 64-bit congruential generator.
+    /// Pseudo-random numbers of zero mean and unit variance: sums of twelve numbers of a 64-bit congruential generator.
     fn noise(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
         move || {
@@ -206,7 +206,7 @@ mod tests {
             let scatter = runs.iter().map(|run| run.mean().powi(2)).sum::<f64>() / 200.0;
             let squares = runs.iter().map(|run| run.error().expect("enough").powi(2));
             let ratio = (squares.sum::<f64>() / 200.0 / scatter).sqrt();
-            // 200 means know their scatter to 5 %.
+            // The scatter of 200 means is known to 5 %.
             assert!((0.85..1.2).contains(&ratio), "{coefficient}: {ratio}");
             let time = runs[0].integral_time().expect("it varies");
             let exact = 0.5 * (1.0 + coefficient) / (1.0 - coefficient);

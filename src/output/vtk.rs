@@ -1,4 +1,4 @@
-//! VTK XML files (format version 1.0) of cells, points, polygons and polyhedra: raw binary arrays appended behind the XML.
+//! VTK XML files (format version 1.0) of cells, points, polygons and polyhedra: raw binary arrays appended after the XML.
 
 use super::{Array, Image, failure, replace};
 use crate::{Error, Result};
@@ -9,7 +9,7 @@ use std::{
     path::{Component, Path, PathBuf},
 };
 
-/// Writes `image` to `path` for ParaView, little endian, replacing an older file only when done.
+/// Writes `image` to `path` for ParaView, little endian, replacing an older file only when complete.
 ///
 /// # Errors
 /// [`Error::File`] if an array does not fill the cells or the file cannot be written.
@@ -38,7 +38,7 @@ const POLYHEDRON: u8 = 42;
 /// Polyhedra, and quantities on each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyhedra {
-    /// Corners of all, m.
+    /// Corners of all polyhedra, m.
     pub points: Vec<[f64; 3]>,
     /// For each polyhedron its faces, each as the indices of its corners.
     pub cells: Vec<Vec<Vec<u32>>>,
@@ -46,10 +46,10 @@ pub struct Polyhedra {
     pub arrays: Vec<Array>,
 }
 
-/// Writes `polyhedra` to `path` for ParaView, replacing an older file only when done.
+/// Writes `polyhedra` to `path` for ParaView, replacing an older file only when complete.
 ///
 /// # Errors
-/// [`Error::File`] if an array does not fill the cells, a face names a point that is not there, or
+/// [`Error::File`] if an array does not fill the cells, a face refers to a missing point, or
 /// the file cannot be written.
 pub fn write_vtu(path: impl AsRef<Path>, polyhedra: &Polyhedra) -> Result<()> {
     let path = path.as_ref();
@@ -116,8 +116,8 @@ pub struct Cloud {
     pub arrays: Vec<Array>,
 }
 
-/// Writes `cloud` to `path` for ParaView, each point as a vertex to be seen, replacing an older file
-/// only when done.
+/// Writes `cloud` to `path` for ParaView, each point as a visible vertex, replacing an older
+/// file only when complete.
 ///
 /// # Errors
 /// [`Error::File`] if an array does not fill the points, or the file cannot be written.
@@ -154,7 +154,7 @@ pub struct Surface {
     pub arrays: Vec<Array>,
 }
 
-/// Writes `surface` to `path` for ParaView, replacing an older file only when done.
+/// Writes `surface` to `path` for ParaView, replacing an older file only when complete.
 ///
 /// # Errors
 /// [`Error::File`] if an array does not fill the polygons, or the file cannot be written.
@@ -189,7 +189,7 @@ pub fn write_surface(path: impl AsRef<Path>, surface: &Surface) -> Result<()> {
 
 /// Bytes in front of each appended array: its length as UInt64.
 const LENGTH_BYTES: u64 = size_of::<u64>() as u64;
-/// Values converted at a time: 64 KiB, enough to make the calls to the writer few.
+/// Number of values converted at a time: 64 KiB, so that the writer is called rarely.
 const CHUNK: usize = 8 * 1024;
 
 /// Values of one of VTK's types.
@@ -241,7 +241,7 @@ fn little<T: Copy, const N: usize>(
     Ok(())
 }
 
-/// The XML of a file and the arrays behind it.
+/// The arrays that follow the XML of a file.
 #[derive(Default)]
 struct Appended<'a> {
     arrays: Vec<Values<'a>>,
@@ -249,7 +249,7 @@ struct Appended<'a> {
 }
 
 impl<'a> Appended<'a> {
-    /// The element that announces `values`.
+    /// The element that declares `values`.
     fn declare(&mut self, name: &str, components: usize, values: Values<'a>) -> String {
         let element = format!(
             "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
@@ -263,7 +263,7 @@ impl<'a> Appended<'a> {
         element
     }
 
-    /// The elements that announce the quantities of points or cells.
+    /// The elements that declare the quantities of points or cells.
     fn declare_all(&mut self, arrays: &'a [Array]) -> String {
         let mut elements = String::new();
         for array in arrays {
@@ -278,8 +278,8 @@ impl<'a> Appended<'a> {
         elements
     }
 
-    /// Writes a file of `kind`, whose element has these `attributes` and the content `xml`, little endian, and behind it
-    /// the arrays, each with its length in front.
+    /// Writes a little-endian file of `kind`, whose element has these `attributes` and the content `xml`, followed by the
+    /// arrays, each after its length.
     fn write(
         &self,
         writer: &mut dyn Write,
@@ -287,7 +287,7 @@ impl<'a> Appended<'a> {
         attributes: &str,
         xml: &str,
     ) -> io::Result<()> {
-        // Version 1.0 is the first that lets header_type be chosen; the old UInt32 ends at 4 GiB.
+        // Version 1.0 is the first with a choice of header_type; the old UInt32 is limited to 4 GiB.
         write!(
             writer,
             "<?xml version=\"1.0\"?>\n\
@@ -303,7 +303,7 @@ impl<'a> Appended<'a> {
     }
 }
 
-/// What is wrong with the sizes of `arrays` of `count` tuples, if anything.
+/// Describes the first array whose size is not `count` tuples; `None` if all sizes are valid.
 fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> {
     arrays.iter().find_map(|array| {
         let wants = count * array.components;
@@ -318,7 +318,7 @@ fn fault(arrays: &[Array], count: usize, of: &str) -> Option<String> {
     })
 }
 
-/// `text` as it may stand inside a quoted attribute.
+/// Escapes `text` for a quoted attribute.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
@@ -350,7 +350,7 @@ pub struct Pvd {
 }
 
 impl Pvd {
-    /// Begins an empty collection at `path`, over an older one.
+    /// Begins an empty collection at `path`, replacing an older one.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be written.
@@ -363,8 +363,8 @@ impl Pvd {
         Ok(pvd)
     }
 
-    /// Continues the collection at `path` for a run that starts again at `time` (s): entries from
-    /// then on are dropped, since the run writes them anew. Begins an empty one if there is none.
+    /// Continues the collection at `path` for a run that restarts at `time` (s): entries from
+    /// then on are dropped, since the run writes them again. Begins an empty one if there is none.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be read, is not a collection written by this type, or
@@ -403,8 +403,8 @@ impl Pvd {
 
     /// Adds `file` at `time` (s). A file already listed is listed once, at its new time.
     ///
-    /// `file` lies below the collection's folder; it is given either with that folder in front,
-    /// as it was written, or relative to it.
+    /// `file` lies below the collection's folder. Its path either includes that folder, as when the
+    /// file was written, or is relative to it.
     ///
     /// # Errors
     /// [`Error::File`] if `file` lies elsewhere, or the collection cannot be written.

@@ -1,4 +1,4 @@
-//! What blocks and their faces show, for ParaView.
+//! Fields of blocks, contacts and faces for ParaView.
 
 use crate::{
     coupling::{Coupled, FluidLoad},
@@ -10,18 +10,18 @@ use crate::{
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Faces of a sphere around its axis; half as many along it.
+/// Number of facets of a sphere around its axis; half as many from pole to pole.
 const AROUND: u32 = 24;
 
-/// The parts of the first blocks, those `shown`, where they are now, with what their blocks do: number,
-/// velocity (m/s) and speed (m/s), spin (rad/s), net force of their contacts (N), whether they are fixed or
-/// asleep, and the number of their material.
+/// The parts of the blocks `shown`, which are the first of all `blocks`, at their current positions, with fields of
+/// their blocks: number, velocity (m/s) and speed (m/s), spin (rad/s), net contact force (N), whether the block is
+/// fixed or asleep, and the number of its material.
 ///
-/// Where blocks deform, also their Cauchy stress along the axes of the world (Pa; xx, yy, zz, xy, yz, xz,
-/// tension positive), von Mises stress (Pa) and strain energy (J); NaN for rigid ones.
+/// If any block deforms, also the Cauchy stress along the axes of the world (Pa; xx, yy, zz, xy, yz, xz,
+/// tension positive), von Mises stress (Pa) and strain energy (J); NaN for rigid blocks.
 ///
-/// In a fluid, where the first blocks have a [`FluidLoad`] each, also the force of the flow on them and their
-/// buoyancy (N); NaN for fixed blocks without a probe, and for solids.
+/// In a fluid, with one [`FluidLoad`] for each of the first blocks, also the force of the flow and the buoyancy (N);
+/// NaN for fixed blocks without a probe, and for solids.
 pub fn block_polyhedra(shown: &[Block], blocks: &Blocks, loads: &[FluidLoad]) -> Polyhedra {
     let mut made = Polyhedra::default();
     let mut owners = Vec::new();
@@ -104,7 +104,7 @@ pub fn voigt(m: DMat3) -> [f64; 6] {
 
 /// The contacts of blocks: the points where forces act, with the force on the second block (N) and its
 /// magnitude (N), the normal from the first to the second, the overlap (m), the area (m²), and the
-/// numbers of both.
+/// numbers of both blocks.
 pub fn contact_cloud(blocks: &Blocks) -> Cloud {
     let contacts: Vec<ContactPoint> = blocks.contacts().collect();
     let vector = |name: &str, value: fn(&ContactPoint) -> DVec3| {
@@ -127,7 +127,7 @@ pub fn contact_cloud(blocks: &Blocks) -> Cloud {
     }
 }
 
-/// Corners about the centroid, m, and faces of a form.
+/// Corners relative to the centroid, m, and faces of a form.
 fn surface(form: &Form) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     match form {
         Form::Convex(shape) => (shape.vertices().to_vec(), shape.loops().to_vec()),
@@ -135,7 +135,7 @@ fn surface(form: &Form) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     }
 }
 
-/// A sphere between meridians and parallels.
+/// A sphere with facets between meridians and parallels.
 fn globe(radius: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let rings = AROUND / 2;
     let mut points = vec![DVec3::Z * radius];
@@ -166,8 +166,8 @@ fn globe(radius: f64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     (points, faces)
 }
 
-/// The faces of the blocks whose loads somebody asks for, with the number of their block, pressure and shear stress
-/// (Pa), and the share of them that is wet; NaN for what no fluid lies next to.
+/// The faces of the blocks for which a probe requests face loads, with the number of their block, pressure and shear
+/// stress (Pa), and the wetted fraction of their area; NaN for faces without adjacent fluid.
 pub fn face_surface(coupled: &Coupled<'_>) -> Surface {
     let mut made = Surface::default();
     let mut shown: Vec<(usize, &FaceLoad)> = Vec::new();

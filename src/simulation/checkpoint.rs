@@ -1,4 +1,4 @@
-//! The state of a simulation between two steps. Arrays of the device are in canonical order, so that they restart under any
+//! The state of a simulation between two steps. Device arrays are in canonical order, so that a run can restart with any
 //! storage, lanes or bindings.
 
 #[cfg(feature = "checkpoint")]
@@ -16,7 +16,7 @@ use crate::{
 use glam::DVec3;
 use std::fmt;
 
-/// What a simulation consists of.
+/// The kind of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Blocks without a fluid.
@@ -82,13 +82,13 @@ pub struct LatticeState {
     pub cell: f64,
     /// The populations.
     pub populations: Populations,
-    /// Velocities where blocks are, which nothing of the next step depends on.
+    /// Velocities in cells with solid, on which the next step does not depend.
     pub inside: Inside,
     /// The coupling to blocks, if there are any.
     pub coupling: Option<CouplingState>,
-    /// The statistics of fields, if the scene shows some.
+    /// Field statistics, if the scene outputs any.
     pub sampling: Option<SamplingState>,
-    /// The force that keeps a bulk velocity, if one is kept.
+    /// State of the bulk velocity controller, if there is one.
     pub flow_control: Option<FlowControlState>,
 }
 
@@ -105,7 +105,7 @@ pub struct WaterState {
     /// The particles, in the order and the units of the device.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub particles: Vec<Particle>,
-    /// State of the solver besides.
+    /// State of the solver without the particles.
     pub solver: SphState,
     /// Mean load on each block in the last exchange; empty before the first one.
     pub loads: Vec<Load>,
@@ -116,7 +116,7 @@ pub struct WaterState {
 }
 
 impl Checkpoint {
-    /// What the simulation consists of.
+    /// The kind of the simulation.
     pub fn kind(&self) -> Kind {
         match self.fluid {
             None => Kind::Rock,
@@ -125,7 +125,7 @@ impl Checkpoint {
         }
     }
 
-    /// Checks that it is of a simulation of the same time step.
+    /// Checks that it belongs to a simulation with the same time step.
     ///
     /// # Errors
     /// [`Error::Argument`] if not.
@@ -140,12 +140,12 @@ impl Checkpoint {
     }
 }
 
-/// Whether two lengths differ by more than rounding.
+/// Whether two values differ by more than rounding.
 pub(super) fn differ(its: f64, own: f64) -> bool {
     (its - own).abs() > 1e-12 * own
 }
 
-/// The error of a checkpoint that is of something else than the scene.
+/// The error for a checkpoint that does not match the scene.
 pub(super) fn other_scene(its: impl fmt::Display, own: impl fmt::Display) -> Error {
     Error::argument(
         "restart",

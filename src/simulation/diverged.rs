@@ -1,4 +1,4 @@
-//! Why a run left the range of the method, and what to change.
+//! Causes and remedies of a run that left the range of the method.
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{
@@ -29,7 +29,7 @@ impl LatticeFluid {
         };
         let speed = self.units.velocity_to_lattice(scale);
         let mach = self.units.mach(scale);
-        // Speed times cell over viscosity: above about 30 the grid no longer damps what it cannot hold.
+        // Cell Reynolds number: above about 30 the grid no longer damps the scales that it cannot resolve.
         let reynolds = speed / setup.nu;
         let (cause, remedy) = if setup.wale.is_none() && reynolds > 30.0 {
             (
@@ -50,7 +50,7 @@ impl LatticeFluid {
         } else {
             (
                 format!(
-                    "a speed above {} of a cell a step, at τ − ½ = {excess:.2e} and Mach {mach:.2}",
+                    "a speed above {} cells per step, at τ − ½ = {excess:.2e} and Mach {mach:.2}",
                     setup.max_speed
                 ),
                 format!(
@@ -63,7 +63,7 @@ impl LatticeFluid {
         self.fault(fault, cause, remedy)
     }
 
-    /// A block that lies where fluid enters.
+    /// Cause and remedy, if a block lies at a velocity face.
     fn block_at_inlet(&self, coupled: Coupled<'_>) -> Option<[String; 2]> {
         let faces = &self.lattice.setup().faces;
         let through = |face: Face| {
@@ -78,14 +78,14 @@ impl LatticeFluid {
         };
         let through: Vec<_> = Face::ALL.into_iter().filter_map(through).collect();
         let Some(found) = coupled.at_inlets(&through).first().copied() else {
-            // One that has been pushed away since has left what pushed it.
+            // The flow may since have pushed a block away that lay there at the start.
             return coupled.initial_inlet_message();
         };
         let speed = self.units.velocity_from_lattice(found.speed);
         Some(coupled.inlet_message(&found, speed))
     }
 
-    /// The fastest block, if no flow can follow it.
+    /// Cause and remedy, if the fastest block is too fast for the lattice.
     fn fast_block(&self, coupled: Coupled<'_>) -> Option<(String, String)> {
         let made = coupled.setup().setup.blocks[..coupled.in_fluid()].iter();
         let moving = coupled.blocks().poses().into_iter();
@@ -100,7 +100,7 @@ impl LatticeFluid {
         let cells = self.units.velocity_to_lattice(speed);
         (cells > self.lattice.setup().max_speed).then(|| {
             (
-                format!("the block {name} moves at {speed:.3e} m/s, {cells:.2} cells a step"),
+                format!("the block {name} moves at {speed:.3e} m/s, {cells:.2} cells per step"),
                 format!(
                     "use a time step of {:.2e} s (Mach 0.1 at that speed) or less, or slow the block down",
                     self.units.time_step * 0.1 / self.units.mach(speed)

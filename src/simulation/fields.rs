@@ -1,4 +1,4 @@
-//! What a fluid shows, in SI, and its totals.
+//! Fields of a fluid and its totals, in SI.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
@@ -23,9 +23,9 @@ pub struct Totals {
     pub enstrophy: f64,
     /// Largest speed, m/s.
     pub max_speed: f64,
-    /// Mean velocity along the axis of a bulk velocity that is kept, m/s.
+    /// Mean velocity along the axis of the prescribed bulk velocity, m/s; 0 if none is prescribed.
     pub bulk_velocity: f64,
-    /// Body force per mass that keeps it, m/s².
+    /// Body force per mass that maintains the bulk velocity, m/s².
     pub driving_acceleration: f64,
 }
 
@@ -33,7 +33,7 @@ impl Simulation {
     /// The given fields on all cells.
     ///
     /// # Errors
-    /// If the scene has no fluid on a lattice, the device is lost or does not hold a field.
+    /// If the scene has no fluid on a lattice, the device is lost or cannot hold a field.
     pub async fn image(&mut self, fields: &[Field]) -> Result<Image> {
         Ok(Image {
             origin: self.scene.domain.origin,
@@ -43,17 +43,17 @@ impl Simulation {
         })
     }
 
-    /// The given fields on the given cells alone, which are places in an array over the domain, x
-    /// fastest; only their values leave the device.
+    /// The given fields on the given cells only; cells are indices into an array over the domain, x
+    /// fastest. Only the values of these cells are read back.
     ///
     /// # Errors
-    /// If the scene has no fluid on a lattice, a cell is outside of the domain, the device is lost or does not hold a field.
+    /// If the scene has no fluid on a lattice, a cell is outside the domain, the device is lost or cannot hold a field.
     pub async fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
         let count = self.lattice_fluid()?.lattice.grid().cell_count();
         if let Some(outside) = cells.iter().find(|cell| **cell as usize >= count) {
             return Err(Error::scene(
                 "cells",
-                format!("cell {outside} was asked for; the domain has cells 0 to {count} − 1"),
+                format!("cell {outside} was requested; the domain has cells 0 to {count} − 1"),
             ));
         }
         self.arrays(fields, Some(cells)).await
@@ -178,7 +178,8 @@ impl LatticeFluid {
         Ok(values)
     }
 
-    /// 1 in solid cells and in those whose centres are in a block, and what static solids fill of a cell that their surface cuts.
+    /// Solid fraction: 1 in solid cells and in cells whose centres are in a block; in cells that the surface of a static
+    /// solid cuts, the fraction that the solid fills.
     fn solid_values(&self, coupled: Option<Coupled<'_>>, cells: Option<&[u32]>) -> Vec<f32> {
         let (solid, surface) = (self.solid(), &self.lattice.setup().surface);
         let blocks = coupled.map_or_else(Vec::new, |coupled| coupled.cells_near_blocks(0.0));
@@ -198,7 +199,7 @@ impl LatticeFluid {
     }
 }
 
-/// Components, side by side for each cell.
+/// Interleaves the components: all components of a cell are adjacent.
 fn side_by_side(components: &[Vec<f32>]) -> Vec<f32> {
     let cells = 0..components.first().map_or(0, Vec::len);
     cells

@@ -1,7 +1,7 @@
-//! A body force that keeps the bulk velocity of a periodic flow, by an integral and a proportional part: with the error e of
-//! the velocity, steps M from one measurement to the next and T = 10 M, I += e M r / T and F = I + e / T. Without friction
-//! r = 1 / (4 T) damps critically; where friction alone slows the flow down at a greater rate, r is that rate, since the force
-//! then has to be found by the integral part.
+//! Proportional-integral control of the body force that maintains the bulk velocity of a periodic flow. With the velocity
+//! error e, M steps from one measurement to the next and T = 10 M, I += e M r / T and F = I + e / T. Without friction
+//! r = 1 / (4 T) damps critically. If friction alone slows the flow down at a greater rate, r is that rate, since the
+//! integral part then has to find the force.
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{
@@ -13,33 +13,34 @@ use crate::{
 
 /// Steps from one measurement to the next.
 const STEPS: u64 = 50;
-/// Steps in which an error would be gone.
+/// Steps in which the proportional part alone removes an error.
 const TIME: f64 = 10.0 * STEPS as f64;
-/// Largest integral part over what a smooth wall takes: an error that no force mends does not add up for ever.
+/// Bound on the integral part relative to the friction of a smooth wall: an error that no force corrects must not
+/// accumulate without limit.
 const LARGEST: f64 = 100.0;
 
-/// What keeps the bulk velocity of a fluid, in lattice units.
+/// Controller of the bulk velocity of a fluid, in lattice units.
 #[derive(Debug)]
 pub(super) struct FlowControl {
     axis: usize,
-    /// The bulk velocity.
+    /// Prescribed bulk velocity.
     target: f64,
-    /// What the scene has everywhere.
+    /// Constant body force per mass of the scene.
     base: [f64; 3],
-    /// r, a step.
+    /// r, per step.
     rate: f64,
-    /// What a smooth wall takes: the force at the start.
+    /// Estimated friction of smooth walls: the force at the start.
     usual: f64,
     state: FlowControlState,
 }
 
-/// The parts of the force between two steps, lattice units.
+/// State of the controller between two steps, lattice units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FlowControlState {
-    /// I.
+    /// Integral part I.
     pub integral: f64,
-    /// F.
+    /// Force per mass F.
     pub force: f64,
 }
 
@@ -53,13 +54,13 @@ impl FlowControlState {
 }
 
 impl FlowControl {
-    /// That of a scene with a bulk velocity.
+    /// The controller of a scene; `None` without a prescribed bulk velocity.
     pub fn new(scene: &Scene, units: &Units) -> Option<Self> {
         let (axis, velocity) = scene.fluid.kept_velocity()?;
         let target = units.velocity_to_lattice(velocity);
         let constant = scene.fluid.acceleration.each_ref().map(|a| a.constant());
         let base = constant.map(|a| units.acceleration_to_lattice(a.unwrap_or_default()));
-        // Half the distance of the closest pair of walls; without walls that of the faces.
+        // Half the distance of the closest pair of walls; without walls, half the domain along the flow.
         let cells = scene.cells().map(f64::from);
         let between = (0..3).filter(|&other| other != axis).filter(|&other| {
             let faces = &scene.boundaries;
@@ -69,7 +70,7 @@ impl FlowControl {
         let across = between.map(|other| cells[other]).reduce(f64::min);
         let half = 0.5 * across.unwrap_or(cells[axis]);
         let viscosity = units.viscosity_to_lattice(scene.fluid.viscosity);
-        // Friction velocities are a twentieth of the bulk velocity, or what the laminar flow has.
+        // Turbulent friction, at a friction velocity of a twentieth of the bulk velocity, plus laminar friction.
         let usual =
             target * target.abs() / (400.0 * half) + 3.0 * viscosity * target / (half * half);
         Some(Self {
@@ -82,12 +83,12 @@ impl FlowControl {
         })
     }
 
-    /// The mean velocity along the axis, cells a step.
+    /// The mean velocity along the axis, cells per step.
     pub fn bulk_velocity(&self, sums: &Sums) -> f64 {
         sums.momentum[self.axis] / (sums.cells + sums.excess).max(1.0)
     }
 
-    /// The force per mass that keeps it, lattice units.
+    /// The force per mass that maintains the bulk velocity, lattice units.
     pub fn acceleration(&self) -> f64 {
         self.state.force
     }
@@ -96,7 +97,7 @@ impl FlowControl {
         self.state
     }
 
-    /// Follows a bulk velocity.
+    /// Updates the force from a measured bulk velocity.
     fn follow(&mut self, velocity: f64) {
         let error = self.target - velocity;
         let integral = self.state.integral + error * STEPS as f64 * self.rate / TIME;
@@ -119,7 +120,7 @@ impl LatticeFluid {
         self.flow_control.is_some() && self.lattice.step().is_multiple_of(STEPS)
     }
 
-    /// Measures the bulk velocity, if that is due, and gives the fluid the force that keeps it.
+    /// Measures the bulk velocity, if due, and applies the updated force.
     pub(super) async fn control_flow(&mut self) -> Result<()> {
         if !self.control_due() {
             return Ok(());
@@ -128,7 +129,7 @@ impl LatticeFluid {
         let sums = self.observer.sums(device, queue, &mut self.lattice).await?;
         if let Some(control) = &mut self.flow_control {
             let velocity = control.bulk_velocity(&sums);
-            // A flow that has left the range of the method is found by the guard.
+            // The guard detects a flow that has left the range of the method.
             if velocity.is_finite() {
                 control.follow(velocity);
             }
@@ -136,7 +137,7 @@ impl LatticeFluid {
         self.apply_flow_control()
     }
 
-    /// Continues from a state; without one the control begins anew.
+    /// Continues from a state; without one the control starts anew.
     pub(super) fn restore_flow_control(&mut self, state: Option<FlowControlState>) -> Result<()> {
         if let Some(control) = &mut self.flow_control {
             control.state = state.unwrap_or(FlowControlState::start(control.usual));
@@ -144,7 +145,7 @@ impl LatticeFluid {
         self.apply_flow_control()
     }
 
-    /// Gives the fluid the present force, and the blocks what it does on the fluid in them.
+    /// Applies the present force to the fluid, and passes it to the coupling with the blocks.
     pub(super) fn apply_flow_control(&mut self) -> Result<()> {
         let Some(control) = &self.flow_control else {
             return Ok(());

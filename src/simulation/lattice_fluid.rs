@@ -1,4 +1,4 @@
-//! A fluid on a lattice, with the cells of the blocks that are in it.
+//! A fluid on a lattice, coupled to the blocks in it.
 
 use super::{
     checkpoint::{LatticeState, differ, other_scene},
@@ -36,19 +36,19 @@ pub(super) struct LatticeFluid {
     time_dependent_faces: Vec<Face>,
     /// The coupling to the blocks in it, if there are any.
     pub coupling: Option<LatticeCoupling>,
-    /// Statistics of fields over time, if the scene shows some.
+    /// Field statistics, if the scene outputs any.
     pub sampling: Option<Sampling>,
-    /// What keeps the bulk velocity, if the scene gives one.
+    /// Controller of the bulk velocity, if the scene prescribes one.
     pub flow_control: Option<FlowControl>,
     /// Times of the phases of a step, if requested.
     pub phases: Option<Phases>,
 }
 
 impl LatticeFluid {
-    /// Compiles the kernels of a scene and sets its initial state; also the blocks in it, and warnings about them.
+    /// Compiles the kernels of a scene and sets its initial state. Also returns the blocks in the fluid and warnings about them.
     ///
     /// # Errors
-    /// What the scene lacks, or what the device cannot hold.
+    /// If the scene is incomplete, or the device cannot hold it.
     pub async fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -118,15 +118,15 @@ impl LatticeFluid {
         Some(Coupled::new(rock?, self.coupling.as_ref()?))
     }
 
-    /// Which cells are solid, x fastest; empty where there are none.
+    /// Which cells are solid, x fastest; empty if none are.
     pub fn solid(&self) -> &[bool] {
         &self.lattice.setup().solid
     }
 
-    /// Without blocks, until the time `end` (s).
+    /// Advances a fluid without blocks to the time `end` (s).
     ///
     /// # Errors
-    /// Those of formulas of faces.
+    /// The errors of face formulas.
     pub async fn run(&mut self, end: f64) -> Result<()> {
         while self.time() < end {
             self.advance(&[], ExchangeInterval::Static, end).await?;
@@ -137,11 +137,11 @@ impl LatticeFluid {
     /// Checks that the flow is within the range of the method, after an advance that ended with `done`.
     ///
     /// # Errors
-    /// [`Error::Diverged`]; that of `done`; a lost device.
+    /// [`Error::Diverged`] if it is not; the error of `done`; an error if the device is lost.
     pub async fn check(&mut self, rock: Option<&Rock>, done: Result<()>) -> Result<()> {
         let (device, queue) = (&self.device, &self.queue);
         let fault = self.observer.fault(device, queue, &self.lattice).await?;
-        // A fault of the flow reaches the blocks: it is the cause of their errors.
+        // A fault of the flow propagates to the blocks and causes their errors, so it comes first.
         if let Some(fault) = fault {
             return Err(self.diverged(rock, fault));
         }
@@ -149,7 +149,7 @@ impl LatticeFluid {
         self.check_suga().await
     }
 
-    /// The published operator is unstable where WALE lifts the relaxation time over its bound.
+    /// Checks that WALE does not raise the relaxation time above the stability bound of the published operator.
     async fn check_suga(&mut self) -> Result<()> {
         let setup = self.lattice.setup();
         if setup.collision != Collision::Suga || setup.wale.is_none() {
@@ -206,8 +206,8 @@ impl LatticeFluid {
         }
     }
 
-    /// The last step of a stretch, at whose end blocks and fluid meet: the fluid around them runs first, and the rest
-    /// of it while their loads are read, those on their `faces` too.
+    /// Runs a step that ends with an exchange. The bricks with blocks run first; the other bricks run while the loads on
+    /// the blocks are read back, with `faces` also the loads on their faces.
     async fn exchange(
         &mut self,
         mut encoder: wgpu::CommandEncoder,
@@ -246,7 +246,7 @@ impl LatticeFluid {
         Ok(Some(loads))
     }
 
-    /// The faces whose values at the present time are not those that they have, with these values.
+    /// The faces whose values change at the present time, with the new values.
     fn changed_faces(&self) -> Result<Vec<(Face, lattice::Face)>> {
         let mut changed = Vec::new();
         for &face in &self.time_dependent_faces {
@@ -272,10 +272,10 @@ impl LatticeFluid {
         Ok(changed)
     }
 
-    /// Gives the faces what they have at the present time.
+    /// Sets the faces to their values at the present time.
     ///
     /// # Errors
-    /// Those of their formulas.
+    /// The errors of face formulas.
     pub fn set_faces(&mut self) -> Result<()> {
         for (face, new) in self.changed_faces()? {
             let (axis, side) = (face.axis().index(), usize::from(face.is_max()));
@@ -318,7 +318,7 @@ impl LatticeFluid {
     /// Checks that a state fits.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it is of another grid or other blocks.
+    /// [`Error::Argument`] if it belongs to another grid or other blocks.
     pub fn check_state(&self, state: &LatticeState) -> Result<()> {
         if differ(state.cell, self.units.cell) {
             let cells = |cell: f64| format!("cells of {cell:e} m");
@@ -340,7 +340,7 @@ impl LatticeFluid {
     /// Restores a state that [`LatticeFluid::check_state`] accepts.
     ///
     /// # Errors
-    /// Those of the lattice and of formulas of faces.
+    /// The errors of the lattice and of face formulas.
     pub fn restore(&mut self, state: &LatticeState) -> Result<()> {
         if let (Some(coupling), Some(state)) = (&mut self.coupling, &state.coupling) {
             coupling.restore(state);
@@ -406,8 +406,8 @@ impl Fluid for LatticeFluid {
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
             if self.lattice.step() == last || !goes_on || self.sample_due() || self.control_due() {
-                // What is recorded counts as done, whatever the next step lacks. What changes at a face is
-                // written between two submissions.
+                // The recorded steps count as done, even if the next step fails. Face values change only
+                // between two submissions.
                 self.submit(encoder).await?;
                 self.set_faces()?;
                 self.sample()?;

@@ -1,6 +1,6 @@
-//! A scene on a device: blocks, a fluid, or both, in one loop.
+//! Runs a scene on a device: blocks, a fluid, or both, in one time loop.
 //!
-//! Blocks without a fluid need no device; [`Simulation::new`] takes one for all kinds of scenes.
+//! [`Simulation::new`] takes a device for all kinds of scenes. Blocks without a fluid need none ([`Simulation::of_rock`]).
 //!
 //! ```
 //! use riprap::{scene::{Scene, build::block_setup}, simulation::Simulation};
@@ -80,17 +80,17 @@ use lattice_fluid::LatticeFluid;
 use sph_fluid::SphFluid;
 use std::sync::Arc;
 
-/// A scene that runs: blocks, a fluid on a lattice or free water (SPH), or blocks in one of these.
+/// A running scene: blocks, a fluid on a lattice or free water (SPH), or blocks in one of these.
 ///
-/// No method blocks: what reads from the device is a future, and the caller must poll the device while it awaits one
-/// (`wgpu::Device::poll`).
+/// No method blocks: methods that read from the device return a future, and the caller must poll the device while it
+/// awaits the future (`wgpu::Device::poll`).
 #[derive(Debug)]
 pub struct Simulation {
     scene: Arc<Scene>,
     advice: Advice,
     rock: Option<Rock>,
     fluid: Option<Fluid>,
-    /// s
+    /// Length of a step, s.
     time_step: f64,
     step: u64,
 }
@@ -127,7 +127,7 @@ impl Simulation {
     /// Compiles the kernels of a scene and sets its initial state.
     ///
     /// # Errors
-    /// What the scene lacks, or what the device cannot hold; those of [`Rock::new`].
+    /// If the scene is incomplete, or the device cannot hold it; the errors of [`Rock::new`].
     pub async fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Result<Self> {
         match Kind::of(scene) {
             Kind::Rock => Self::of_rock(Some((device, queue)), scene, block_setup(scene)?).await,
@@ -142,10 +142,10 @@ impl Simulation {
         }
     }
 
-    /// The same with the [`Needs`] of the scene, which have the setup of its lattice: it is not made again.
+    /// Like [`Simulation::new`], but takes the setup of the lattice from the [`Needs`] of the scene.
     ///
     /// # Errors
-    /// Those of [`Simulation::new`].
+    /// The errors of [`Simulation::new`].
     pub async fn with_needs(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -158,10 +158,11 @@ impl Simulation {
         }
     }
 
-    /// A scene of blocks without a fluid, as [`block_setup`] makes them. Pairs are searched on the host without a `device`.
+    /// A scene of blocks without a fluid, with the `setup` of [`block_setup`]. Without a `device` the host searches the pairs.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the scene has a fluid, or no time step; those of [`Rock::new`].
+    /// [`Error::Argument`] if the scene has a fluid; [`Error::Scene`] if nothing determines the time step; the errors of
+    /// [`Rock::new`].
     pub async fn of_rock(
         device: Option<(&wgpu::Device, &wgpu::Queue)>,
         scene: &Scene,
@@ -221,14 +222,14 @@ impl Simulation {
     /// Takes `steps` steps, and checks that the fluid is within the range of the method.
     ///
     /// # Errors
-    /// [`Error::Diverged`] and [`Error::ParticleLost`] if the fluid left the range of the method; those of
-    /// [`Blocks::advance`](crate::rock::Blocks::advance); [`Error::DeviceLost`]. Blocks without a fluid then are where they
-    /// were after the last whole step. Blocks in a fluid are where they were at the last exchange, and the fluid is
-    /// beyond; [`Simulation::restore`] leads back to a state from which all can go on.
+    /// [`Error::Diverged`] and [`Error::ParticleLost`] if the fluid left the range of the method; the errors of
+    /// [`Blocks::advance`](crate::rock::Blocks::advance); [`Error::DeviceLost`]. After an error, blocks without a fluid are
+    /// in their state after the last whole step. Blocks in a fluid are in their state at the last exchange, and the fluid
+    /// is ahead of them; [`Simulation::restore`] returns to a state from which the run can continue.
     pub async fn advance(&mut self, steps: u64) -> Result<()> {
         let last = self.step() + steps;
         while self.step() < last {
-            // A lattice records as many steps as it can in one go; the others keep to the steps of the scene.
+            // A lattice records as many steps as it can per submission; other scenes advance step by step.
             let next = match &self.fluid {
                 Some(Fluid::Lattice(_)) => last,
                 _ => self.step + 1,
@@ -246,14 +247,14 @@ impl Simulation {
     /// Advances to the time `end` (s).
     async fn advance_to(&mut self, end: f64) -> Result<()> {
         if let Some(Fluid::Particles(fluid)) = &mut self.fluid {
-            // Checkpoints lie between steps.
+            // Checkpoints are taken between steps.
             fluid.begin(self.step as f64 * self.time_step);
         }
         match (&mut self.fluid, &mut self.rock) {
             (Some(fluid), Some(rock)) => coupling::run(fluid, rock, end).await,
             (Some(Fluid::Lattice(fluid)), None) => fluid.run(end).await,
             (None, Some(rock)) => rock.advance(end).await,
-            // Free water always has a rock, of no blocks if the scene has none.
+            // Free water always has a `Rock`, without blocks if the scene has none.
             (Some(Fluid::Particles(_)) | None, None) => Ok(()),
         }
     }
@@ -269,8 +270,8 @@ impl Simulation {
         }
     }
 
-    /// The phases of steps that have been timed since [`Simulation::time_phases`]: passes of a lattice fluid, the wait for
-    /// its loads, and the phases of the steps of blocks.
+    /// Times of the phases of steps since [`Simulation::time_phases`]: the passes of a lattice fluid, the wait for the
+    /// readback of its loads, and the phases of the steps of blocks.
     pub fn phases(&self) -> Vec<Phase> {
         let mut phases = match &self.fluid {
             Some(Fluid::Lattice(fluid)) => fluid.phases.as_ref().map(Phases::times),
@@ -307,16 +308,16 @@ impl Simulation {
         Kind::of(&self.scene)
     }
 
-    /// Steps done.
+    /// Number of steps done.
     pub fn step(&self) -> u64 {
         match &self.fluid {
-            // After an error it may be within an advance.
+            // After an error the lattice may have stopped within an advance.
             Some(Fluid::Lattice(fluid)) => fluid.lattice.step(),
             _ => self.step,
         }
     }
 
-    /// Steps of the fluid done; free water takes several in a step of the scene.
+    /// Number of steps done by the fluid; free water takes several per step of the scene.
     pub fn fluid_steps(&self) -> u64 {
         self.particles().map_or(self.step(), SphSolver::steps)
     }
@@ -336,7 +337,7 @@ impl Simulation {
         &self.scene
     }
 
-    /// Warnings about the scene; those about free water, which have to read it, are in [`Simulation::advise_water`].
+    /// Warnings about the scene. [`Simulation::advise_water`] has the warnings that need a readback of free water.
     pub fn advice(&self) -> &Advice {
         &self.advice
     }
@@ -346,7 +347,7 @@ impl Simulation {
         self.rock.as_ref()
     }
 
-    /// The fluid, if it is one on a lattice.
+    /// The lattice, if the scene has a fluid on one.
     pub fn lattice(&self) -> Option<&Lattice> {
         Some(&self.lattice_fluid().ok()?.lattice)
     }
@@ -356,7 +357,7 @@ impl Simulation {
         Some(&self.lattice_fluid().ok()?.units)
     }
 
-    /// Which cells of the lattice are solid, x fastest; empty where there are none.
+    /// Which cells of the lattice are solid, x fastest; empty if none are.
     pub fn solid(&self) -> &[bool] {
         self.lattice_fluid().map_or(&[], LatticeFluid::solid)
     }
@@ -366,12 +367,12 @@ impl Simulation {
         self.lattice_fluid().ok()?.coupled(self.rock())
     }
 
-    /// Samples so far of statistics of fields ([`Statistics`](crate::scene::Statistics)); 0 of a scene that shows none.
+    /// Number of samples in the field statistics ([`Statistics`](crate::scene::Statistics)); 0 if the scene outputs none.
     pub fn samples(&self) -> u64 {
         self.lattice_fluid().map_or(0, LatticeFluid::samples)
     }
 
-    /// Bytes that statistics of fields take on the device; 0 of a scene that shows none.
+    /// Bytes of the field statistics on the device; 0 if the scene outputs none.
     pub fn statistics_bytes(&self) -> u64 {
         self.lattice_fluid()
             .map_or(0, LatticeFluid::statistics_bytes)
@@ -385,7 +386,7 @@ impl Simulation {
     /// The present state of free water.
     ///
     /// # Errors
-    /// If the scene has none, or the device is lost.
+    /// If the scene has no free water, or the device is lost.
     pub async fn water(&mut self) -> Result<Water> {
         match &mut self.fluid {
             Some(Fluid::Particles(fluid)) => fluid.water().await,
@@ -393,10 +394,10 @@ impl Simulation {
         }
     }
 
-    /// Warnings about free water that particles resolve poorly, at its start; none without free water.
+    /// Warnings about free water that the particles resolve poorly at the start; none without free water.
     ///
     /// # Errors
-    /// If the device is lost; those of the search for gaps.
+    /// If the device is lost; the errors of the search for gaps.
     pub async fn advise_water(&mut self) -> Result<Advice> {
         match (&mut self.fluid, &self.rock) {
             (Some(Fluid::Particles(fluid)), Some(rock)) => fluid.advise(&self.scene, rock).await,
@@ -450,7 +451,7 @@ impl Simulation {
     /// # Errors
     /// If the device is lost.
     pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
-        // The coupling of a lattice waits for loads in flight, before the blocks are read.
+        // The coupling of a lattice waits for loads in flight, so the fluid is read before the blocks.
         let fluid = match &mut self.fluid {
             Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?)),
             Some(Fluid::Particles(fluid)) => {
@@ -466,12 +467,12 @@ impl Simulation {
         })
     }
 
-    /// Restores a checkpoint of the same scene: the next steps give the same bits as they did from there.
+    /// Restores a checkpoint of the same scene: the next steps are bit-identical to the steps of the run that wrote it.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it is of another kind, time step, grid, or number of particles or blocks.
+    /// [`Error::Argument`] if it has another kind, time step, grid, or number of particles or blocks.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        // All is checked before the first change, and the length of a step last: it follows from the rest.
+        // Everything is checked before the first change. The time step is checked last: it follows from the rest.
         match (&self.fluid, &checkpoint.fluid) {
             (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
                 fluid.check_state(state)?;
@@ -504,7 +505,7 @@ impl Simulation {
 }
 
 fn no_lattice() -> Error {
-    let message = "the scene has no fluid on a lattice, whose cells alone have these fields; give it fluid.viscosity";
+    let message = "these fields need a fluid on a lattice, and the scene has none; give it fluid.viscosity";
     Error::argument("fluid", message)
 }
 

@@ -1,4 +1,4 @@
-//! Needs of a scene on an adapter.
+//! Features and limits that a scene needs on an adapter.
 
 use crate::{
     Result,
@@ -16,16 +16,16 @@ use crate::{
 pub struct Needs {
     /// Features to request.
     pub features: wgpu::Features,
-    /// Limits to request: the least that the scene runs with.
+    /// Limits to request: the lowest with which the scene runs.
     pub limits: wgpu::Limits,
-    /// The fluid, if it is one on a lattice.
+    /// Needs of the fluid, if it is on a lattice.
     pub lattice: Option<LatticeNeeds>,
 }
 
 /// Needs of a fluid on a lattice.
 #[derive(Clone, Debug)]
 pub struct LatticeNeeds {
-    /// Bytes and bindings.
+    /// Memory in bytes and bindings.
     pub memory: Memory,
     /// The setup of the fluid, for [`Simulation::with_needs`](super::Simulation::with_needs).
     pub setup: lattice::Setup,
@@ -35,7 +35,7 @@ impl Needs {
     /// The needs of `scene` on `adapter`.
     ///
     /// # Errors
-    /// What the scene lacks, or [`crate::Error::Limit`] if the adapter cannot hold it.
+    /// If the scene is incomplete; [`crate::Error::Limit`] if the adapter cannot hold it.
     pub fn of(scene: &Scene, adapter: &wgpu::Adapter) -> Result<Self> {
         let has = adapter.limits();
         let kind = Kind::of(scene);
@@ -55,7 +55,7 @@ impl Needs {
             buffers = buffers.max(memory.most_bindings);
         }
         if scene.has_blocks() || kind != Kind::Lattice {
-            // The bytes of blocks in cells, of pairs and of neighbours are known at run time, and vary.
+            // The sizes of the buffers for blocks in cells, pairs and neighbours are known only at run time, and vary.
             limits.max_storage_buffer_binding_size = has.max_storage_buffer_binding_size;
             limits.max_buffer_size = has.max_buffer_size;
             buffers = buffers.max(rock::broadphase::MAX_STORAGE_BUFFERS);

@@ -87,8 +87,8 @@ impl Sensors {
     }
 }
 
-/// Fraction of the kernel around a position on a wall with that normal that water can cover: one half, reduced near other
-/// walls of the domain, each of which counts separately.
+/// Fraction of the kernel that water can cover around a position on a wall with the axis `normal`: one half, reduced near
+/// other walls of the domain, each of which counts separately.
 fn free_fraction(setup: &Setup, position: DVec3, normal: usize) -> f64 {
     let low = position - setup.origin;
     let high = setup.origin + setup.size - position;
@@ -123,7 +123,7 @@ fn fraction_beyond(distance: f64, plane: bool) -> f64 {
     part / whole
 }
 
-/// Centres of the `count` × `count` squares of a patch; a planar patch has one square along y.
+/// Centres of the `count` × `count` squares of a square patch; a planar patch has one square along y.
 fn patch_centres(middle: DVec3, normal: usize, size: f64, count: f64, plane: bool) -> Vec<DVec3> {
     let along = |axis: usize| -> Vec<DVec3> {
         let is_planar_axis = plane && axis == 1;

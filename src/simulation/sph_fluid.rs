@@ -30,7 +30,7 @@ pub(super) struct SphFluid {
     queue: wgpu::Queue,
     pub particles: SphSolver,
     joint_seal: JointSeal,
-    /// Blocks with a load in the last exchange of the step, and all blocks at its start: only their joints can have water.
+    /// Blocks with a load in the last exchange of the step; at its start all blocks. Only their joints can hold water.
     wet: Vec<bool>,
     /// Longest time between two exchanges while blocks may move, s.
     longest: f64,
@@ -204,7 +204,7 @@ impl SphFluid {
     /// Warnings about the water of `scene` and the blocks in it.
     ///
     /// # Errors
-    /// If the device is lost; those of the search for gaps.
+    /// If the device is lost; the errors of the search for gaps.
     pub async fn advise(&mut self, scene: &Scene, rock: &Rock) -> Result<Advice> {
         let water = self.water().await?;
         let setup = self.particles.setup();
@@ -245,7 +245,7 @@ impl SphFluid {
         })
     }
 
-    /// Checks that a state is of the water of `scene`.
+    /// Checks that a state belongs to the water of `scene`.
     ///
     /// # Errors
     /// [`Error::Argument`] if its domain, particles or sensors differ.
@@ -276,7 +276,7 @@ impl SphFluid {
     /// Restores a state that [`SphFluid::check_state`] accepts.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// The errors of the solver.
     pub fn restore(&mut self, state: &WaterState) -> Result<()> {
         self.sensors.readings.clone_from(&state.sensors);
         self.particles
@@ -287,7 +287,7 @@ impl SphFluid {
     }
 }
 
-/// Work (J) of blocks at `poses` in `time` (s) against the loads beyond their `own`, those in joints.
+/// Work (J) of blocks at `poses` in `time` (s) against the loads in joints: `all` loads less those of the particles, `own`.
 fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
     let each = own.iter().zip(all).zip(poses);
     let moving = each.filter(|((own, all), pose)| {
@@ -308,8 +308,8 @@ fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
 /// Energies of free water and work on it (Cercos-Pita, Antuono, Colagrossi & Souto-Iglesias 2017, Comput. Methods Appl.
 /// Mech. Eng. 317:771), J. Work counts from the start.
 ///
-/// The work of bodies on the water is minus the load on them along their motion in the steps of the water. Blocks move under
-/// the mean of two loads and after the water, so the work of the blocks differs from it, and it includes the work in joints.
+/// The work of `bodies` on the water is minus the work of the load on them along their motion in the steps of the water.
+/// Blocks move after the water and under the mean of two loads, so the work of `blocks` differs; it includes joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaterLedger {
     /// Σ ½mv².
@@ -354,8 +354,8 @@ impl WaterLedger {
         self.kinetic + self.potential + self.compression + self.escaped
     }
 
-    /// Dissipated energy, of a ledger since a start: by viscosity and density diffusion, with the error of the time
-    /// integration.
+    /// Energy dissipated by viscosity and density diffusion, with the error of the time integration, in a ledger
+    /// relative to the start ([`WaterLedger::since`]).
     pub fn dissipated(&self) -> f64 {
         self.bodies + self.penalty + self.boundary - self.total()
     }

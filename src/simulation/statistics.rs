@@ -1,4 +1,4 @@
-//! Statistics over time of the fields of a fluid on a lattice.
+//! Time statistics of the fields of a fluid on a lattice.
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     scene::{Field, Scene},
 };
 
-/// Statistics, and which steps are samples of them.
+/// Field statistics and their sampling schedule.
 #[derive(Debug)]
 pub(super) struct Sampling {
     first: u64,
@@ -15,7 +15,7 @@ pub(super) struct Sampling {
     statistics: Statistics,
 }
 
-/// Statistics of fields between two steps, and which steps are samples of them.
+/// State of the field statistics between two steps, and their sampling schedule.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct SamplingState {
@@ -28,10 +28,10 @@ pub struct SamplingState {
 }
 
 impl Sampling {
-    /// Those that the scene shows, if it does.
+    /// The statistics that the scene outputs; `None` if it outputs none.
     ///
     /// # Errors
-    /// If the device does not hold them.
+    /// If the device cannot hold them.
     pub fn new(
         device: &wgpu::Device,
         (scene, time_step): (&Scene, f64),
@@ -65,7 +65,7 @@ impl Sampling {
         self.statistics.check(&state.statistics)
     }
 
-    /// Continues from a state of the same samples; one of others begins anew.
+    /// Continues from a state with the same sampling schedule; with another one the statistics start anew.
     pub fn restore(&mut self, queue: &wgpu::Queue, state: Option<&SamplingState>) -> Result<()> {
         let same =
             |state: &&SamplingState| [state.first, state.stride] == [self.first, self.stride];
@@ -130,7 +130,7 @@ impl LatticeFluid {
         sampling.map_or(0, |sampling| sampling.statistics.bytes())
     }
 
-    /// A field over time on the given cells or on all, component by component, SI; empty for one that is not.
+    /// A statistical field on the given cells or on all, component by component, SI; empty for any other field.
     pub(super) async fn statistic(
         &mut self,
         field: Field,

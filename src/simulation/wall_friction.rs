@@ -1,4 +1,4 @@
-//! What walls and blocks with a wall model received, in SI.
+//! Friction on walls and blocks with a wall model, in SI.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
 };
 use std::collections::HashSet;
 
-/// What a wall of the wall model belongs to.
+/// The object to which a wall with a wall model belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum WallPlace {
     /// A face of the domain.
@@ -21,7 +21,7 @@ pub enum WallPlace {
 }
 
 impl WallPlace {
-    /// Its name in tables: that of the face, `solids` or `blocks`.
+    /// Its name in tables: the name of the face, `solids` or `blocks`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Face(face) => face.name(),
@@ -31,36 +31,36 @@ impl WallPlace {
     }
 }
 
-/// Friction on a wall beside a cell in the last step, or on the face of a block over a cell in the coming one.
+/// Friction on a wall next to a cell in the last step, or on the face of a block over a cell in the next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallFriction {
-    /// Centre of the face of the cell that is the wall, m.
+    /// Centre of the cell face on the wall, m.
     pub position: [f64; 3],
     /// Unit normal into the fluid.
     pub normal: [f64; 3],
-    /// What it belongs to.
+    /// Object to which the wall belongs.
     pub place: WallPlace,
-    /// Stress along the wall, Pa. Where there is no slip it alternates from step to step at low viscosity.
+    /// Stress along the wall, Pa. On a no-slip wall it alternates from step to step at low viscosity.
     pub stress: [f64; 3],
     /// Friction velocity u_τ by the law of the wall, m/s.
     pub friction_velocity: f64,
     /// u_τ y/ν half a cell from the wall.
     pub y_plus: f64,
-    /// The part of the stress that is the law's: 0 without slip, 1 all of it.
+    /// Share of the stress that follows from the law of the wall: 0 on a no-slip wall, 1 for the law alone.
     pub share: f64,
 }
 
-/// The wall model of a scene: what it acts on, and the friction there.
+/// The walls on which the wall model of a scene acts, and the friction there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallFrictions {
-    /// Each wall beside a cell; the edge of a cell squared is its area.
+    /// Each wall next to a cell; its area is the square of the cell's edge.
     pub walls: Vec<WallFriction>,
     /// Edge of a cell, m.
     pub cell: f64,
-    /// Part of the area of walls and solids at rest that these are; corners, edges, gaps under five cells and cells at open or
-    /// moving faces have no slip.
+    /// Fraction of the area of walls and solids at rest on which the model acts; corners, edges, gaps under five cells and
+    /// cells at open or moving faces are no-slip.
     pub area_share: f64,
-    /// The same of the faces of blocks; 0 without blocks.
+    /// The same fraction of the faces of blocks; 0 without blocks.
     pub block_area_share: f64,
 }
 
@@ -94,7 +94,7 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// What has a wall model somewhere: faces of the domain, solids, and blocks, if there are any; empty without one.
+    /// The objects with a wall model anywhere: faces of the domain, solids, and blocks, if there are any; empty without one.
     pub fn wall_places(&self) -> Vec<WallPlace> {
         let Ok(fluid) = self.lattice_fluid() else {
             return Vec::new();
@@ -173,7 +173,7 @@ impl LatticeFluid {
     }
 }
 
-/// The walls as squares with the vector of the stress (Pa), u_τ (m/s), y⁺ and the part of the model.
+/// The walls as squares with the stress vector (Pa), u_τ (m/s), y⁺ and the share of the law.
 pub fn wall_surface(frictions: &WallFrictions) -> Surface {
     let half = 0.5 * frictions.cell;
     let walls = &frictions.walls;

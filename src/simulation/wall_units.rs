@@ -1,15 +1,15 @@
 //! How well the grid resolves the shear at walls and blocks.
 //!
-//! Walls and blocks hold the fluid (no slip): where no [wall model](crate::lattice::WallModel) acts, the shear stress that they
-//! feel is what the cells next to them resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
+//! Walls and blocks are no-slip boundaries. Without a [wall model](crate::lattice::WallModel), the wall shear stress is the
+//! one that the adjacent cells resolve. The centre of the first cell lies y = ½ Δx from a wall; in wall
 //! units y⁺ = u_τ y/ν with the friction velocity u_τ = √(τ_w/ρ). Here τ_w follows from the linear profile of
 //! the viscous sublayer, u⁺ = y⁺ (Pope 2000, section 7.1.4), with the velocity u along the wall at the
 //! first centre: u_τ = √(ν u/y).
 //!
-//! Up to y⁺ ≈ 5 that profile is there and the number is the true one. Above, the first cell lies outside of
-//! the sublayer: the number is a lower bound, since u⁺ < y⁺ there, friction at walls is too small, and
-//! where a flow separates from a smooth surface is uncertain. Pressure, and with it the drag of bodies with
-//! edges at which the flow separates anyway, does not depend on it much.
+//! Up to y⁺ ≈ 5 this profile holds and the estimate is correct. Above, the first cell lies outside the
+//! sublayer: the estimate is a lower bound, since u⁺ < y⁺ there, friction at walls is too small, and
+//! the position of separation from a smooth surface is uncertain. Pressure depends on y⁺ only weakly, and so does the
+//! drag of bodies with edges at which the flow separates anyway.
 
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
@@ -33,23 +33,23 @@ pub struct FirstCell {
     pub friction_velocity: f64,
     /// Centre of the cell, m.
     pub position: [f64; 3],
-    /// The block next to it; none: a wall, or a solid.
+    /// The block next to it; `None` for a wall or a solid.
     pub block: Option<usize>,
 }
 
 /// The cells with the largest y⁺ next to walls, solids and blocks without a wall model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WallUnits {
-    /// Beside walls and solids; none where there are none.
+    /// Next to walls and solids; `None` without these.
     pub walls: Option<FirstCell>,
-    /// Beside blocks; none where there are none.
+    /// Next to blocks; `None` without blocks.
     pub blocks: Option<FirstCell>,
 }
 
 impl Simulation {
-    /// Estimates y⁺ at all walls, solids and blocks without a wall model from the present velocity. Beside blocks, which cut
-    /// through cells, the velocity is that of the cells whose centres are ½ to 3/2 Δx away, and the profile
-    /// that to their distance.
+    /// Estimates y⁺ at all walls, solids and blocks without a wall model from the present velocity. Blocks cut through
+    /// cells: next to them the estimate uses the cells whose centres are ½ to 3/2 Δx away, and the profile up to the
+    /// distance of these centres.
     ///
     /// # Errors
     /// If the scene has no fluid on a lattice, or the device is lost.
@@ -94,7 +94,7 @@ impl LatticeFluid {
         }
     }
 
-    /// The first two cells before the faces of blocks with a wall model, in an array over the domain.
+    /// The first two cells in front of each block face with a wall model, as indices into an array over the domain.
     async fn cells_before_block_faces(&self) -> Result<HashSet<u32>> {
         let (lattice, grid) = (&self.lattice, self.lattice.grid());
         let found = lattice.block_faces(&self.device, &self.queue).await?;
@@ -107,12 +107,12 @@ impl LatticeFluid {
         Ok(found.faces.iter().flat_map(before).collect())
     }
 
-    /// All without a wall model, but for cells beside blocks that are `with_law`; a cell next to two walls is there for each, but only
-    /// once for all blocks.
+    /// The cells next to walls, solids and blocks without a wall model; `with_law` are the cells to leave out next to
+    /// blocks. A cell next to two walls appears once for each wall, but only once for all blocks.
     fn wall_cells(&self, coupled: Option<Coupled<'_>>, with_law: &HashSet<u32>) -> Vec<WallCell> {
         let near = coupled.map(|coupled| coupled.cells_near_blocks(1.5));
         let near = near.unwrap_or_default();
-        // Where a block is close, its cells are those of the block.
+        // Cells near a block are cells of the block, not of a wall.
         let taken: Vec<u32> = near.iter().map(|found| found.cell.index).collect();
         let mut all = self.cells_at_walls();
         all.retain(|wall_cell| taken.binary_search(&wall_cell.cell).is_err());
@@ -136,7 +136,7 @@ impl LatticeFluid {
         all
     }
 
-    /// Those next to faces of the domain that are walls, and next to solids.
+    /// The cells without a wall model next to walls of the domain and to solids.
     fn cells_at_walls(&self) -> Vec<WallCell> {
         let setup = self.lattice.setup();
         let counts = setup.cells.map(|n| n as usize);
@@ -197,7 +197,7 @@ impl LatticeFluid {
 
 /// A fluid cell next to a wall, a solid or a block.
 struct WallCell {
-    /// Its place in an array over the domain, x fastest.
+    /// Its index in an array over the domain, x fastest.
     pub cell: u32,
     /// Unit normal of the wall.
     pub normal: DVec3,

@@ -14,7 +14,7 @@ use crate::{
 use glam::{DMat3, DVec3};
 
 /// The bodies of `blocks` with their `boundary` particles ([`boundary_particles`](super::boundary_particles)), none of
-/// them with free slip. `is_probed` says whose loads are measured.
+/// them with free slip. `is_probed` selects the blocks whose loads are measured.
 pub fn bodies(
     blocks: &[Block],
     boundary: Vec<Vec<DVec3>>,
@@ -73,7 +73,7 @@ fn transfer_interior(
     boundary
 }
 
-/// Most loop iterations of an invocation over hulls. Software adapters silently end the loops of an invocation after
+/// Largest number of loop iterations over hulls per invocation. Software adapters silently end the loops of an invocation after
 /// 65 535 iterations, some of which the loops over neighbours need.
 pub(super) const MAX_LOOP_ITERATIONS: u32 = 60_000;
 
@@ -145,7 +145,7 @@ pub(super) fn hulls(setup: &Setup, grid: &CellGrid, order: &[usize]) -> HullSet 
     HullSet { hulls, planes }
 }
 
-/// The kernel with its bind groups, one for each range of particles.
+/// The kernel that sums the loads, with one bind group per range of particles.
 #[derive(Debug)]
 pub(super) struct BodyLoads {
     kernel: Kernel,

@@ -28,8 +28,8 @@ const GAP_DEPTH_TOLERANCE: f64 = 0.25;
 /// The golden angle between successive points of a Fibonacci spiral.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// Boundary particles of each of the `blocks`, one list per block, those from the index `walls` on being the walls of the
-/// domain: positions relative to its centroid in its own frame, m.
+/// Boundary particles of `blocks`, one list per block: positions relative to the centroid of the block in its own frame, m.
+/// The blocks from the index `walls` on are the walls of the domain.
 ///
 /// Each layer (k + ½) Δx below the surface of a convex part is filled face by face with rows of points. The points
 /// belong to the lattice of the fluid where the part spans the domain. Rows continue across the internal face between two
@@ -348,7 +348,7 @@ struct Depths {
 /// belongs to; `None` if there is no gap.
 ///
 /// The rows of two blocks that meet have different phases. Where the last point of one is too close to the first of the
-/// other it is rejected, which leaves up to 1.6 spacings, through which water leaks.
+/// other it is rejected, which leaves a gap of up to 1.6 spacings, through which water leaks.
 fn gap(
     rejected: LayerPoint,
     depths: impl Fn(DVec3) -> Option<Depths>,

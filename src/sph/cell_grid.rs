@@ -4,17 +4,17 @@ use super::{NeighbourSearch, Setup, Side};
 use crate::{Error, Result, geometry::Load};
 use glam::{DMat3, DVec3};
 
-/// Most bits of a spacing: the longest distance in a sum, twelve spacings, is exact in f32.
+/// Largest number of bits per spacing: the longest distance in a sum, twelve spacings, is exact in f32.
 const MAX_SPACING_BITS: i32 = 20;
-/// Least bits of a spacing: the resolution is a thousandth of a spacing.
+/// Smallest number of bits per spacing: the resolution is a thousandth of a spacing.
 const MIN_SPACING_BITS: i32 = 10;
-/// Bits of a coordinate: the difference of two plus a period does not overflow.
+/// Bits of a coordinate: the difference of two coordinates plus a period does not overflow.
 const COORDINATE_BITS: i32 = 29;
 
 /// Skin of the neighbour lists beyond the support, spacings. Water at a thirtieth of the speed of sound covers it in a
 /// dozen steps; longer lists cost more than they save (lavapipe, h/Δx = 1.5 and 2).
 const SKIN: f64 = 0.125;
-/// Least cells of a period, so that no cell is visited twice.
+/// Smallest number of cells in a period, so that no cell is visited twice.
 const MIN_PERIODIC_CELLS: i32 = 5;
 
 /// Cell grid and device units. Lengths on the device are in spacings Δx, times in Δx/c₀, masses in particle masses.
@@ -31,7 +31,7 @@ pub struct CellGrid {
     pub edge: [i32; 3],
     /// Period, quanta; 0 along axes that are not periodic.
     pub period: [i32; 3],
-    /// Half-open range of coordinates inside the domain or not beyond its walls, quanta.
+    /// Half-open range of coordinates of particles that have not escaped: the domain and one spacing into its walls, quanta.
     pub kept: [[i32; 3]; 2],
     /// Skin of the neighbour lists beyond the support of the kernel function, spacings.
     pub skin: f64,
@@ -193,22 +193,22 @@ impl CellGrid {
         })
     }
 
-    /// A length (m) in spacings.
+    /// Converts a length from m to spacings.
     pub fn length(&self, length: DVec3) -> DVec3 {
         length / self.spacing
     }
 
-    /// A velocity (m/s) in speeds of sound.
+    /// Converts a velocity from m/s to speeds of sound.
     pub fn velocity(&self, velocity: DVec3) -> DVec3 {
         velocity / self.sound_speed
     }
 
-    /// A rate (1/s) in device units.
+    /// Converts a rate from 1/s to device units.
     pub fn rate(&self, rate: DMat3) -> DMat3 {
         rate * self.unit_time()
     }
 
-    /// An acceleration (m/s²) in device units.
+    /// Converts an acceleration from m/s² to device units.
     pub fn acceleration(&self, acceleration: DVec3) -> DVec3 {
         acceleration * (self.unit_time() / self.sound_speed)
     }
@@ -236,7 +236,7 @@ impl CellGrid {
         }
     }
 
-    /// A work in device units, in J.
+    /// Converts a work from device units to J.
     pub(super) fn work(&self, work: f32) -> f64 {
         f64::from(work) * self.unit_force * self.spacing
     }

@@ -13,7 +13,7 @@ use crate::{
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
-/// Most particles of a body of water, far more than a device holds: a larger number is an input error.
+/// Largest number of particles in a body of water, far more than a device holds: a larger number is an input error.
 const MAX_PARTICLES: f64 = 1e9;
 
 /// Least distance of fluid particles from solids, in spacings: their distance from the first layer of boundary particles,
@@ -59,8 +59,8 @@ pub struct WaterBody {
     pub velocity: DVec3,
 }
 
-/// The fluid particles at the time 0: the points of `lattice` inside a body of water, and at least Δx/10 outside of
-/// all `blocks`. A planar lattice has one row in the middle. The pressure is hydrostatic for a fluid of `density` (kg/m³)
+/// The fluid particles at the time 0: the points of `lattice` inside a body of water and at least Δx/10 away from all
+/// `blocks`. A planar lattice has one row in the middle. The pressure is hydrostatic for a fluid of `density` (kg/m³)
 /// in `gravity` (m/s², 0 along periodic axes).
 ///
 /// # Errors
@@ -158,8 +158,8 @@ pub fn water_volume(lattice: &ParticleLattice, bodies: &[WaterBody], blocks: &[B
     volume
 }
 
-/// Fraction of a body of water outside all solids, by the low-discrepancy sequence of the generalised golden ratio
-/// (Roberts 2018, R₃) in its bounding box.
+/// Fraction of a body of water outside all solids, sampled in its bounding box with the low-discrepancy sequence of the
+/// generalised golden ratio (Roberts 2018, R₃).
 fn free_fraction(water: &[ConvexPart<'_>], solids: &[&ConvexPart<'_>]) -> f64 {
     let [low, high] = bounding_box(water.iter().flat_map(|part| [part.low, part.high]));
     // x⁴ = x + 1.
@@ -320,7 +320,7 @@ impl HydrostaticStart<'_> {
         };
         let tops: Vec<f64> = self.points.iter().map(top).collect();
         let highest = tops.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // The top of each body with the bodies that rest on it.
+        // The highest top of each body and the bodies that rest on it.
         let mut levels = tops.clone();
         for _ in bodies.clone() {
             for body in bodies.clone() {
@@ -330,7 +330,7 @@ impl HydrostaticStart<'_> {
                 }
             }
         }
-        // The column above x, through water and solids in it, to the top of the last body.
+        // Follows the column above x, through water and solids, to the highest top of the bodies in it.
         let level = |body: usize, x: DVec3| {
             if levels[body] == tops[body] {
                 return tops[body];

@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// Step limits that one invocation reduces.
+/// Number of step limits that one invocation reduces.
 const REDUCTION_WIDTH: u32 = 64;
 const BOUNDARY_KERNELS: PairKernels = PairKernels {
     lists: "boundary_neighbour_lists",
@@ -73,7 +73,7 @@ pub(super) struct Kernels {
     check_capacity: Option<Bound>,
     body_loads: BodyLoads,
     pub probes: PressureProbes,
-    /// `apply_penalty`, with boundary particles.
+    /// `apply_penalty`; `None` for the scheme without boundary particles.
     apply_penalty: Option<Bound>,
     /// `mueller_drift`; the scheme with boundary particles updates the positions in its second sum.
     mueller_drift: Option<Bound>,
@@ -84,7 +84,7 @@ pub(super) struct Kernels {
     advance_clock: Bound,
 }
 
-/// Remedy where particles do not fit the device.
+/// Remedy if the particles do not fit on the device.
 pub(super) const FEWER_PARTICLES: &str = "use a larger spacing, less water, or another adapter";
 
 impl Kernels {
@@ -318,7 +318,7 @@ impl Kernels {
     }
 }
 
-/// Capacities of the neighbour lists of a particle.
+/// Capacities of the neighbour list of a fluid particle and of a boundary particle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ListCapacities {
     pub fluid: u32,

@@ -11,14 +11,14 @@ const PARALLEL: f64 = 1e-9;
 /// Tolerance of the bisection for the inset between two close internal faces, in half spacings.
 const INSET_TOLERANCE: f64 = 1e-7;
 
-/// How far the solid beyond an internal face must rise per distance along the layer to make the edge re-entrant. Layers
-/// of less steep faces meet at the internal face.
+/// Slope to the layer from which the solid beyond an internal face makes the edge re-entrant. Layers of less steep faces
+/// meet at the internal face.
 const REENTRANT_SLOPE: f64 = 0.9;
 
 /// A point of a layer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerPoint {
-    /// m.
+    /// Position, m.
     pub at: DVec3,
     /// Normal of the layer.
     pub normal: DVec3,
@@ -28,7 +28,7 @@ pub(super) struct LayerPoint {
 pub(super) struct LayerBounds<'a> {
     /// Half-spaces that bound the layer, other than internal faces.
     pub half_spaces: &'a [HalfSpace],
-    /// Internal faces, each with the inset of the layer from it, m: negative where the layer continues beyond it.
+    /// Internal faces, each with the inset of the layer from it, m: negative if the layer continues beyond it.
     pub insets: &'a [(HalfSpace, f64)],
     /// Tolerance by which internal faces move outwards, m.
     pub slack: f64,
@@ -243,7 +243,7 @@ impl LayerPolygon {
     }
 }
 
-/// The edge of a layer at an internal face, beyond which another part of the block is.
+/// The edge of a layer at an internal face, with another part of the block beyond the face.
 pub(super) struct LayerEdge {
     /// Sample points on the edge, m; none if the layer does not reach the internal face.
     pub points: Vec<DVec3>,
@@ -284,7 +284,7 @@ impl LayerEdge {
             return half;
         }
         let along = plane.normal.dot(internal.normal);
-        // In the plane of the layer out of the part, and in the internal face up to the surface.
+        // `out` lies in the plane of the layer and leads out of the part; `up` lies in the internal face, towards the surface.
         let out = (internal.normal - plane.normal * along).normalize_or_zero();
         let up = (plane.normal - internal.normal * along) / (1.0 - along * along).max(1e-9);
         let rises = |x: &DVec3| {

@@ -1,4 +1,4 @@
-//! Structures of the kernels as they lie in memory.
+//! Memory layout of the structures of the kernels.
 //!
 //! Device units: lengths in spacings Δx, times in Δx/c₀, velocities in c₀, masses in particle masses m.
 
@@ -13,14 +13,14 @@ pub struct Particle {
     pub at: [i32; 3],
     /// Identity of a fluid particle; index of a boundary particle.
     pub id: u32,
-    /// In speeds of sound.
+    /// Velocity, in speeds of sound.
     pub velocity: [f32; 3],
     /// ρ/ρ₀ − 1 of a fluid particle; pressure of a boundary particle, in ρ₀ c₀².
     pub excess: f32,
 }
 
-/// Sorts the escaped particles by id, within the places that they occupy. The device stores them last, in the order
-/// of arrival, which depends on the device.
+/// Sorts the escaped particles by id within the slots that they occupy. The device stores them last, in an order of
+/// arrival that differs between devices.
 pub fn sort_escaped(particles: &mut [Particle]) {
     let has_escaped = |particle: &Particle| particle.at[0] < 0;
     let mut escaped: Vec<_> = particles.iter().copied().filter(has_escaped).collect();
@@ -37,7 +37,7 @@ pub fn sort_escaped(particles: &mut [Particle]) {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ReferencePosition {
-    /// From the centroid, in the body's frame, spacings.
+    /// Position relative to the centroid, in the body's frame, spacings.
     pub position: [f32; 3],
     /// Index of the body.
     pub body: u32,
@@ -51,11 +51,11 @@ pub struct BodyMotion {
     pub centre: [i32; 3],
     /// Index of its first boundary particle.
     pub first: u32,
-    /// In speeds of sound.
+    /// Velocity, in speeds of sound.
     pub velocity: [f32; 3],
     /// Number of its boundary particles.
     pub count: u32,
-    /// Spacings over the square of the unit of time.
+    /// Acceleration, in spacings per square of the unit of time.
     pub acceleration: [f32; 3],
     /// 1 for a no-slip surface, 0 for free slip.
     pub no_slip: f32,
@@ -78,7 +78,7 @@ pub(super) fn columns(m: DMat3) -> [[f32; 4]; 3] {
 pub struct Clock {
     /// Length of the next step; 0 when the exchange is complete.
     pub step: f32,
-    /// Longest step that the last step allows for the next.
+    /// Upper bound on the length of the next step.
     pub step_limit: f32,
     /// Time since the start of the exchange.
     pub elapsed: f32,
@@ -92,7 +92,7 @@ pub struct Clock {
     pub escaped: u32,
     /// Length of the longest neighbour list of a fluid particle that exceeds its capacity; 0 if none does.
     pub overflow: u32,
-    /// Step that is postponed until the lists have the capacity.
+    /// Length of the step that is postponed until the lists have been enlarged.
     pub pending_step: f32,
     /// Length of the longest neighbour list of a boundary particle that exceeds its capacity; 0 if none does.
     pub boundary_overflow: u32,

@@ -14,16 +14,16 @@ use crate::{
 };
 use std::f64::consts::PI;
 
-/// Capacity of a list relative to the neighbours on the initial lattice: compressed or splashing water has some tenths
-/// more.
+/// Capacity of a list relative to the neighbours on the initial lattice: compressed or splashing water has a few
+/// tenths more.
 const CAPACITY_FACTOR: f64 = 1.3;
-/// Least capacity of a list, and its least increase.
+/// Smallest capacity of a list, and smallest increase of the capacity.
 const MIN_CAPACITY: u32 = 16;
 
 /// Named buffers.
 pub(super) type Buffers<'a> = [(&'a str, &'a wgpu::Buffer)];
 
-/// The kernels over the pairs of a set of particles with the water.
+/// The kernels over the neighbours of a set of particles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PairKernels {
     /// Builds the lists.
@@ -34,7 +34,7 @@ pub(super) struct PairKernels {
     pub second: &'static str,
 }
 
-/// What [`NeighbourLists::new`] builds.
+/// Parameters of [`NeighbourLists::new`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PairPasses {
     pub kernels: PairKernels,
@@ -44,7 +44,7 @@ pub(super) struct PairPasses {
     pub capacity: u32,
 }
 
-/// The passes over the pairs of a set of particles with the water.
+/// The passes over the neighbours of a set of particles.
 #[derive(Debug)]
 pub(super) struct NeighbourLists {
     /// `None` with [`NeighbourSearch::Cells`].

@@ -28,7 +28,7 @@ impl ParticleLattice {
         self.faces[axis][0] == Side::Periodic
     }
 
-    /// The faces of the domain of one kind as axis and whether it is the upper one: x_min, x_max, y_min and so on.
+    /// The faces of the domain of one `kind`, each as its axis and whether it is the upper face: x_min, x_max, y_min and so on.
     pub(super) fn faces_of(&self, kind: Side) -> impl Iterator<Item = (usize, bool)> {
         let faces = self.faces.into_iter().enumerate();
         let faces = faces.flat_map(|(axis, [low, high])| [(axis, false, low), (axis, true, high)]);
@@ -122,7 +122,7 @@ impl ParticleLattice {
         ]
     }
 
-    /// Lattice coordinates along `axis` from `from` to `to` (m), ends included; those of one period if the range spans it.
+    /// Lattice coordinates along `axis` from `from` to `to` (m), ends included; one period of them if the range spans it.
     pub fn row(&self, axis: usize, [from, to]: [f64; 2]) -> Vec<f64> {
         if self.is_planar_axis(axis) {
             return vec![0.5 * (self.low[axis] + self.high[axis])];
@@ -140,7 +140,8 @@ impl ParticleLattice {
             .collect()
     }
 
-    /// The coordinates of [`ParticleLattice::row`], and `end` (m) of the range if it is at least the least distance from all others.
+    /// The coordinates of [`ParticleLattice::row`], and also the `end` (m) of the range if it keeps the least distance from
+    /// all of them.
     pub fn row_to(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
         let mut row = self.row(axis, range);
         let least = MIN_DISTANCE * self.spacing;
@@ -150,8 +151,8 @@ impl ParticleLattice {
         row
     }
 
-    /// The coordinates of [`ParticleLattice::row`] where another layer continues a spacing beyond `end` (m) of the range, and one
-    /// more in the middle of the remaining interval if that is long enough.
+    /// The coordinates of [`ParticleLattice::row`] for a range beyond whose `end` (m) another layer continues after one
+    /// spacing, and one more in the middle of the remaining interval if that is long enough.
     pub fn row_to_inset_edge(&self, axis: usize, range: [f64; 2], end: f64) -> Vec<f64> {
         let mut row = self.row(axis, range);
         let upward = end == range[1];
@@ -183,8 +184,7 @@ impl ParticleLattice {
     }
 }
 
-/// Least distance of two boundary particles, in spacings. Two particles closer than that would weigh double in the
-/// space of one.
+/// Least distance of two boundary particles, in spacings. Two closer particles would count twice in the space of one.
 pub(super) const MIN_DISTANCE: f64 = 0.6;
 
 /// Points of which no two are closer than [`MIN_DISTANCE`] spacings, periodic images included.
@@ -207,7 +207,7 @@ impl<'a> SpatialHash<'a> {
         }
     }
 
-    /// Inserts `point` (m) unless it is closer than the least distance to another point; returns whether it did.
+    /// Inserts `point` (m) unless it is closer than the least distance to another point; returns whether it was inserted.
     pub fn insert(&mut self, point: DVec3) -> bool {
         let has_space = self.nearest(point) >= self.distance;
         if has_space {

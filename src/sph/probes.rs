@@ -99,7 +99,7 @@ impl<'a> Gauges<'a> {
 
     /// Height of the free surface at (x, y), m: the highest point at which the water fraction is half of its maximum
     /// in the column, so that drops do not count. In water too shallow for that, the top of the highest particle.
-    /// `None` if no particle is within h of the axis.
+    /// `None` if no particle is within h of the vertical line.
     pub fn level(&self, [x, y]: [f64; 2]) -> Option<f64> {
         let on_axis = |z: f64| DVec3::new(x, y, z);
         let axis_distance = |p: &DVec3| {
@@ -118,7 +118,7 @@ impl<'a> Gauges<'a> {
         let top = near.map(|p| p.z).reduce(f64::max)?;
         let low = column.iter().map(|p| p.z).fold(top, f64::min);
         let column = self.with_positions(&column);
-        // From above, in steps over which the kernel is nearly linear.
+        // Samples from above, in steps over which the kernel is nearly linear.
         let step = 0.25 * self.spacing;
         let count = ((top - low) / step).ceil() as usize + 1;
         let above = top + self.kernel.support();
@@ -171,7 +171,7 @@ pub(super) struct PressureProbes {
 
 #[derive(Debug)]
 struct Memory {
-    /// Probes that fit.
+    /// Number of probes that the buffers hold.
     capacity: u32,
     probes: wgpu::Buffer,
     pressures: wgpu::Buffer,
@@ -234,7 +234,7 @@ impl PressureProbes {
         }
     }
 
-    /// Records a step.
+    /// Records the kernel for one step.
     pub fn record(&self, pass: &mut wgpu::ComputePass<'_>) {
         if let (Some(memory), 1..) = (&self.memory, self.count) {
             let groups = self.count.div_ceil(WORKGROUP);

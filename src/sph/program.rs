@@ -4,15 +4,15 @@ use super::{CellGrid, EquationOfState, NeighbourSearch, Scheme, Setup};
 use crate::gpu::link::Program;
 use std::f64::consts::PI;
 
-/// Storage buffers of the kernel that has the most, `mueller_accelerate` with lists.
+/// Largest number of storage buffers of a kernel: `mueller_accelerate` with lists.
 pub const MAX_STORAGE_BUFFERS: u32 = 8;
 
 /// Frequency of a particle on the penalty spring relative to c₀/Δx: half of the stability limit. The damping ratio is
 /// one half.
 const PENALTY_FREQUENCY: f64 = 0.5;
 
-/// The same with boundary particles, where the penalty force only repels particles between them: it accelerates water
-/// from the depth of a spacing to 2 % of the speed of sound.
+/// The same with boundary particles, where the penalty force only repels water that has passed between them: it
+/// accelerates this water from the depth of a spacing to 2 % of the speed of sound.
 const WEAK_PENALTY_FREQUENCY: f64 = 0.1;
 
 /// The kernels of a step. Each is the entry point of the file with its name.
@@ -41,7 +41,7 @@ pub const KERNELS: [&str; 22] = [
     "advance_clock",
 ];
 
-/// Those of [`KERNELS`] that a setup runs.
+/// The kernels of [`KERNELS`] that a setup runs.
 pub fn kernels_of(setup: &Setup) -> impl Iterator<Item = &'static str> {
     let delta = matches!(setup.scheme, Scheme::Delta);
     let lists = setup.neighbours == NeighbourSearch::Lists;
@@ -148,7 +148,7 @@ pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
             if setup.batched_neighbours { 4.0 } else { 1.0 },
         ),
         ("LIST_SQUARED", (support + grid.skin).powi(2)),
-        // Without a skin each step sorts.
+        // Without a skin every step sorts.
         ("SKIN", if grid.skin > 0.0 { grid.skin } else { -1.0 }),
         ("SMOOTHING", h),
         ("REACH", support),

@@ -1,6 +1,6 @@
 //! Setup of a particle simulation, and the equations of state of weakly compressible water.
 //!
-//! Wendland's C2 kernel function (Wendland 1995; Dehnen & Aly 2012, table 1).
+//! The kernel function is Wendland's C2 (Wendland 1995; Dehnen & Aly 2012, table 1).
 
 use super::Solid;
 use crate::{Error, Result};
@@ -68,7 +68,7 @@ pub struct Body {
     pub free_slip: bool,
 }
 
-/// Domain, fluid properties and numerical parameters, SI. Made by [`Setup::tank`]; then fields are changed.
+/// Domain, fluid properties and numerical parameters, SI. Create it with [`Setup::tank`], then change fields.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
@@ -80,13 +80,13 @@ pub struct Setup {
     pub faces: [[Side; 2]; 3],
     /// Initial particle spacing Δx, m.
     pub spacing: f64,
-    /// h/Δx.
+    /// Smoothing length over spacing, h/Δx.
     pub smoothing: f64,
     /// Speed of sound c₀, m/s.
     pub sound_speed: f64,
     /// Reference density ρ₀, kg/m³.
     pub density: f64,
-    /// m/s².
+    /// Gravity, m/s².
     pub gravity: DVec3,
     /// Kinematic viscosity ν, m²/s; at 0 only the artificial viscosity acts.
     pub laminar_viscosity: f64,
@@ -104,8 +104,8 @@ pub struct Setup {
     pub scheme: Scheme,
     /// Neighbour search.
     pub neighbours: NeighbourSearch,
-    /// Whether an invocation loads four neighbours before it adds the first one, and adds without branches: for GPUs,
-    /// which otherwise wait for each of them. CPU adapters are faster with one after the other. The sums are the same.
+    /// Whether an invocation loads four neighbours before it adds the first one, and adds without branches. GPUs otherwise
+    /// wait for each load; CPU adapters are faster with one neighbour at a time. The sums are the same.
     pub batched_neighbours: bool,
     /// Walls and blocks.
     pub bodies: Vec<Body>,
@@ -148,7 +148,7 @@ impl Setup {
         (2.0 * self.smoothing).ceil() as u32
     }
 
-    /// Largest flow speed at which the default Mach number is met, m/s.
+    /// Largest flow speed within the default Mach number, m/s.
     pub fn largest_speed(&self) -> f64 {
         let ratio = match self.scheme {
             Scheme::Delta => Self::SOUND_RATIO,
@@ -352,7 +352,7 @@ pub struct Wendland {
 }
 
 impl Wendland {
-    /// The function of space with the smoothing length `h` (m).
+    /// The three-dimensional function with the smoothing length `h` (m).
     pub fn space(h: f64) -> Self {
         Self {
             smoothing_length: h,
@@ -360,7 +360,7 @@ impl Wendland {
         }
     }
 
-    /// The function of a plane with the smoothing length `h` (m).
+    /// The two-dimensional function with the smoothing length `h` (m).
     pub fn plane(h: f64) -> Self {
         Self {
             smoothing_length: h,

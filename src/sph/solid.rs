@@ -14,9 +14,9 @@ pub enum Solid {
     Faces(Faces),
     /// A sphere.
     Sphere {
-        /// m.
+        /// Centre, m.
         centre: DVec3,
-        /// m.
+        /// Radius, m.
         radius: f64,
     },
 }
@@ -136,7 +136,7 @@ impl Solid {
         }
     }
 
-    /// A part without the faces at both ends of a period that it spans, and if it is `fixed`, without the faces at or
+    /// The part without its faces at the ends of a period that it spans and, if it is `fixed`, without its faces at or
     /// beyond the faces of the domain.
     pub(super) fn of(part: &ConvexPart<'_>, lattice: &ParticleLattice, fixed: bool) -> Self {
         let tolerance = lattice.tolerance();

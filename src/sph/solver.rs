@@ -14,9 +14,9 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 
-/// Steps in a submission, few enough that a slow adapter completes it before its timeout.
+/// Steps per submission, few enough that a slow adapter completes it before its timeout.
 const BATCH: u64 = 16;
-/// Least step relative to the acoustic step. A shorter one means that the flow is a hundred times as fast as the setup
+/// Shortest step relative to the acoustic step. A shorter step means that the flow is a hundred times as fast as the setup
 /// allows for.
 const MIN_STEP_RATIO: f32 = 1e-3;
 
@@ -51,7 +51,7 @@ pub struct ExternalWork {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct SphState {
-    /// Longest next step, in the unit of the device.
+    /// Upper bound on the length of the next step, in device units.
     pub step_limit: f32,
     /// Particles that have left the domain.
     pub escaped: u32,
@@ -65,7 +65,7 @@ pub struct SphState {
     pub work: ExternalWork,
 }
 
-/// Solver for water with walls and blocks, by particles on the device.
+/// SPH solver for water with walls and blocks, on the device.
 ///
 /// δ-SPH: Monaghan (1992) with the Wendland C2 function, density diffusion of Fourtakas et al. (2019), walls of
 /// Adami, Hu & Adams (2012). No method blocks: the caller must poll the device while it awaits a future.
@@ -172,7 +172,7 @@ impl SphSolver {
                 excess: setup.excess(pressure) as f32,
             });
         }
-        // Buffers hold one particle at least; a spare one is outside the domain.
+        // Buffers hold at least one particle; a dummy one lies outside the domain.
         let outside = Particle {
             at: [-1; 3],
             ..Particle::default()
@@ -215,7 +215,7 @@ impl SphSolver {
         })
     }
 
-    /// Longest next step, s.
+    /// Upper bound on the length of the next step, s.
     pub fn step_limit(&self) -> f64 {
         f64::from(self.clock.step_limit) * self.grid.unit_time()
     }
@@ -224,7 +224,7 @@ impl SphSolver {
     /// with the rates of the poses.
     ///
     /// # Errors
-    /// Those of [`SphSolver::begin`]; [`Error::ParticleLost`] if the state of a particle is not finite or the stable step
+    /// The errors of [`SphSolver::begin`]; [`Error::ParticleLost`] if the state of a particle is not finite or the stable step
     /// becomes too short; [`Error::DeviceLost`].
     pub async fn advance(
         &mut self,
@@ -263,10 +263,10 @@ impl SphSolver {
     }
 
     /// Begins an exchange of `time` (s) with the bodies at `poses`. [`SphSolver::record`] then records its steps;
-    /// [`SphSolver::advance`] does all of it.
+    /// [`SphSolver::advance`] does both.
     ///
     /// # Errors
-    /// [`Error::Argument`] if the number of poses differs from that of the bodies, a pose is not finite or its deformation
+    /// [`Error::Argument`] if the number of poses differs from the number of bodies, a pose is not finite or its deformation
     /// not invertible, or the time is not greater than 0.
     pub fn begin(&mut self, queue: &wgpu::Queue, poses: &[Pose], time: f64) -> Result<()> {
         check_exchange(poses, self.setup.bodies.len(), time)?;
@@ -520,7 +520,7 @@ impl SphSolver {
         }
     }
 
-    /// Checks that the number of particles is that of this solver.
+    /// Checks that the number of particles matches this solver.
     ///
     /// # Errors
     /// [`Error::Argument`] if not.

@@ -8,17 +8,17 @@ use crate::{
 };
 use glam::DVec3;
 
-/// Times of a run at which the speed of a driven block is sampled, besides its start and its end.
+/// Number of times at which the speed of a driven block is sampled, in addition to the start and the end of the run.
 const SAMPLES: u32 = 1000;
 
 /// Energies and times that determine the speeds of water and blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct SpeedEstimate {
     gravity: DVec3,
-    /// Work of gravity on a unit of mass from the origin to the top and to the bottom of the water, m²/s².
+    /// Work of gravity per unit mass from the origin to the top and to the bottom of the water, m²/s².
     top: f64,
     bottom: f64,
-    /// Work of gravity on a unit of mass over the half spacing of water beyond the outermost particles, m²/s².
+    /// Work of gravity per unit mass over the half spacing of water beyond the outermost particles, m²/s².
     half: f64,
     /// Length of the run, s.
     length: f64,
@@ -70,7 +70,7 @@ impl SpeedEstimate {
                 (start.powi(2) + 2.0 * (self.bottom - self.lowest_point(block)).max(0.0)).sqrt()
             }
             Motion::Driven { velocity, spin } => {
-                // Jittered samples: a motion whose period divides an even interval would appear to be at rest.
+                // The samples are jittered: at even intervals a periodic motion could appear to be at rest.
                 let jittered =
                     |n: u32| (f64::from(n) + uniform(0, &[n.into()])) / f64::from(SAMPLES);
                 let times = [0.0, 1.0].into_iter().chain((0..SAMPLES).map(jittered));
@@ -83,7 +83,7 @@ impl SpeedEstimate {
         }
     }
 
-    /// Work of gravity from the origin to the lowest point of a block, m²/s².
+    /// Work of gravity per unit mass from the origin to the lowest point of a block, m²/s².
     fn lowest_point(&self, block: &Block) -> f64 {
         let of_part = |part: &ConvexPart<'_>| {
             let ends = (part.low * self.gravity).max(part.high * self.gravity);

@@ -8,13 +8,13 @@ use glam::{DVec3, Vec3};
 pub struct Water {
     /// Index of each particle at the start.
     pub ids: Vec<u32>,
-    /// m.
+    /// Positions, m.
     pub positions: Vec<DVec3>,
-    /// m/s.
+    /// Velocities, m/s.
     pub velocities: Vec<Vec3>,
-    /// kg/m³.
+    /// Densities, kg/m³.
     pub densities: Vec<f64>,
-    /// Pa.
+    /// Pressures, Pa.
     pub pressures: Vec<f64>,
     /// Totals of the escaped particles, each in its state at the time of escape.
     pub escaped: Totals,

@@ -171,7 +171,7 @@ fn a_block_faster_than_any_flow_is_named() {
     let error = world.try_advance(40).unwrap_err();
     assert!(matches!(error, Error::Diverged { .. }), "{error}");
     let text = error.to_string();
-    assert_contains(&text, &["ram", "cells a step"]);
+    assert_contains(&text, &["ram", "cells per step"]);
 }
 
 #[test]

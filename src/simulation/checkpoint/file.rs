@@ -1,5 +1,5 @@
-//! Files of checkpoints: a header of [`MAGIC`], the version and the [`Kind`](super::Kind), the state in
-//! [postcard](https://docs.rs/postcard), and the CRC-32 (IEEE 802.3) of all of that.
+//! Checkpoint files: a header of [`MAGIC`], the version and the [`Kind`](super::Kind), the state in
+//! [postcard](https://docs.rs/postcard), and the CRC-32 (IEEE 802.3) of all preceding bytes.
 
 use super::Checkpoint;
 use crate::{
@@ -14,11 +14,11 @@ use std::{
 
 /// First bytes of a file.
 const MAGIC: &[u8; 17] = b"riprap checkpoint";
-/// Version of the format, above those of the three formats before it.
+/// Version of the format, higher than the versions of the three formats before it.
 const VERSION: u8 = 11;
 /// First bytes of the formats before version 6; their version is the digit at [`OLD_VERSION`].
 const OLD_MAGICS: [&[u8]; 3] = [b"riprap state ", b"riprap rocks ", b"riprap water "];
-/// Place of the version in the formats before version 6.
+/// Offset of the version in the formats before version 6.
 const OLD_VERSION: usize = 14;
 /// Bytes of the header: magic, version, kind.
 const HEADER: usize = MAGIC.len() + 2;
@@ -37,7 +37,7 @@ impl Checkpoint {
     /// Writes the bytes of a file.
     ///
     /// # Errors
-    /// Those of `file`.
+    /// The errors of `file`.
     pub fn write_to(&self, file: &mut dyn Write) -> io::Result<()> {
         let mut file = Summed {
             file,
@@ -71,7 +71,7 @@ impl Checkpoint {
             let version = bytes.get(OLD_VERSION).map_or('?', |&digit| digit.into());
             return other_version(version.to_string());
         }
-        let damaged = "the checkpoint is cut short or damaged: its checksum is not that of its bytes; use an older one, or \
+        let damaged = "the checkpoint is cut short or damaged: its checksum does not match; use an older one, or \
                        run the scene from its start";
         let Some(rest) = bytes.strip_prefix(MAGIC) else {
             return refused(
@@ -102,7 +102,7 @@ impl Checkpoint {
     }
 }
 
-/// Sums the bytes that pass, and keeps the error of a write.
+/// A writer that updates the checksum with the written bytes and keeps the error of a failed write.
 struct Summed<'a> {
     file: &'a mut dyn Write,
     sum: Hasher,

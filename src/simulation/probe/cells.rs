@@ -1,16 +1,16 @@
-//! The cells of a scene as probes see them, and trilinear interpolation that knows walls, solids and periodic ends.
+//! The cells of a scene for probes, and trilinear interpolation that accounts for walls, solids and periodic axes.
 
 use crate::scene::{Axis, Boundary, Domain, Face, Scene};
 
-/// Part of a cell by which positions may miss cell faces: decimal numbers in scenes are rounded.
+/// Tolerance of positions at cell faces, in cells: decimal numbers in scenes are rounded.
 const SLACK: f64 = 1e-6;
 
-/// A scene's grid, its solid cells, and what surrounds it.
+/// A scene's grid, its solid cells and its boundaries.
 pub(super) struct Cells<'a> {
     pub(super) domain: &'a Domain,
     /// Cells along x, y, z.
     pub(super) counts: [u32; 3],
-    /// Axes whose ends join.
+    /// Which axes are periodic.
     pub(super) periodic: [bool; 3],
     /// Velocity (m/s) of the walls at the lower and the upper end of each axis.
     pub(super) walls: [[Option<[f64; 3]>; 2]; 3],
@@ -33,7 +33,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Place of a cell in an array, x fastest.
+    /// Index of a cell in an array, x fastest.
     pub(super) fn index(&self, [i, j, k]: [u32; 3]) -> u32 {
         i + self.counts[0] * (j + self.counts[1] * k)
     }
@@ -47,7 +47,7 @@ impl<'a> Cells<'a> {
         (position - self.domain.origin[axis]) / self.domain.cell - 0.5
     }
 
-    /// The layer of cells around `position` (m) along `axis`; on a face between two, the upper one.
+    /// The layer of cells around `position` (m) along `axis`; the upper one on the face between two layers.
     pub(super) fn layer(&self, axis: Axis, position: f64) -> u32 {
         let axis = axis.index();
         let place = (self.place(axis, position) + 0.5 + SLACK).max(0.0);
@@ -101,21 +101,21 @@ impl<'a> Cells<'a> {
     }
 }
 
-/// A share of a point's value.
+/// The contribution of a cell to the value at a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Share {
-    /// Cell that has it: a place in an array over the domain.
+    /// Index of the cell in an array over the domain.
     pub(super) cell: u32,
-    /// Its weight; those of a point add up to 1.
+    /// Its weight; the weights of a point add up to 1.
     pub(super) weight: f64,
-    /// Velocity (m/s) of the wall that has this share of the velocity instead of the cell.
+    /// Velocity (m/s) of the wall that replaces the velocity of the cell, if any.
     pub(super) wall: Option<[f64; 3]>,
 }
 
-/// A cell along one axis, its weight, and the wall that stands in for its velocity.
+/// Index of a cell along one axis, its weight, and the velocity of the wall that replaces that of the cell.
 type Term = (u32, f64, Option<[f64; 3]>);
 
-/// The shares of the point at `at` (m); none if only solid cells are around it.
+/// The contributions to the point at `at` (m); empty if only solid cells are around it.
 pub(super) fn shares(cells: &Cells<'_>, at: [f64; 3]) -> Vec<Share> {
     let terms = [0, 1, 2].map(|axis| terms(cells, axis, cells.place(axis, at[axis])));
     let mut shares = Vec::new();
@@ -141,7 +141,7 @@ pub(super) fn shares(cells: &Cells<'_>, at: [f64; 3]) -> Vec<Share> {
     shares
 }
 
-/// The two neighbours along `axis` of a place counted in cells from the first centre.
+/// The two neighbours along `axis` of `place`, a position in cells from the first centre.
 fn terms(cells: &Cells<'_>, axis: usize, place: f64) -> [Term; 2] {
     let count = cells.counts[axis];
     let last = f64::from(count - 1);

@@ -1,27 +1,27 @@
-//! Measuring a scene's probes: which cells they look at, and how their rows follow.
+//! Measurements of a scene's probes: the cells that they read, and the rows computed from them.
 //!
-//! A [`Gauge`] is a [`Probe`] placed on the cells of its scene. It says which [fields](Gauge::fields)
-//! it needs on which [cells](Gauge::cells), so that nothing else has to leave the device
-//! ([`Simulation::read`](crate::simulation::Simulation::read)), and turns them into rows of a table.
+//! A [`Gauge`] is a [`Probe`] placed on the cells of its scene. It lists the [fields](Gauge::fields)
+//! that it needs and their [cells](Gauge::cells), so that only these are read back from the device
+//! ([`Simulation::read`](crate::simulation::Simulation::read)), and computes rows of a table from them.
 //!
-//! Every table begins with `step,time` (time in s). After these come, all in SI:
+//! Every table begins with `step,time` (time in s). These columns follow, all in SI:
 //!
-//! | kind | columns | rows a measurement |
+//! | kind | columns | rows per measurement |
 //! |---|---|---|
 //! | point | the fields | 1 |
 //! | line | `s`, the distance from its first point; `x,y,z`; the fields | its `count` |
-//! | plane | `x,y,z` of the cell's centre; the fields | the cells of the layer that it cuts, the lower axis fastest |
-//! | box | of each column of the fields `_mean,_min,_max` | 1 |
+//! | plane | `x,y,z` of the cell's centre; the fields | one per cell of the layer that it cuts, the lower axis fastest |
+//! | box | `_mean,_min,_max` of each column of the fields | 1 |
 //! | face | `area,pressure_mean,pressure_min,pressure_max,force,x_of_max,y_of_max,z_of_max` | 1 |
 //!
 //! The columns of a field are its name, or for a vector its name with `_x`, `_y` and `_z`.
 //!
-//! - Among particles, `NaN` stands where there is no water: in the level of a dry gauge, the place of a run-up, the
-//!   fields of points and boxes.
-//! - Points lie trilinearly between the cell centres. Between the last centres and a wall, velocity
-//!   goes to the wall's; everything else stays constant there, as it does towards other faces.
-//!   Solid cells carry no weight. `NaN` stands where all cells around a point are solid, and in
-//!   the solid cells of a plane. `solid` is that of the cell around the point.
+//! - With particles, values without water are `NaN`: the level of a dry gauge, the place of a run-up, the fields of
+//!   points and boxes.
+//! - Values at points are interpolated trilinearly between cell centres. Between the last centres and a wall, the
+//!   velocity is interpolated to that of the wall; other fields are constant there, as all fields are towards other
+//!   faces. Solid cells have no weight. A value is `NaN` if all cells around a point are solid, and in
+//!   the solid cells of a plane. `solid` is the value of the cell around the point.
 //! - A `face` has `area` in m², `force` in N on the solid, along −normal, Σ p Δx² over its cells,
 //!   and the centre of the cell face with the largest pressure: the stagnation point.
 
@@ -48,7 +48,7 @@ pub struct Gauge {
     place: Place,
 }
 
-/// How rows follow from the values on the cells.
+/// How rows are computed from the values on the cells.
 #[derive(Clone, Debug)]
 enum Place {
     Points(Points),
@@ -57,11 +57,11 @@ enum Place {
 }
 
 impl Gauge {
-    /// Places `probe` in `scene`; `solid` marks the solid cells, x fastest, and is empty where there
+    /// Places `probe` in `scene`; `solid` marks the solid cells, x fastest, and is empty if there
     /// are none.
     ///
     /// # Errors
-    /// If a box holds no fluid, or a face no fluid cell in front of a solid.
+    /// If the probe measures free water or a block, or has no fluid cell: a face needs one in front of a solid.
     pub fn new(scene: &Scene, solid: &[bool], probe: &Probe) -> Result<Self> {
         let cells = Cells::new(scene, solid);
         let (coordinates, place, chosen) = match &probe.place {
@@ -150,7 +150,7 @@ impl Gauge {
         &self.columns
     }
 
-    /// How many of these, the first ones, say where a row is measured.
+    /// Number of leading columns that hold the position of a row.
     pub fn coordinates(&self) -> usize {
         self.coordinates
     }
@@ -160,7 +160,7 @@ impl Gauge {
         &self.fields
     }
 
-    /// The cells on which it needs them, as places in an array over the domain, x fastest.
+    /// The cells whose values it needs, as indices into an array over the domain, x fastest.
     pub fn cells(&self) -> &[u32] {
         &self.cells
     }
@@ -168,7 +168,7 @@ impl Gauge {
     /// The rows of a measurement from `arrays` of [`Gauge::fields`] on [`Gauge::cells`].
     ///
     /// # Errors
-    /// If an array is missing or of another length.
+    /// If an array is missing or has another length.
     pub fn rows(&self, arrays: &[Array]) -> Result<Vec<Vec<f64>>> {
         let find = |field: &Field| {
             let found = arrays.iter().find(|array| array.name == field.name());

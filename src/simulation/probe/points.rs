@@ -1,4 +1,4 @@
-//! Values at points: one, along a line, on the cells of a plane; means, extremes and forces over many cells.
+//! Values at a point, along a line or on the cells of a plane; means, extremes and forces over many cells.
 
 use super::cells::{Cells, Share, shares};
 use crate::{
@@ -6,15 +6,15 @@ use crate::{
     scene::{Axis, Direction, Field, Scene},
 };
 
-/// Points with their coordinates and the cells that they follow from.
+/// Points with their coordinates and the cells that contribute to them.
 #[derive(Clone, Debug)]
 pub(super) struct Points(Vec<Point>);
 
 #[derive(Clone, Debug)]
 struct Point {
-    /// What stands in front of the fields.
+    /// Columns in front of the fields.
     coordinates: Vec<f64>,
-    /// Shares of its value, their cells as places in the list of cells; none in a solid.
+    /// Contributions to its value, with cells as indices into the list of cells; empty in a solid.
     shares: Vec<Share>,
     /// Whether the cell around it is solid.
     solid: bool,
@@ -53,7 +53,7 @@ impl Points {
         numbered(points.collect())
     }
 
-    /// A row a point: coordinates, then `arrays` of `fields` on the chosen cells.
+    /// One row per point: coordinates, then the values of `fields` from `arrays` on the chosen cells.
     pub(super) fn rows(&self, fields: &[Field], arrays: &[&Array]) -> Vec<Vec<f64>> {
         let row = |point: &Point| {
             let mut row = point.coordinates.clone();
@@ -93,7 +93,7 @@ fn point(cells: &Cells<'_>, at: [f64; 3], coordinates: Vec<f64>) -> Point {
     }
 }
 
-/// Each cell that the points need once, and the points with their cells numbered in that list.
+/// The points, with their cells as indices into the returned list, in which each cell occurs once.
 fn numbered(mut points: Vec<Point>) -> (Points, Vec<u32>) {
     let shares = |points: &[Point]| -> Vec<u32> {
         let all = points.iter().flat_map(|point| &point.shares);
@@ -116,7 +116,7 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// The layer normal to `axis` around `position` (m); on a face between two, the upper one.
+    /// The layer normal to `axis` around `position` (m); the upper one on the face between two layers.
     pub fn new(scene: &Scene, axis: Axis, position: f64) -> Self {
         let cells = Cells::new(scene, &[]);
         let number = cells.layer(axis, position);
@@ -138,7 +138,7 @@ impl Layer {
         }
     }
 
-    /// Its cells as places in an array over the domain, x fastest.
+    /// Its cells as indices into an array over the domain, x fastest.
     pub fn cells(&self) -> &[u32] {
         &self.cells
     }
@@ -170,7 +170,7 @@ struct Statistics {
     mean: f64,
     min: f64,
     max: f64,
-    /// Place of the first largest value.
+    /// Index of the first largest value.
     at_max: usize,
 }
 
@@ -200,7 +200,7 @@ impl Statistics {
     }
 }
 
-/// The cell faces in which a static solid meets the fluid.
+/// The cell faces at which a static solid meets the fluid.
 #[derive(Clone, Debug)]
 pub(super) struct Face {
     /// Edge of a cell, m.
@@ -221,7 +221,7 @@ impl Face {
         "z_of_max",
     ];
 
-    /// The fluid cells in a box (m) whose neighbour against `normal` is solid.
+    /// The fluid cells in a box (m) whose neighbour in the direction opposite to `normal` is solid.
     pub(super) fn new(
         cells: &Cells<'_>,
         min: [f64; 3],

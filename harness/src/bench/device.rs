@@ -1,5 +1,5 @@
 //! `riprap bench --device`: one record of a GPU, within four minutes: the table of kernels with their shares of the copy
-//! bandwidth, where the searches for pairs cross, and the short validation cases on the device.
+//! bandwidth, the crossover of the searches for pairs, and the short validation cases on the device.
 
 use super::{
     Bench, Measured,
@@ -10,14 +10,14 @@ use crate::validate::{self, Case, Stand};
 use serde::Serialize;
 use std::time::Instant;
 
-/// Cases that take minutes on two cores: they come last, and where time is short they are left out.
+/// Cases that take minutes on two cores: they come last, and are left out if time is short.
 const LONG: &str = "cavity/* wake/* stability/* solids/array* solids/cylinder solids/spike solids/rotation \
     solids/lubrication solids/release";
 
 /// A case for which no time was left.
 #[derive(Clone, Debug, Serialize)]
 pub struct LeftOut {
-    /// What: `left out`.
+    /// Kind of record: `left out`.
     part: &'static str,
     /// Name of the case.
     case: &'static str,
@@ -26,11 +26,11 @@ pub struct LeftOut {
 /// Measures the device, and prints tables as it goes.
 ///
 /// # Errors
-/// If the device is lost or silent. A case of validation that fails is a result.
+/// If the device is lost or silent. A validation case that fails is a result, not an error.
 pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> anyhow::Result<Vec<Measured>> {
     let begin = Instant::now();
     let (extent, patience) = match bench.machine.software {
-        // Rehearsed, without haste.
+        // A rehearsal, with more time.
         true => (
             Extent {
                 grids: &[64, 128],
@@ -88,7 +88,7 @@ fn cases() -> anyhow::Result<Vec<Case>> {
     let patterns: Result<Vec<_>, _> = LONG.split_whitespace().map(glob::Pattern::new).collect();
     let patterns = patterns?;
     let long = |case: &Case| patterns.iter().any(|pattern| pattern.matches(case.name));
-    // Dry blocks and the linker need none.
+    // Dry blocks and the linker need no device.
     let on_host = |case: &Case| {
         let family = case.name.split('/').next();
         (matches!(family, Some("rock" | "dda")) && case.name != "rock/broadphase")

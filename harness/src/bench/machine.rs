@@ -1,16 +1,16 @@
-//! Where something was measured.
+//! Machine and time of a measurement.
 
 use kit::{clock, gpu};
 use riprap::wgpu;
 use serde::Serialize;
 use std::fmt;
 
-/// Where it was measured.
+/// Machine, version and time of a measurement.
 #[derive(Clone, Debug, Serialize)]
 pub struct Machine {
     /// Adapter.
     pub adapter: String,
-    /// API it is reached through.
+    /// API through which it is accessed.
     pub backend: String,
     /// Driver and its version.
     pub driver: String,
@@ -20,9 +20,9 @@ pub struct Machine {
     pub cores: usize,
     /// Version of riprap.
     pub version: &'static str,
-    /// Commit of the working directory, where there is one.
+    /// Commit of the working directory, if any.
     pub commit: Option<String>,
-    /// When, UTC.
+    /// Date and time, UTC.
     pub date: String,
 }
 
@@ -105,10 +105,10 @@ fn utc(seconds: u64) -> String {
 }
 
 impl Machine {
-    /// Results that were found here, as a JSON array.
+    /// Results of this machine, as a JSON array.
     ///
     /// # Errors
-    /// If a result is no object.
+    /// If a result is not a JSON object.
     pub fn json<T: Serialize>(
         &self,
         rows: impl IntoIterator<Item = T>,

@@ -1,6 +1,5 @@
-//! `riprap bench`: how fast each form of the fluid's kernel is, beside what memory allows, and how fast
-//! blocks meet and move, particles of water move, what solids in the fluid cost, and that what is not used costs nothing;
-//! or one record of a GPU.
+//! `riprap bench`: speed of each variant of the fluid kernel compared with the memory bandwidth, of rock contacts and steps, and
+//! of water particles; cost of solids in the fluid and of unused features, which should be zero; or one record of a GPU.
 
 mod device;
 mod fluid;
@@ -24,7 +23,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use target::Target;
 
-/// What to measure, and on what.
+/// Measures the speed of the fluid, the blocks and the particles, and the cost of solids and of unused features.
 #[derive(clap::Args, Clone, Debug)]
 pub struct Args {
     /// Write the results as a JSON array
@@ -42,24 +41,23 @@ pub struct Args {
     /// Piles of up to 100 000 blocks and a million particles; takes many minutes
     #[arg(long, conflicts_with = "quick")]
     pub full: bool,
-    /// Cells an axis; may be repeated [default: 64, 96, 128 and, where that takes seconds, 256]
+    /// Cells per axis; may be repeated [default: 64, 96, 128 and, if that takes only seconds, 256]
     #[arg(long, value_name = "N")]
     pub grid: Vec<u32>,
-    /// Only the whole table: f32 and 16 bits, plain, with WALE and with moving solids, on 128³ to 512³ cells, as
-    /// far as memory and fifteen seconds a row let it
+    /// Only the whole table: f32 and 16 bits, plain, with WALE and with moving solids, on 128³ to 512³ cells, as far as memory
+    /// and fifteen seconds per row allow
     #[arg(long, conflicts_with_all = ["only", "quick", "full", "grid"])]
     pub all: bool,
-    /// One record of a GPU, in less than four minutes: the table on 128³ and 256³ cells, from how many blocks on the
+    /// One record of a GPU, in less than four minutes: the table on 128³ and 256³ cells, the number of blocks from which the
     /// device finds pairs faster than the host, and the short cases of `validate` that use the device
     #[arg(long, conflicts_with_all = ["only", "quick", "full", "grid", "all"])]
     pub device: bool,
-    /// GiB that the fluids measured side by side may take together [default: 6, or half of what
-    /// is free on a software adapter]
+    /// GiB that the fluids of a group may take together [default: 6, or half of the free memory on a software adapter]
     #[arg(long, value_name = "GIB")]
     pub memory: Option<f64>,
 }
 
-/// What is measured.
+/// Parts of the benchmark.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The lattice.
@@ -70,22 +68,22 @@ pub enum Part {
     Water,
     /// The solids in the fluid.
     Solids,
-    /// What nobody uses, which should cost nothing, and what the cost of a moving block follows.
+    /// Unused features, which should cost nothing, and the scaling of the cost of moving blocks.
     Unused,
 }
 
-/// What is measured on, and how thoroughly.
+/// The device of a benchmark, and its extent.
 #[derive(Clone, Copy, Debug)]
 pub struct Bench<'a> {
     /// The device.
     pub device: &'a wgpu::Device,
     /// Its queue.
     pub queue: &'a wgpu::Queue,
-    /// Where and when.
+    /// Machine and time of the measurement.
     pub machine: &'a Machine,
     /// Only the main kernels, for a short time.
     pub quick: bool,
-    /// Large sizes, too.
+    /// Large sizes too.
     pub full: bool,
 }
 
@@ -114,8 +112,7 @@ enum Measured {
 /// Measures, prints a table as it goes, and writes the file.
 ///
 /// # Errors
-/// If there is no adapter and not only rock is measured, the device fails, or the file cannot be
-/// written.
+/// If there is no adapter and more than rock is measured, the device fails, or the file cannot be written.
 pub fn run(args: Args) -> anyhow::Result<()> {
     let device = match gpu::pick(args.adapter.as_deref()) {
         Err(error) if args.only == Some(Part::Rock) && args.adapter.is_none() => {
@@ -173,7 +170,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
             measured.extend(rows.into_iter().map(Measured::Solids));
         }
         if args.all || args.device {
-            // A GPU says itself when its memory ends.
+            // A GPU reports by itself when it runs out of memory.
             let limited = machine.software || args.memory.is_some();
             let most = limited.then(|| budget(args.memory, machine.software));
             measured.extend(match args.device {
@@ -193,7 +190,7 @@ pub fn run(args: Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The middle one of some values.
+/// Median of some values.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
@@ -209,7 +206,7 @@ fn budget(gib: Option<f64>, software: bool) -> u64 {
         let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
         Some(0.5 * kib * 1024.0)
     };
-    // wgpu does not say what a GPU holds; 6 GiB is what small ones have.
+    // wgpu does not report the memory of a GPU; small ones have 6 GiB.
     let default = 6.0 * GIB;
     let bytes = match gib {
         Some(gib) => gib * GIB,

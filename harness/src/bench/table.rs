@@ -1,4 +1,4 @@
-//! The whole table: storage × what the step does × size of the grid, each row within a budget of time.
+//! The whole table: storage × kind of step × grid size, each row within a time budget.
 
 use super::{
     Bench, copy_bandwidth,
@@ -18,19 +18,19 @@ use riprap::{
 use serde::Serialize;
 use std::{fmt, sync::Arc, time::Duration, time::Instant};
 
-/// How much of the table is made.
+/// Extent of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
-    /// Cells an axis.
+    /// Cells per axis.
     pub grids: &'static [u32],
-    /// Seconds that a row may take, making the lattice included.
+    /// Seconds that a row may take, including the creation of the lattice.
     pub row: f64,
     /// Seconds that the whole table may take.
     pub whole: f64,
 }
 
 impl Extent {
-    /// All of it.
+    /// The whole table.
     pub const ALL: Self = Self {
         grids: &[128, 192, 256, 384, 512],
         row: 15.0,
@@ -38,18 +38,18 @@ impl Extent {
     };
 }
 
-/// Bytes that are copied at most to see how many the device copies a second.
+/// Largest number of bytes copied to measure the copy bandwidth.
 const COPIED: u64 = 256 << 20;
-/// Seconds of steps that are timed.
+/// Duration of the timed steps, s.
 const LONG: f64 = 1.5;
-/// Most steps of a row.
+/// Largest number of steps per row.
 const MOST: u32 = 500;
-/// Longest silence of a device that is not taken for a hang.
+/// Silence of a device after which it counts as hung.
 const PATIENCE: Duration = Duration::from_secs(120);
 /// Cells across the spheres of the coupled rows, which fill a tenth of the volume.
 const ACROSS: f64 = 16.0;
 
-/// What a step does.
+/// Kind of step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -57,33 +57,32 @@ pub enum Kind {
     Plain,
     /// With eddy viscosity.
     Wale,
-    /// With a tenth of the volume moving spheres, whose loads the host reads in every step.
+    /// With moving spheres in a tenth of the volume, whose loads the host reads in every step.
     Coupled,
 }
 
 /// A row of the table.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What: `table`.
+    /// Kind of record: `table`.
     pub part: &'static str,
-    /// What the step does.
+    /// Kind of step.
     pub kind: Kind,
-    /// Cells an axis.
+    /// Cells per axis.
     pub grid: u32,
     /// Storage of the populations.
     pub storage: &'static str,
-    /// Million cells a second: by CPU time on a software adapter, by GPU time elsewhere, coupled by the clock on the
-    /// wall.
+    /// Million cells per second: by CPU time on a software adapter, by GPU time elsewhere, in coupled rows by wall time.
     pub mlups: Option<f64>,
-    /// Bytes of populations a second, at that speed.
+    /// Bytes of populations per second, at that speed.
     pub bandwidth: Option<f64>,
-    /// Part of what the device copies a second, read and written.
+    /// That bandwidth over the copy bandwidth of the device, read and written.
     pub share_of_copy: Option<f64>,
     /// Steps that were timed.
     pub steps: u32,
     /// Seconds that the row took.
     pub seconds: f64,
-    /// Why it was left out.
+    /// Why the row was left out, if it was.
     pub left_out: Option<String>,
 }
 
@@ -187,13 +186,13 @@ fn setup(grid: u32, storage: Storage, kind: Kind, bench: &Bench<'_>) -> Setup {
         Kind::Coupled => setup.solid_operator = Some(SolidOperator::Holdych),
     }
     if !software {
-        // Bricks follow what the setup has.
+        // The bricks depend on the features of the setup.
         setup.suit_gpu();
     }
     setup
 }
 
-/// Whether the adapter's limits, and the memory that may be taken, let the lattice be.
+/// Whether the lattice fits the adapter's limits and the memory budget.
 fn holds(setup: &Setup, device: &wgpu::Device, budget: Option<u64>) -> Result<(), String> {
     let limits = device.limits();
     let need = Grid::new(setup).and_then(|grid| memory(setup, &grid, &limits));
@@ -213,7 +212,7 @@ fn holds(setup: &Setup, device: &wgpu::Device, budget: Option<u64>) -> Result<()
     }
 }
 
-/// Whether the row before, with as many more cells, would have been too long.
+/// Whether the row would take too long, scaled from the previous row by the number of cells.
 fn too_long(rows: &[Row], row: &Row, budget: f64) -> Option<String> {
     let alike = |other: &&Row| other.kind == row.kind && other.storage == row.storage;
     let last = rows.iter().rev().find(alike)?;
@@ -221,12 +220,12 @@ fn too_long(rows: &[Row], row: &Row, budget: f64) -> Option<String> {
         return Some(format!("{}³ was", last.grid));
     }
     let cells = |grid: u32| f64::from(grid).powi(3);
-    // What does not grow with the cells is counted, too: a bound.
+    // An upper bound: costs that do not grow with the cells are scaled too.
     let seconds = (last.seconds - LONG).max(0.0) * cells(row.grid) / cells(last.grid) + LONG;
     (seconds > budget).then(|| format!("would take {seconds:.0} s of the {budget:.0} of a row"))
 }
 
-/// Seconds of a step, and how many were timed.
+/// Seconds per step, and number of timed steps.
 fn run(clock: &mut Clock, setup: Setup, kind: Kind) -> Result<(f64, u32)> {
     let (device, queue) = (clock.device.clone(), clock.queue.clone());
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
@@ -257,7 +256,7 @@ fn number(seconds: f64) -> u32 {
 fn make(device: &wgpu::Device, queue: &wgpu::Queue, setup: Setup) -> Result<Lattice> {
     let grid = Grid::new(&setup)?;
     let mut state = State::rest(grid.cell_count());
-    // A flow in every cell, quickly made: at rest denormal numbers would slow a CPU down.
+    // A simple flow in every cell: at rest, denormal numbers would slow a CPU down.
     for (n, (u, v)) in state.velocity[0]
         .iter_mut()
         .zip(&mut state.excess)
@@ -275,7 +274,7 @@ fn make(device: &wgpu::Device, queue: &wgpu::Queue, setup: Setup) -> Result<Latt
     Ok(lattice)
 }
 
-/// The loop of a caller who moves bodies: poses in, a step, loads out.
+/// The loop of a caller that moves bodies: poses in, a step, loads out.
 fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
     let (device, queue) = (clock.device.clone(), clock.queue.clone());
     let cells = lattice.grid().cells[0];

@@ -1,21 +1,21 @@
-//! Which of the aims are met.
+//! Performance targets.
 
 use serde::Serialize;
 
-/// An aim: what it says, what was found, and whether that is enough.
+/// A target: its statement, the value found, and whether it is met.
 #[derive(Clone, Debug, Serialize)]
 pub struct Target {
-    /// What: `target`.
+    /// Kind of record: `target`.
     pub part: &'static str,
-    /// Grid or part that it is of.
+    /// Grid or part to which it applies.
     pub of: String,
-    /// What it says.
+    /// Statement of the target.
     pub says: &'static str,
-    /// What was found.
+    /// Value found.
     pub found: f64,
     /// The bound.
     pub limit: f64,
-    /// Whether that is enough.
+    /// Whether the target is met.
     pub met: bool,
 }
 
@@ -31,18 +31,18 @@ impl Target {
         }
     }
 
-    /// An aim that `found` reaches; none of what was not measured.
+    /// A target met if `found` ≥ `limit`; `None` if nothing was measured.
     pub fn at_least(says: &'static str, found: Option<f64>, limit: f64) -> Option<Self> {
         found.map(|found| Self::new(says, found, limit, found >= limit))
     }
 
-    /// An aim that `found` does not exceed; none of what was not measured.
+    /// A target met if `found` ≤ `limit`; `None` if nothing was measured.
     pub fn at_most(says: &'static str, found: Option<f64>, limit: f64) -> Option<Self> {
         found.map(|found| Self::new(says, found, limit, found <= limit))
     }
 }
 
-/// Prints one line about the aims of something, and returns them as those of it.
+/// Prints one line about the targets of a grid or part and returns them, labelled with it.
 pub fn show(of: &str, aims: impl IntoIterator<Item = Option<Target>>) -> Vec<Target> {
     let mut all: Vec<Target> = aims.into_iter().flatten().collect();
     for target in &mut all {

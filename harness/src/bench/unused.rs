@@ -1,4 +1,4 @@
-//! What a feature costs that nobody uses, and what the cost of a moving block follows: pairs of scenes, in turns.
+//! Cost of unused features, and scaling of the cost of moving blocks: pairs of scenes, in turns.
 
 use super::{
     Bench,
@@ -15,9 +15,9 @@ use riprap::{
 const ACROSS: f64 = 12.0;
 /// Cells across each of the blocks that move.
 const SMALL: f64 = 7.0;
-/// Cells across a block that hardly is one.
+/// Cells across a negligible block.
 const SPECK: f64 = 2.0;
-/// What a pair may differ by beyond the scene and itself, of a step.
+/// Limit on the difference of a pair beyond that of a scene and itself, over a step.
 const NOISE: f64 = 0.03;
 
 /// A pair of scenes that should cost the same.
@@ -25,7 +25,7 @@ struct Pair {
     name: &'static str,
     plain: World,
     unused: World,
-    /// Whether the block of the second is to sleep.
+    /// Whether the block of the second scene is expected to sleep.
     sleeps: bool,
 }
 
@@ -51,7 +51,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
             false => "other kernels",
         };
         table.add(pair.name, &format!("{n}³, {kernels}"), 100.0 * more, "%");
-        // The first is the scene beside itself.
+        // The first pair is the scene and itself.
         let noise = *noise.get_or_insert(more.abs());
         worst = worst.max(more - noise);
         if pair.sleeps {
@@ -96,7 +96,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
         (Some(first), Some(last)) => last / first,
         _ => f64::NAN,
     };
-    // As much less is as wrong, and a cost below zero is none.
+    // A smaller cost is as wrong as a larger one, and a cost below zero is invalid.
     let apart = if growth > 0.0 {
         growth.max(growth.recip())
     } else {

@@ -1,4 +1,4 @@
-//! Steps of free water: particles and pairs a second.
+//! Steps of free water: particles and pairs per second.
 
 use super::{Bench, copy_bandwidth};
 use kit::{
@@ -9,40 +9,40 @@ use kit::{
 use riprap::sph::NeighbourSearch;
 use serde::Serialize;
 
-/// Steps between two looks at the clock.
+/// Steps between two clock readings.
 const STEPS: u32 = 4;
-/// A step that takes longer, s, is the last that is tried, also where all sizes are wanted.
+/// Longest expected step, s, of a size that is tried: by default, and with `--full`.
 const LONGEST: [f64; 2] = [1.5, 15.0];
-/// Looks at the clock: more where steps take less than the longest.
+/// Clock readings; the larger number for steps up to the first of these limits.
 const ROUNDS: [u32; 2] = [3, 7];
-/// Pairs a second that a GPU should reach.
+/// Pairs per second that a GPU should reach.
 const TARGET: f64 = 1e10;
-/// Bytes that a pair reads of its other end in the sums of momentum and continuity, without lists: a particle, and in
-/// the second its new velocity too.
+/// Bytes that a pair reads of the other particle in the sums of momentum and continuity on average, without lists: the particle
+/// and, in the second sum, its new velocity too.
 const BYTES: f64 = 0.5 * (32.0 + 48.0);
 
-/// Bytes that a step moves for a particle at least, wherever the others are: its sort reads and writes it (32 each), momentum
+/// Least bytes that a step moves per particle, wherever the others are: its sort reads and writes it (32 each), momentum
 /// reads it and writes velocity and works (32 + 16 + 12), walls read the works (12), continuity reads it with its velocity and
 /// writes it (48 + 32), the search of the longest step reads velocity and works (28).
 const OWN_BYTES: f64 = 64.0 + 60.0 + 12.0 + 80.0 + 28.0;
-/// Bytes that are copied at most to see how many the device copies a second.
+/// Largest number of bytes copied to measure the copy bandwidth.
 const COPIED: u64 = 256 << 20;
-/// Bytes that both sums read of a list for each neighbour.
+/// Bytes of a neighbour list that both sums read per neighbour.
 const LIST_BYTES: f64 = 8.0;
-/// Operations of a pair in a sum, the mean of momentum (45) and continuity (38), as they stand in the kernels: roots and
-/// divisions count as one.
+/// Operations of a pair in a sum, the mean of momentum (45) and continuity (38), as written in the kernels: roots and divisions
+/// count as one.
 const FLOPS: f64 = 0.5 * (45.0 + 38.0);
-/// Steps after which a dam of this many particles' edge has broken: about 0.3 s, the front half way.
+/// Steps per particle along the edge after which a dam has broken: about 0.3 s, the front half way.
 const BROKEN: u32 = 10;
 
-/// A tank that was timed.
+/// Result for a tank.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What: `water`.
+    /// Kind of record: `water`.
     pub part: &'static str,
     /// Whether the water moves: a dam break, half way.
     pub moving: bool,
-    /// How neighbours were found.
+    /// Method of the neighbour search.
     pub neighbours: String,
     /// Particles of water.
     pub particles: usize,
@@ -50,21 +50,21 @@ pub struct Row {
     pub around: f64,
     /// Time of a step, s: CPU time over the cores on software adapters.
     pub step: f64,
-    /// Updates of particles of water a second; those of walls, which each step computes too, are not counted.
+    /// Updates of water particles per second; those of walls, which each step computes too, are not counted.
     pub particles_a_second: f64,
-    /// Pairs a second, each pair once for each of its ends and for each sum.
+    /// Pairs per second, counted for each particle of a pair and for each sum.
     pub pairs_a_second: f64,
-    /// Bytes of the other ends of pairs a second: most of them come from caches.
+    /// Bytes read of the other particles of pairs per second; most of them come from caches.
     pub bytes_a_second: f64,
-    /// Steps that sorted the particles, and made lists of neighbours if there are any, of all.
+    /// Fraction of the steps that sorted the particles and, if there are any, rebuilt the neighbour lists.
     pub sorted: f64,
-    /// Bytes that a step moves for a particle at least.
+    /// Least bytes that a step moves per particle.
     pub bytes_a_particle: f64,
-    /// Bytes that the device copies a second, read and written.
+    /// Bytes that the device copies per second, read and written.
     pub bandwidth: f64,
-    /// Part of that which those bytes take.
+    /// Fraction of the bandwidth that these bytes take.
     pub bandwidth_share: f64,
-    /// Operations of pairs a second.
+    /// Operations of pairs per second.
     pub flops: f64,
 }
 
@@ -149,8 +149,8 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// Times the steps of a tank, in so many `rounds` as its step (s) wants, and prints the row; the device copies `bandwidth`
-/// bytes a second.
+/// Times the steps of a tank and prints the row. `rounds` gives the number of rounds for the time of a step (s); `bandwidth` is
+/// the number of bytes that the device copies per second.
 fn time(
     clock: &Clock,
     bandwidth: f64,
@@ -170,7 +170,7 @@ fn time(
             Ok(())
         })?;
         let spent = clock.basis(spent);
-        // Lists make some steps longer than others: of all that moves the mean counts.
+        // Lists make some steps longer than others: for moving water the mean counts.
         step = match moving {
             true if all > 0.0 => (step * all + spent) / (all + steps),
             _ => step.min(spent / steps),

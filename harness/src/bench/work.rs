@@ -1,9 +1,8 @@
-//! What an invocation of a kernel computes and moves, counted from its code.
+//! Operations and bytes of a kernel invocation, counted from its code.
 //!
-//! The counter goes through the statements as naga has them, calls included. Of branches it takes the dearer one, and
-//! of a loop whose turns the code does not tell one turn: the numbers are those of the longest way through, exact where
-//! a kernel has none of both but early exits, as the fluid's plain ones have not. Drivers may do with less, since they
-//! compute what occurs twice once.
+//! The counter walks the statements of naga, calls included. It takes the more expensive branch, and one iteration of each loop:
+//! the numbers are those of the longest path, and exact for a kernel without loops and without branches other than early exits,
+//! such as the plain kernels of the fluid. Drivers may need fewer operations, since they compute common subexpressions once.
 
 use riprap::{
     gpu::link::Linked,
@@ -16,26 +15,26 @@ use riprap::{
 /// Operations and bytes of an invocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Additions, subtractions, multiplications, divisions, roots, and choices of the lesser or greater, of f32: one for
-    /// each component. Signs, comparisons and conversions are free.
+    /// Additions, subtractions, multiplications, divisions, roots, minima and maxima of f32, among others: one per component.
+    /// Signs, comparisons and conversions are free.
     pub flops: u64,
     /// Bytes read from storage buffers.
     pub read: u64,
     /// Bytes written to storage buffers.
     pub written: u64,
-    /// Loops of which one turn is counted.
+    /// Loops, of which one iteration each is counted.
     pub loops: u64,
 }
 
 impl Work {
-    /// Of `entry` of a linked program; nothing if it has no such entry point.
+    /// Counts `entry` of a linked program; zero if it has no such entry point.
     pub fn of(linked: &Linked, entry: &str) -> Self {
         let module = &linked.module;
         let entries = module.entry_points.iter().enumerate();
         let Some((index, found)) = entries.clone().find(|(_, found)| found.name == entry) else {
             return Self::default();
         };
-        // A function stands after those that it calls.
+        // naga lists a function after those that it calls.
         let mut called: Vec<Self> = Vec::new();
         for (handle, function) in module.functions.iter() {
             let info = &linked.info[handle];
@@ -71,7 +70,7 @@ impl Work {
         }
     }
 
-    /// Of two ways the dearer one, where an operation costs as much as a byte.
+    /// The more expensive of two branches, if an operation costs as much as a byte.
     fn or(self, other: Self) -> Self {
         let cost = |work: Self| work.flops + work.bytes();
         if cost(other) > cost(self) {
@@ -82,7 +81,7 @@ impl Work {
     }
 }
 
-/// Goes through a function.
+/// Counter for a function.
 struct Counter<'a> {
     module: &'a Module,
     info: &'a FunctionInfo,
@@ -176,7 +175,7 @@ impl Counter<'_> {
         }
     }
 
-    /// Of a product: of each number one, of a matrix with a vector a sum of products.
+    /// Operations of a product: one per component; a matrix times a vector is a sum of products per component.
     fn product(&self, factors: [Handle<Expression>; 2], at: Handle<Expression>) -> u64 {
         let inner = |of: Handle<Expression>| self.info[of].ty.inner_with(&self.module.types);
         let [left, right] = factors.map(inner);
@@ -205,7 +204,7 @@ impl Counter<'_> {
         }
     }
 
-    /// Bytes behind a pointer into a storage buffer; none elsewhere.
+    /// Bytes behind a pointer into a storage buffer; zero elsewhere.
     fn stored_bytes(&self, pointer: Handle<Expression>) -> u64 {
         let inner = self.info[pointer].ty.inner_with(&self.module.types);
         let Some(AddressSpace::Storage { .. }) = inner.pointer_space() else {
@@ -260,7 +259,7 @@ mod tests {
         let found = work("let m = mat2x3f(); let v = m * vec2f(b[k], 1.0); b[k] = v.x;");
         // Three sums of two products.
         assert_eq!(found, counted(9, 4, 4, 0));
-        // Of integers nothing counts, and a word that is counted up is read and written.
+        // Integer operations do not count; an atomic addition reads and writes its word.
         assert_eq!(work("atomicAdd(&n[k * 3u + 1u], 2u);"), counted(0, 4, 4, 0));
     }
 
@@ -278,7 +277,7 @@ mod tests {
         assert_eq!(found, counted(1, 4, 4, 0));
     }
 
-    /// Storage, cells of an invocation, and whether words are of 64 bits.
+    /// Storage, cells per invocation, and whether words have 64 bits.
     const LAYOUTS: [(Storage, u32, bool); 6] = [
         (Storage::F32, 1, false),
         (Storage::F32, 4, false),
@@ -321,7 +320,7 @@ mod tests {
                 setup.collision = collision;
                 step(&setup).flops as f64 / f64::from(lanes)
             };
-            // What does not depend on the cell is computed once an invocation.
+            // What does not depend on the cell is computed once per invocation.
             let (one, four) = (flops(1), flops(4));
             assert!(
                 (one - four).abs() < 0.02 * one,
@@ -343,12 +342,12 @@ mod tests {
         let [flops, bytes] = more(|s| s.force = Force::Constant([1e-6, 0.0, 0.0]));
         assert!(flops > 0 && bytes == 0, "{flops} {bytes}");
         let [flops, bytes] = more(|s| s.force = Force::Field(vec![[0.0; 3]; 512]));
-        // As often as the code asks for it.
+        // As often as the code reads it.
         assert!(
             flops > 0 && bytes >= 12 && bytes % 12 == 0,
             "{flops} {bytes}"
         );
-        // Its own velocity out, and those of six neighbours in, of which each is counted.
+        // Its own velocity is written, and those of six neighbours are read, each counted.
         let [flops, bytes] = more(|s| s.wale = Some(0.5));
         assert!(flops > 20 && bytes >= 24, "{flops} {bytes}");
         let [flops, bytes] = more(|s| s.collision = Collision::Bgk);

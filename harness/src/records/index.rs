@@ -1,4 +1,4 @@
-//! Which records there are of a machine, and of which commit each is.
+//! The records of a machine, and the commit of each.
 
 use crate::bench::Machine;
 use anyhow::Context;
@@ -18,7 +18,7 @@ pub enum Verdict {
     Passed,
     /// A limit is missed.
     Missed,
-    /// The command did not come to its end.
+    /// The command did not complete.
     BrokeOff,
 }
 
@@ -27,13 +27,13 @@ pub enum Verdict {
 pub struct Entry {
     /// How it ended.
     pub verdict: Verdict,
-    /// Commit that it is of.
+    /// Commit from which it was made.
     pub commit: String,
-    /// When it was made, UTC.
+    /// Date and time, UTC.
     pub date: String,
-    /// Whether it has the long form.
+    /// Whether it is in the long form.
     pub full: bool,
-    /// What it took, s.
+    /// Duration, s.
     pub seconds: f64,
 }
 
@@ -42,9 +42,9 @@ pub struct Entry {
 pub struct Index {
     /// Adapter, driver and cores.
     pub machine: String,
-    /// The records by their names.
+    /// The records by name.
     pub entries: BTreeMap<String, Entry>,
-    /// Where it is.
+    /// Folder of the index.
     #[serde(skip)]
     pub folder: PathBuf,
 }
@@ -67,7 +67,7 @@ impl Index {
         Ok(index)
     }
 
-    /// The indices of all machines in `records`, by the names of their folders.
+    /// The indices of all machines in `records`, by folder name.
     pub fn all(records: &Path) -> anyhow::Result<Vec<Self>> {
         let found = fs::read_dir(records)
             .with_context(|| format!("there are no records in {}", records.display()))?;
@@ -98,7 +98,7 @@ impl Index {
         })?)
     }
 
-    /// The rows of the record `name`; none if there is no such file.
+    /// The rows of the record `name`; empty if there is no such file.
     pub fn rows<T: serde::de::DeserializeOwned>(&self, name: &str) -> anyhow::Result<Vec<T>> {
         let path = self.folder.join(format!("{name}.json"));
         if !path.exists() {

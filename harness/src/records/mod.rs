@@ -1,8 +1,8 @@
 //! `riprap records`: makes the records of an adapter at one commit, one after the other, and renders the tables of the
-//! documents from them.
+//! documentation from them.
 //!
-//! Each record is made by a process of its own, so that one that ends badly takes no other along. A record that is made
-//! replaces the former one at its end; `index.json` says for each which commit it is of, and what it took.
+//! Each record is made by its own process, so that a crash does not affect the others. When a record is complete it replaces the
+//! former one; `index.json` holds the commit and the duration of each.
 
 mod index;
 mod tables;
@@ -19,13 +19,13 @@ use std::{
     time::Instant,
 };
 
-/// Makes the records of this machine at the present commit: every case of validate, every part of bench, the report,
-/// and the stability maps; then renders the tables of README.md and docs from them.
+/// Makes the records of this machine at the current commit: every case of validate, every part of bench, the report, and the
+/// stability maps; then renders the tables of README.md and docs from them.
 ///
-/// A record that the present commit has already is not made again, so that a call that was stopped can be repeated.
+/// A record that the current commit already has is not made again, so that an interrupted call can be repeated.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Records whose names match, such as `validate/rock/*` or `bench/*`; all without it
+    /// Records whose names match, such as `validate/rock/*` or `bench/*` [default: all]
     #[arg(long, value_name = "GLOB")]
     pub only: Option<String>,
     /// The long forms, which take hours on a CPU
@@ -57,7 +57,7 @@ struct Job {
     short: Vec<&'static str>,
     /// Arguments in the long form.
     full: Vec<&'static str>,
-    /// The option that takes the path of what is written.
+    /// The option that takes the output path.
     target: &'static str,
 }
 
@@ -71,7 +71,7 @@ impl Job {
     }
 }
 
-/// The grids of the fluid that are recorded.
+/// Recorded grids of the fluid.
 const GRIDS: &[&str] = &["--only", "fluid", "--grid", "64", "--grid", "128"];
 
 /// All records, in the order in which they are made.
@@ -121,11 +121,11 @@ fn jobs() -> Vec<Job> {
     cases.chain(benches).chain(folders).collect()
 }
 
-/// Makes the records that the present commit lacks, and renders; whether all that ran met their limits.
+/// Makes the records that the current commit lacks, and renders the tables. Returns whether all that ran met their limits.
 ///
 /// # Errors
-/// If the working tree has changes that are not committed, no name matches, there is no adapter, or a file cannot be
-/// written. A record that breaks off is an entry of the index; the former record stays.
+/// If the working tree has uncommitted changes, no name matches, there is no adapter, or a file cannot be written. A record that
+/// breaks off is an entry of the index; the former record stays.
 pub fn run(args: &Args, stop: &AtomicBool) -> anyhow::Result<bool> {
     let good = if args.render { true } else { make(args, stop)? };
     let machines = Index::all(&args.folder)?;
@@ -195,7 +195,7 @@ fn make(args: &Args, stop: &AtomicBool) -> anyhow::Result<bool> {
     Ok(good)
 }
 
-/// Runs the command of a record, and puts what it wrote in the place of the former one.
+/// Runs the command of a record and replaces the former record with its output.
 fn execute(job: &Job, args: &Args, folder: &Path) -> anyhow::Result<Verdict> {
     let target = folder.join(job.file());
     let draft = target.with_extension("draft");
@@ -212,7 +212,7 @@ fn execute(job: &Job, args: &Args, folder: &Path) -> anyhow::Result<Verdict> {
         .context("cannot start this program again")?;
     let verdict = match status.code() {
         Some(0) => Verdict::Passed,
-        // The code of a check that missed its limit, if it came to its end.
+        // The exit code for a missed limit, if the command completed.
         Some(1) if draft.exists() => Verdict::Missed,
         _ => {
             println!("{} broke off: {status}; the former record stays", job.name);
@@ -227,7 +227,7 @@ fn execute(job: &Job, args: &Args, folder: &Path) -> anyhow::Result<Verdict> {
     Ok(verdict)
 }
 
-/// The commit of the working tree, which must have no changes besides records and documents.
+/// The commit of the working tree, which must have no changes except in records and documents.
 fn commit(records: &Path) -> anyhow::Result<String> {
     let git = |arguments: &[&str]| -> anyhow::Result<String> {
         let out = Command::new("git").args(arguments).output();

@@ -1,15 +1,15 @@
-//! Tables of documents, rendered from records.
+//! Tables of the documentation, rendered from records.
 //!
-//! A document marks the place of a table by two comments:
+//! A document marks the position of a table by two comments:
 //!
 //! ```text
 //! <!-- records: validate solids/* -->
 //! <!-- end of records -->
 //! ```
 //!
-//! `validate GLOB...` has the limits of each case, `values GLOB...` all its values, `bench PART` one line for each row of the
-//! benchmark, `targets PART` its targets, and `headline` those of the front page; `tables.toml` has
-//! the columns and the headlines. What stands between the comments is replaced.
+//! `validate GLOB...` shows the limits of each case, `values GLOB...` all its values, `bench PART` one line for each row of the
+//! benchmark, `targets PART` its targets, and `headline` the limits of the front page; `tables.toml` defines the columns and the
+//! headlines. The text between the comments is replaced.
 
 use super::index::Index;
 use crate::validate::{self, Case};
@@ -20,13 +20,13 @@ use std::{collections::BTreeMap, fmt::Write};
 
 const BEGIN: &str = "<!-- records: ";
 const END: &str = "<!-- end of records -->";
-/// What follows a result that missed its limit.
+/// Suffix of a result that missed its limit.
 const MISSED: &str = ", **missed**";
 
-/// `text` with its tables rendered from the records of `machines`.
+/// Returns `text` with its tables rendered from the records of `machines`.
 ///
 /// # Errors
-/// If a mark has no end or no known table, or a record cannot be read.
+/// If a mark has no end or names no known table, or a record cannot be read.
 pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
     let mut rendered = String::new();
     let mut rest = text;
@@ -51,7 +51,7 @@ pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
     Ok(rendered + rest)
 }
 
-/// A table of a document, under its heads.
+/// A table of a document, with its column heads.
 #[derive(Default)]
 struct Table {
     heads: Vec<String>,
@@ -103,7 +103,7 @@ fn table(request: &str, machines: &[Index]) -> anyhow::Result<String> {
 #[derive(Clone, Debug, Deserialize)]
 struct Measured {
     quantity: String,
-    /// `None` where it is not a number.
+    /// `None` if it is not a number.
     value: Option<f64>,
     reference: Option<f64>,
     error: Option<f64>,
@@ -113,7 +113,7 @@ struct Measured {
 }
 
 impl Measured {
-    /// The error as a part of the limit; infinite where a limit of zero is missed.
+    /// The error over the limit; infinite if a limit of zero is missed.
     fn share(&self) -> f64 {
         match (self.error, self.limit) {
             (Some(error), Some(limit)) if limit > 0.0 => error / limit,
@@ -126,7 +126,7 @@ impl Measured {
         self.value.map_or("no number".into(), number)
     }
 
-    /// What the value is compared with: a reference or a bound; none of an error itself.
+    /// The reference or bound of the value; `None` if the value is an error itself.
     fn compared(&self) -> Option<String> {
         let reference = self.reference.filter(|reference| *reference != 0.0)?;
         let kind = match self.limit == Some(0.0) {
@@ -136,13 +136,13 @@ impl Measured {
         Some(format!("{kind} {}", number(reference)))
     }
 
-    /// The value, with what it is compared with.
+    /// The value, with its reference or bound.
     fn result(&self) -> String {
         let compared = self.compared().map(|with| format!(", {with}"));
         self.value() + &compared.unwrap_or_default()
     }
 
-    /// What is wanted of the value, and the value with its error, as the front page has them.
+    /// The requirement on the value, and the value with its error, as shown on the front page.
     fn headline(&self) -> (String, String) {
         let most = format!("error at most {}", self.limit());
         let missed = if self.passed { "" } else { MISSED };
@@ -205,7 +205,7 @@ fn values(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-/// A line for each case: how many limits it meets, each one that it misses, and the nearest of the others.
+/// A line for each case: the number of limits it meets, each one that it misses, and the one of the others closest to its limit.
 fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
     let mut table = Table::new(&[
         "case",
@@ -243,16 +243,16 @@ fn limits(index: &Index, cases: &[Case]) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-/// What tables show: `tables.toml`.
+/// Contents of the tables: `tables.toml`.
 #[derive(Deserialize)]
 struct Contents {
-    /// Columns of the parts of the benchmark: the key of the record, and the head.
+    /// Columns of the parts of the benchmark: the key of the record, and the column head.
     columns: BTreeMap<String, Vec<[String; 2]>>,
     headlines: Vec<Headline>,
     speeds: Vec<Speed>,
 }
 
-/// A result on the front page: what it is, the case, and how its quantities begin.
+/// A result on the front page: its description, the case, and the prefix of the quantity.
 #[derive(Deserialize)]
 struct Headline {
     about: String,
@@ -276,14 +276,14 @@ fn contents() -> anyhow::Result<Contents> {
 /// A row of a record of `riprap bench`.
 type BenchRow = Map<String, Value>;
 
-/// The rows of a part of the benchmark, which are its targets or not.
+/// The rows of a part of the benchmark: only its targets, or all but these.
 fn bench_rows(index: &Index, part: &str, targets: bool) -> anyhow::Result<Vec<BenchRow>> {
     let mut rows: Vec<BenchRow> = index.rows(&format!("bench/{part}"))?;
     rows.retain(|row| (word(row, "part") == "target") == targets);
     Ok(rows)
 }
 
-/// A text or a number of a row, a dash where there is neither.
+/// A text or a number of a row; a dash if it is neither.
 fn word(row: &BenchRow, key: &str) -> String {
     match row.get(key) {
         Some(Value::Number(value)) => value.as_f64().map_or("–".into(), number),
@@ -301,7 +301,7 @@ fn bench(index: &Index, part: &str) -> anyhow::Result<Table> {
     columns.push(["commit".into(), "commit".into()]);
     let mut table = Table::default();
     for row in bench_rows(index, part, false)? {
-        // A record of several parts has rows of others, too.
+        // A record of several parts also has rows of other parts.
         if row.contains_key(&columns[0][0]) {
             let cells = columns.iter().map(|[key, _]| word(&row, key));
             table.rows.push(cells.collect());
@@ -311,7 +311,7 @@ fn bench(index: &Index, part: &str) -> anyhow::Result<Table> {
     Ok(table)
 }
 
-/// The targets of a part of the benchmark: what was found, and whether that meets them.
+/// The targets of a part of the benchmark: the value found, and whether it meets the target.
 fn targets(index: &Index, part: &str) -> anyhow::Result<Table> {
     let mut table = Table::new(&["target", "of", "result", "commit"]);
     for row in bench_rows(index, part, true)? {
@@ -339,7 +339,7 @@ fn headline(machines: &[Index]) -> anyhow::Result<Table> {
     };
     let mut table = Table::new(&["quantity", "wanted"]);
     table.heads.extend(machines.iter().map(name));
-    // What is wanted, and what each machine has.
+    // The requirement, and the result of each machine.
     let mut add = |about: String, found: Vec<Option<(String, String)>>| {
         let wanted = found
             .iter()

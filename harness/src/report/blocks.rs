@@ -21,7 +21,7 @@ const METHODS: [Method; 8] = [
     Method::HALF,
 ];
 
-/// Where all methods are compared.
+/// Relaxation time at which all methods are compared.
 const ARRAY_TAU: f64 = 0.6;
 /// K = 4.292 of Zick & Homsy has four digits.
 const ARRAY_DIGITS: f64 = 5e-4 / 4.292;
@@ -54,7 +54,7 @@ pub fn array(full: bool) -> Class {
     };
     let mut points = Vec::new();
     for method in METHODS {
-        // It is made for less.
+        // The operator is made for smaller values.
         let tau = if method.name == Method::SUGA.name {
             0.55
         } else {
@@ -69,12 +69,12 @@ pub fn array(full: bool) -> Class {
         Method::ORDER_2,
         Method::MAGIC,
     ];
-    // Of the short form those that are within 2 % on it.
+    // The short form only has those that are within 2 % on it.
     let best = if full { best } else { &best[..1] };
     for method in best {
         points.extend(on(finest, *method, ARRAY_TAU));
     }
-    // Steps grow as 1/(τ − ½).
+    // The number of steps grows as 1/(τ − ½).
     let (slow, edges): (&[u32], &[u32]) = match full {
         true => (edges, edges),
         false => (&[8, 12], &[8, 16]),
@@ -119,7 +119,7 @@ pub fn cube(full: bool, reynolds: f64) -> Class {
             })
         })
     };
-    // The second Reynolds number is there for its larger y⁺.
+    // The second Reynolds number is included for its larger y⁺.
     let slow = reynolds < 50.0;
     // The first three are those of the limit.
     let default: &[u32] = match (full, slow) {

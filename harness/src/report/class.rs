@@ -1,65 +1,64 @@
-//! Classes of scenes, and the settings by which each is computed.
+//! Classes of scenes, and the settings with which each is computed.
 
 use super::{blocks, flows, water};
 use crate::validate::{Method, Stand, Trial};
 
-/// What a point shows.
+/// Result of a point.
 pub struct Found {
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
     /// The number that the class judges.
     pub value: f64,
-    /// Relaxation time, of a lattice.
+    /// Relaxation time, for a lattice.
     pub tau: Option<f64>,
     /// Largest y⁺ half a cell from a block.
     pub y_plus: Option<f64>,
 }
 
-/// Computes a point.
+/// Function that computes a point.
 pub type Run = Box<dyn Fn(&Stand) -> anyhow::Result<Found>>;
 
 /// One point of a diagram: a setting on a grid.
 pub struct Point {
     /// Name of the setting: that of the curve.
     pub setting: String,
-    /// Whether all that the library chooses is as it chooses it.
+    /// Whether all settings are the defaults of the library.
     pub default: bool,
-    /// How fine the grid is, in the measure of the class.
+    /// Resolution of the grid, in the measure of the class.
     pub resolution: f64,
-    /// Computes it.
+    /// Computes the point.
     pub run: Run,
 }
 
-/// What the value of a class is compared with.
+/// Reference for the value of a class.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference {
     /// The value is the error.
     None,
-    /// A number that is known, and the part of it by which it may be off.
+    /// A known number, and its relative uncertainty.
     Known(f64, f64),
     /// The limit of the first three points, which have the default setting on grids each twice as fine as the one
     /// before.
     Limit,
-    /// The limit of three values that were found so on finer grids than those of the class.
+    /// The limit of three such values, recorded on finer grids than those of the class.
     Recorded([f64; 3]),
 }
 
-/// Scenes of a kind.
+/// A class of scenes.
 pub struct Class {
     /// Short name, as in the table.
     pub name: &'static str,
-    /// What it is.
+    /// Its title.
     pub title: &'static str,
-    /// What the error is, and of what.
+    /// The error, and its reference.
     pub error: &'static str,
-    /// What the resolution counts.
+    /// Unit of the resolution.
     pub resolution: &'static str,
-    /// What an update is of.
+    /// What an update counts: a cell or a particle.
     pub update: &'static str,
-    /// What the value is compared with.
+    /// Reference for the value.
     pub reference: Reference,
-    /// By the clock on the wall on two quiet cores with lavapipe, compilation and the repeat included, s; none where
-    /// nobody has measured it.
+    /// Wall time on two quiet cores with lavapipe, including compilation and the repeat, s; `None` if it has not been measured.
     pub seconds: Option<f64>,
     /// Its points, in their order.
     pub points: Vec<Point>,
@@ -67,9 +66,9 @@ pub struct Class {
 
 /// All classes; with `full` on the grids for a GPU.
 ///
-/// The short form is a fraction of that design: each axis (collision, equilibrium, storage, operator, interval, scheme)
-/// is crossed with the grids, and with nothing else but where a class is there for it (τ of the spheres). The finest
-/// grids are those on which the default still takes seconds; a limit that wants finer ones is a recorded one.
+/// The short form is a fraction of that design: each axis (collision, equilibrium, storage, operator, interval, scheme) is
+/// crossed with the grids only, except in classes made for another axis (τ of the spheres). The finest grids are those on which
+/// the default still takes seconds; a limit that needs finer ones is recorded.
 pub fn classes(full: bool) -> Vec<Class> {
     vec![
         flows::taylor_green(full),
@@ -85,13 +84,13 @@ pub fn classes(full: bool) -> Vec<Class> {
     ]
 }
 
-/// What the short form of a class takes; of the full one nobody knows.
+/// Time of the short form of a class; `None` for the full form, which has not been timed.
 pub fn seconds(full: bool, short: f64) -> Option<f64> {
     (!full).then_some(short)
 }
 
 impl Point {
-    /// A lattice by `method` on a grid.
+    /// A lattice computed by `method` on a grid.
     pub fn by(
         method: Method,
         resolution: f64,
@@ -105,18 +104,18 @@ impl Point {
         }
     }
 
-    /// The same under a name that says more; without a comma, since tables hold it.
+    /// The same with `what` added to its name; without a comma, since tables contain it.
     pub fn with(mut self, what: &str) -> Self {
         self.setting = format!("{} at {what}", self.setting);
         self
     }
 }
 
-/// Orders that a method may show; an observed one beyond is that of rounding or of a change of sign.
+/// Plausible orders of a method; an observed order outside is due to rounding or a change of sign.
 const ORDERS: [f64; 2] = [0.5, 3.0];
 
-/// The limit of a number over three grids (Richardson 1911), and the part of it by which it may be off: what the extrapolation adds, or the last change where the
-/// numbers swing. Each grid is twice as fine as the one before.
+/// The limit of a number over three grids, each twice as fine as the one before (Richardson 1911), and its relative uncertainty:
+/// the part added by the extrapolation, or the last change if the numbers oscillate.
 pub fn limit([coarse, middle, fine]: [f64; 3]) -> (f64, f64) {
     let ratio = (coarse - middle) / (middle - fine);
     if !(ratio.is_finite() && ratio > 0.0) {

@@ -1,4 +1,4 @@
-//! All that a report holds: rows, findings and noise, in words, as JSON and as pictures.
+//! Contents of a report: rows, findings and noise, in words, as JSON and as pictures.
 
 use super::{
     class::Class,
@@ -17,13 +17,13 @@ use riprap::output::replace;
 use serde::Serialize;
 use std::path::Path;
 
-/// What counts as run time.
+/// Which time counts as run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Time {
     /// CPU time of all threads: a busy machine distorts it least.
     Cpu,
-    /// By the clock on the wall.
+    /// Wall time.
     Wall,
 }
 
@@ -56,33 +56,33 @@ pub struct Repeat {
     pub class: String,
     /// Resolution.
     pub resolution: f64,
-    /// Its run time both times, s.
+    /// Run times of both runs, s.
     pub seconds: [f64; 2],
 }
 
 impl Repeat {
-    /// How far both times are apart, as a part of the smaller one.
+    /// Difference of the two times over the smaller one.
     fn apart(&self) -> f64 {
         let [a, b] = self.seconds;
         (a - b).abs() / a.min(b)
     }
 }
 
-/// All that was measured.
+/// All measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Where and when.
+    /// Machine and time of the measurement.
     #[serde(flatten)]
     pub machine: Machine,
-    /// Whether in the full form.
+    /// Whether this is the full form.
     pub full: bool,
-    /// What counts as run time.
+    /// Which time counts as run time.
     pub time: Time,
     /// Runs that were done twice.
     pub repeats: Vec<Repeat>,
     /// The rows.
     pub rows: Vec<Row>,
-    /// What follows from them.
+    /// Conclusions from the rows.
     pub findings: Vec<Finding>,
 }
 
@@ -92,7 +92,7 @@ impl Report {
         self.rows.iter().filter(|row| row.class == class).collect()
     }
 
-    /// Runs the longest short run with the defaults of a class again.
+    /// Repeats the longest of the short runs with the defaults of a class.
     pub(super) fn repeat(&self, stand: &Stand, class: &Class) -> Option<Repeat> {
         /// Longest run that is done twice, s.
         const SHORT: f64 = 2.0;
@@ -112,7 +112,7 @@ impl Report {
         })
     }
 
-    /// How far run times differ from run to run.
+    /// Describes how much run times differ from run to run.
     pub(super) fn noise_says(&self) -> String {
         let mut all: Vec<f64> = self.repeats.iter().map(Repeat::apart).collect();
         all.sort_by(f64::total_cmp);
@@ -138,7 +138,7 @@ impl Report {
         let all: [Cost; 2] = [self.time.of(), |row| row.updates as f64];
         let findings = classes.iter().flat_map(|class| {
             let rows = self.of(class.name);
-            // That of other classes says nothing of this one; updates are counted, and have none.
+            // The noise of other classes does not apply; updates are counted and have none.
             let own = self.repeats.iter().filter(|one| one.class == class.name);
             let noise = own.map(Repeat::apart).fold(0.0, f64::max);
             let costs = [
@@ -185,7 +185,7 @@ impl Report {
         text + "."
     }
 
-    /// Error of a class against a cost: a curve for each setting, and the errors that are asked for.
+    /// Error of a class against a cost: a curve for each setting, and the target errors.
     pub(super) fn chart(&self, class: &Class, x: Measure, cost: Cost) -> Chart {
         let rows = self.of(class.name);
         let mut curves: Vec<Curve> = Vec::new();
@@ -199,7 +199,7 @@ impl Report {
                 });
                 curves.len() - 1
             });
-            // Far beyond the method's range nothing is to be read off.
+            // Errors far beyond the method's range are not drawn.
             if let Some(error) = row.certain_error().filter(|error| *error < 10.0) {
                 curves[at].points.push([cost(row), 100.0 * error]);
             }

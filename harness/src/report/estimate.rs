@@ -1,21 +1,21 @@
-//! How long a report takes: told before it begins, and mended as it goes.
+//! Estimated duration of a report, updated as it proceeds.
 
 use super::class::Class;
 use crate::print::duration;
 use std::fmt;
 
-/// Seconds of the classes, as they were on two cores, and what they take here.
+/// Recorded times of the classes on two cores, from which the time here is estimated.
 #[derive(Debug)]
 pub struct Estimate {
-    /// Of all classes; none in the full form, which nobody has timed.
+    /// All classes, s; `None` in the full form, which has not been timed.
     planned: Option<f64>,
-    /// Of those that are done.
+    /// Finished classes, s.
     done: f64,
     points: usize,
 }
 
 impl Estimate {
-    /// Of the classes that are to run.
+    /// Estimate for the classes to run.
     pub fn of(classes: &[Class]) -> Self {
         Self {
             planned: classes.iter().map(|class| class.seconds).sum(),
@@ -24,7 +24,7 @@ impl Estimate {
         }
     }
 
-    /// What is left after another class, `spent` seconds from the start: in proportion to what the others took.
+    /// Time left after another class, `spent` seconds from the start, in proportion to the finished classes.
     pub fn after(&mut self, class: &Class, spent: f64) -> Option<String> {
         self.done += class.seconds?;
         let left = self.planned? - self.done;

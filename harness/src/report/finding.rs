@@ -1,11 +1,11 @@
-//! What the rows say: the cheapest setting that reaches an error, and what the default costs beside it.
+//! Conclusions from the rows: the cheapest setting that reaches an error, compared with the cost of the default.
 
 use super::row::{Cost, Row};
 use serde::Serialize;
 
-/// Errors that are asked for.
+/// Target errors.
 pub const TARGETS: [f64; 3] = [0.05, 0.01, 0.001];
-/// Costs up to this ratio count as the same, where noise is not larger: what a grid finer by 6 % costs.
+/// Costs up to this ratio count as the same unless noise is larger: the additional cost of a grid finer by 6 %.
 pub const SAME: f64 = 1.25;
 
 /// A row that reaches an error.
@@ -21,14 +21,14 @@ pub struct Choice {
     pub cost: f64,
 }
 
-/// The answer for a class, an error and a cost.
+/// The result for a class, a target error and a cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// Class of scenes.
     pub class: String,
-    /// The error.
+    /// The target error.
     pub target: f64,
-    /// What the cost is.
+    /// Name of the cost.
     pub cost: &'static str,
     /// Ratio of costs up to which they count as the same.
     pub same: f64,
@@ -39,7 +39,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Looks among the rows of a class.
+    /// Searches the rows of a class.
     pub fn of(
         class: &str,
         rows: &[&Row],
@@ -71,20 +71,20 @@ impl Finding {
         }
     }
 
-    /// Cost of the defaults over the least, where both reach the error.
+    /// Cost of the defaults over the least cost, if both reach the error.
     pub fn ratio(&self) -> Option<f64> {
         Some(self.default.as_ref()?.cost / self.cheapest.as_ref()?.cost)
     }
 
-    /// Whether the defaults follow from it; none where nothing reaches the error.
+    /// Whether the finding supports the defaults; `None` if nothing reaches the error.
     pub fn follows(&self) -> Option<bool> {
         self.cheapest.as_ref()?;
         Some(self.ratio().is_some_and(|ratio| ratio <= self.same))
     }
 }
 
-/// Whether a row and all finer ones of its setting have an error of at most `target`: one that is small where the
-/// error changes its sign is luck.
+/// Whether a row and all finer ones of its setting have an error of at most `target`: a small error at a change of its sign is a
+/// coincidence.
 fn reaches(row: &Row, rows: &[&Row], target: f64) -> bool {
     let mut finer = rows
         .iter()

@@ -21,7 +21,7 @@ fn all(grids: &[u32], run: impl Fn(Method, u32) -> Point, finest: (u32, &[Method
     usual.chain(finest).collect()
 }
 
-/// Vortices that decay.
+/// Decaying vortices.
 pub fn taylor_green(full: bool) -> Class {
     let run = |method, n: u32| {
         Point::by(method, n.into(), move |stand| {
@@ -50,7 +50,7 @@ pub fn taylor_green(full: bool) -> Class {
     }
 }
 
-/// Of Poiseuille flow: within what the operator of Suga et al. is made for, 4e-4 to 0.059 above ½.
+/// Relaxation time of Poiseuille flow, within the range of the operator of Suga et al., 4e-4 to 0.059 above ½.
 const CHANNEL_TAU: f64 = 0.55;
 
 /// A channel driven by a force.
@@ -66,7 +66,7 @@ pub fn poiseuille(full: bool) -> Class {
             })
         })
     };
-    // Steps grow with the square of the height: the third grid is for those whose error changes otherwise than by h².
+    // The number of steps grows with the square of the height: the third grid is for methods whose error does not fall as h².
     let (grids, finest): (&[u32], _) = match full {
         true => (&[4, 8, 16, 32], (64, &METHODS[..])),
         false => (
@@ -101,7 +101,7 @@ pub fn cavity(full: bool) -> Class {
     };
     let (grids, finest): (&[u32], u32) = match full {
         true => (&[16, 32, 64], 128),
-        // Beyond 24 the digits of the table are what is left of the error.
+        // Beyond 24 cells the digits of the table dominate the error.
         false => (&[12, 16], 24),
     };
     Class {

@@ -1,8 +1,8 @@
-//! `riprap report`: work–precision diagrams. Error against run time and against updates, every setting on one plot, and
-//! what follows from them for the defaults.
+//! `riprap report`: work–precision diagrams. Error against run time and against updates, every setting on one plot, and the
+//! conclusions for the defaults.
 //!
-//! A class of scenes is a case of [`crate::validate`] that is run by several settings on several grids. Each point is a
-//! row that is on disk before the next one begins; one that diverges is a row that says so.
+//! A class of scenes is a case of [`crate::validate`], run with several settings on several grids. Each point is a row that is on
+//! disk before the next one begins; a run that diverges is a row with a note.
 
 mod blocks;
 mod class;
@@ -38,10 +38,10 @@ pub struct Args {
     /// Folder for report.html, report.csv, report.json and a PNG of each class
     #[arg(long, value_name = "DIR", default_value = "out/report")]
     pub out: PathBuf,
-    /// Classes of scenes, such as `cube-*`; all without it
+    /// Classes of scenes, such as `cube-*` [default: all]
     #[arg(long, value_name = "GLOB")]
     pub case: Option<String>,
-    /// Go on with the report.csv in the folder, which this adapter began: what it holds does not run again
+    /// Continue the report.csv in the folder, which this adapter began: points that it contains are not run again
     #[arg(long)]
     pub resume: bool,
     /// Part of the name of the adapter to use
@@ -49,10 +49,10 @@ pub struct Args {
     pub adapter: Option<String>,
 }
 
-/// Measures and writes.
+/// Measures the classes and writes the report.
 ///
 /// # Errors
-/// If no class matches, there is no adapter, or a file cannot be written. A point that breaks off is a row.
+/// If no class matches, there is no adapter, or a file cannot be written. A point that breaks off is a row, not an error.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let classes = select(args)?;
     let stand = Stand::open(args.adapter.as_deref(), args.full)?;
@@ -105,10 +105,10 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes down in what form and on what the rows of the folder were measured; refuses to add others to them.
+/// Records the form and the adapter of the rows in the folder; refuses to add rows of others to them.
 fn same_conditions(args: &Args, own: &str) -> anyhow::Result<()> {
     let path = args.out.join("conditions.txt");
-    // Reports that are older have none.
+    // Older reports have no such file.
     let written = std::fs::read_to_string(&path).ok();
     if let Some(other) = written.filter(|other| args.resume && *other != own) {
         anyhow::bail!(
@@ -141,7 +141,7 @@ fn select(args: &Args) -> anyhow::Result<Vec<Class>> {
     Ok(found)
 }
 
-/// Computes what the table lacks of a class; its rows are on disk as they come.
+/// Computes the points of a class that the table lacks; each row is written to disk when it is done.
 fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()> {
     let mut reference = match class.reference {
         Reference::None => Some((None, 0.0)),
@@ -165,7 +165,7 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
             let three = class.points[..3]
                 .iter()
                 .map(|point| table.find(class.name, point)?.value);
-            // Without its three grids a class has values, and no errors.
+            // Without these three grids a class has values, but no errors.
             if let Some(values) = three.collect::<Option<Vec<f64>>>()
                 && let Some(values) = values.first_chunk::<3>()
             {

@@ -1,4 +1,4 @@
-//! The report as a page that needs nothing else: `report.html`.
+//! The report as a self-contained page: `report.html`.
 
 use super::{
     Report,
@@ -17,12 +17,12 @@ const STYLE: &str = "body{font:16px/1.45 sans-serif;color:#222;max-width:1240px;
     h2{margin-top:2em}summary{cursor:pointer;color:#06c}figure{display:flex;margin:0}svg{width:50%;height:auto}\
     td.yes{color:#070}td.no{color:#b00}";
 
-/// What the names of settings mean.
+/// Explanation of the names of settings.
 const SETTINGS: &str = "<p>Settings. <b>default</b>: what the library chooses (Hermite moments, product \
-    equilibrium, f32, Λ = 3/16 beside walls and 1/10 beside blocks only, holdych, an exchange each step). The others \
+    equilibrium, f32, Λ = 3/16 next to walls and 1/10 next to blocks only, holdych, an exchange each step). The others \
     differ from it in one thing: <b>bgk</b>, <b>suga</b>: the collision; <b>order 2</b>: the equilibrium; \
     <b>Λ = 3/16</b>: that of the odd moments in every cell; <b>16-bit</b>: the storage; <b>noble</b>, \
-    <b>superposition</b>: the operator of cells with a block; <b>interval n</b>: fluid and blocks meet every n \
+    <b>superposition</b>: the operator of cells with a block; <b>interval n</b>: fluid and blocks are coupled every n \
     steps. Free water: <b>delta</b> (the default) and <b>mueller</b>.</p>\n";
 
 /// The page of a report, with the classes that have run.
@@ -124,17 +124,17 @@ fn section(report: &Report, class: &Class, rows: &[&Row]) -> Result<String> {
     Ok(html + "</table></details>\n")
 }
 
-/// What is to be known of the reference.
+/// Remarks on the reference.
 fn reference(class: &Class, rows: &[&Row]) -> String {
     let uncertainty = rows.iter().map(|row| row.uncertainty).fold(0.0, f64::max);
     match class.reference {
         Reference::Limit => format!(
-            " That may be off by {}: smaller errors say no more, and are drawn and counted as that.",
+            " The limit is uncertain by {}: smaller errors are drawn and counted as this value.",
             percent(uncertainty)
         ),
         Reference::Recorded(_) => format!(
-            " The limit is a recorded one, of finer grids than these. It may be off by {}: smaller errors say no more, \
-             and are drawn and counted as that.",
+            " The limit was recorded on finer grids than these. It is uncertain by {}: smaller errors are drawn and \
+             counted as this value.",
             percent(uncertainty)
         ),
         Reference::Known(..) if uncertainty > 0.0 => {
@@ -153,8 +153,8 @@ fn findings(report: &Report, classes: &[Class]) -> String {
         .collect();
     let mut html = format!(
         "<h2 id=\"findings\">What the data say</h2>\n<p>The cheapest setting that reaches an error, on its coarsest grid \
-         from which on every finer one that it ran on reaches it too, and what the default costs beside it. The default follows from \
-         the data where it costs at most {}, which is within noise. “Not reached”: by none of the runs above; finer \
+         from which all finer grids that it ran on reach the error too, compared with the cost of the default. The default \
+         follows from the data if it costs at most {}, which is within noise. “Not reached”: by none of the runs above; finer \
          grids may.</p>\n<table><tr><th class=\"l\">class</th><th>error</th>",
         same.join(" and ")
     );
@@ -236,7 +236,7 @@ fn capital(text: &str) -> String {
     first.unwrap_or_default() + chars.as_str()
 }
 
-/// Text that means itself in HTML, SVG and their attributes.
+/// Escapes text for HTML, SVG and their attributes.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

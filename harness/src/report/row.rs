@@ -9,38 +9,38 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A setting on a grid: what it found and what it cost.
+/// Result and cost of a setting on a grid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
     /// Class of scenes.
     pub class: String,
     /// Setting.
     pub setting: String,
-    /// Whether all that the library chooses is as it chooses it.
+    /// Whether all settings are the defaults of the library.
     pub default: bool,
-    /// How fine the grid is, in the measure of the class.
+    /// Resolution of the grid, in the measure of the class.
     pub resolution: f64,
-    /// Relaxation time, of a lattice.
+    /// Relaxation time, for a lattice.
     pub tau: Option<f64>,
     /// Largest y⁺ half a cell from a block at the end.
     pub y_plus: Option<f64>,
-    /// What was found.
+    /// Value found.
     pub value: Option<f64>,
-    /// What it should be; none where the value is an error.
+    /// Expected value; `None` if the value is an error itself.
     pub reference: Option<f64>,
-    /// How far it is off, as a part of it.
+    /// Relative error of the value.
     pub error: Option<f64>,
-    /// Part of the reference by which that may be off itself.
+    /// Relative uncertainty of the reference.
     pub uncertainty: f64,
     /// Cells of the domain, or particles of water.
     pub cells: u64,
-    /// Steps, of particles acoustic ones.
+    /// Steps; for particles, acoustic steps.
     pub steps: u64,
-    /// Their product.
+    /// Cells times steps.
     pub updates: u64,
     /// CPU time of the steps, all threads together, s.
     pub cpu_seconds: f64,
-    /// The same by the clock on the wall, s.
+    /// Wall time of the steps, s.
     pub wall_seconds: f64,
     /// Why there is no number, if there is none.
     pub note: String,
@@ -49,18 +49,18 @@ pub struct Row {
 /// A cost of a row.
 pub type Cost = fn(&Row) -> f64;
 
-/// Heads of the columns.
+/// Column heads.
 pub const HEAD: &str = "class,setting,default,resolution,tau,y_plus,value,reference,error,uncertainty,cells,steps,\
     updates,cpu_seconds,wall_seconds,note";
 
 impl Row {
-    /// Whether it is that of a point of its class.
+    /// Whether the row belongs to a point of its class.
     pub fn is_of(&self, point: &Point) -> bool {
-        // Decimals give the very number back.
+        // Decimals round-trip to the same number.
         self.setting == point.setting && self.resolution == point.resolution
     }
 
-    /// Takes what a run found, or why it found nothing.
+    /// Stores the result of a run, or the reason for which it has none.
     pub fn take(&mut self, found: anyhow::Result<Found>) {
         match found {
             Ok(found) => {
@@ -75,12 +75,12 @@ impl Row {
                     self.note = "what it found is not a number".into();
                 }
             }
-            // One field of the table: without what ends it.
+            // One field of the table: without separators.
             Err(error) => self.note = format!("{error:#}").replace([',', '\n'], ";"),
         }
     }
 
-    /// Compares with the reference, which may be off by `uncertainty`; without one the value is the error.
+    /// Compares with the reference, whose relative uncertainty is `uncertainty`; without one the value is the error.
     pub fn compare(&mut self, reference: Option<f64>, uncertainty: f64) {
         (self.reference, self.uncertainty) = (reference, uncertainty);
         self.error = self.value.map(|value| match reference {
@@ -89,7 +89,7 @@ impl Row {
         });
     }
 
-    /// Error that is certain: one below what the reference may be off says no more than that.
+    /// Error, at least the uncertainty of the reference.
     pub fn certain_error(&self) -> Option<f64> {
         self.error.map(|error| error.max(self.uncertainty))
     }
@@ -118,7 +118,7 @@ impl Row {
         .join(",")
     }
 
-    /// The row of a line of the table; none if it is no such line.
+    /// Parses a line of the table; `None` if it is not a row.
     pub fn parse(line: &str) -> Option<Self> {
         let fields: Vec<&str> = line.split(',').collect();
         if fields.len() != HEAD.split(',').count() {
@@ -153,7 +153,7 @@ impl Row {
     }
 }
 
-/// The rows so far; what is here is on disk.
+/// The rows so far, all of which are on disk.
 pub struct Table {
     path: PathBuf,
     /// The rows.
@@ -174,10 +174,10 @@ impl Table {
         Ok(table)
     }
 
-    /// The table that an earlier report has left.
+    /// Reads the table of an earlier report.
     ///
     /// # Errors
-    /// If it cannot be read, or a line is no row.
+    /// If it cannot be read, or a line is not a row.
     pub fn resume(path: &Path) -> riprap::Result<Self> {
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
         let lines = text.lines().enumerate().skip(1);

@@ -53,7 +53,7 @@ pub fn still(full: bool) -> Class {
     }
 }
 
-/// The first mode of a tank.
+/// A standing wave, the first mode of a tank.
 pub fn wave(full: bool) -> Class {
     let layers: &[u32] = match full {
         true => &[10, 25, 50],
@@ -74,7 +74,7 @@ pub fn wave(full: bool) -> Class {
     }
 }
 
-/// A dam that breaks.
+/// A dam break.
 pub fn dam(full: bool) -> Class {
     let columns: &[u32] = match full {
         true => &[10, 20, 40, 80],

@@ -1,4 +1,4 @@
-//! One cell of a map, as it stands in the files, and how its run ended.
+//! One cell of a map, as stored in the files, and the outcome of its run.
 
 use riprap::Error;
 use serde::Serialize;
@@ -7,20 +7,20 @@ use std::{fmt, time::Instant};
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It came to its end, and nothing in it contradicts physics.
+    /// It completed, and nothing in it contradicts physics.
     Ended,
-    /// It came to its end with a number that no flow and no block can have.
+    /// It completed with a number that no flow and no block can have.
     Unphysical,
-    /// It came to its end and what was measured lies beyond the limit of the map.
+    /// It completed, and the measured value exceeds the limit of the map.
     OverLimit,
-    /// The library ended it with this error, the name of one of [`Error`].
+    /// The library stopped it with this error, named after a variant of [`Error`].
     Error(String),
-    /// The library ended it with this error, whose message does not name what it should.
+    /// The library stopped it with this error, whose message lacks what it should name.
     Unclear(String),
 }
 
 impl Outcome {
-    /// Of an error: what is none of the library's keeps its first words.
+    /// The outcome of an error: the variant of a library error, or the message of any other.
     pub fn of(error: &anyhow::Error) -> Self {
         Self::Error(match error.downcast_ref::<Error>() {
             Some(error) => variant(error),
@@ -28,12 +28,12 @@ impl Outcome {
         })
     }
 
-    /// Whether the run came to its end as it should.
+    /// Whether the run completed as it should.
     pub fn is_good(&self) -> bool {
         *self == Self::Ended
     }
 
-    /// Whether somebody must mend something: a message, or what the map measures.
+    /// Whether something must be fixed: a message, or what the map measures.
     pub fn is_defect(&self) -> bool {
         matches!(self, Self::Unclear(_) | Self::OverLimit)
     }
@@ -51,7 +51,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// Name of an error's variant: its debug form begins with it.
+/// Name of an error's variant, which begins its debug form.
 fn variant(error: &Error) -> String {
     let text = format!("{error:?}");
     let end = text.find([' ', '(', '{']).unwrap_or(text.len());
@@ -61,33 +61,33 @@ fn variant(error: &Error) -> String {
 /// Columns of the table, in the order of [`Cell::row`].
 pub const COLUMNS: &str = "map,panel,y,x,outcome,value,quantity,steps,warned,agrees,seconds,detail";
 
-/// What one run of a map found.
+/// Result of one run of a map.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cell {
     /// Name of the map.
     pub map: String,
-    /// Which of its panels: a method, or empty.
+    /// Panel of the map: a method, or empty.
     pub panel: String,
-    /// Place along the vertical axis.
+    /// Position on the vertical axis.
     pub y: String,
-    /// Place along the horizontal axis.
+    /// Position on the horizontal axis.
     pub x: String,
-    /// How the run ended, [`Outcome`] in words.
+    /// The [`Outcome`] of the run, in words.
     #[serde(serialize_with = "word")]
     pub outcome: Outcome,
-    /// What was measured, if the run came so far.
+    /// Measured value, if the run got that far.
     pub value: Option<f64>,
-    /// What that is.
+    /// Name of the value.
     pub quantity: String,
     /// Steps done.
     pub steps: u64,
-    /// What the library said before the run: empty, `warned` or `refused`, with the keys.
+    /// Advice of the library before the run: empty, `warned` or `refused`, with the keys.
     pub warned: String,
-    /// Whether that fits what came, where the map judges it.
+    /// Whether the advice fits the outcome, if the map judges it.
     pub agrees: Option<bool>,
-    /// Time that it took, s.
+    /// Duration, s.
     pub seconds: f64,
-    /// The whole message, or more numbers.
+    /// The full message, or more numbers.
     pub detail: String,
 }
 
@@ -114,10 +114,10 @@ impl Cell {
         }
     }
 
-    /// The cell after `follow` has run, with the time that it took.
+    /// Runs `follow` and returns the cell with its outcome and the time spent.
     ///
     /// # Errors
-    /// What is none of the library's errors: that is no finding.
+    /// Returns errors that are not the library's: they are not findings.
     pub fn run(
         mut self,
         follow: impl FnOnce(&mut Self) -> anyhow::Result<()>,
@@ -129,10 +129,10 @@ impl Cell {
         Ok(self)
     }
 
-    /// Ends it with what ended its run.
+    /// Records the error that ended the run, if any.
     ///
     /// # Errors
-    /// What is none of the library's errors: that is no finding.
+    /// Returns errors that are not the library's: they are not findings.
     pub fn end(&mut self, ended: anyhow::Result<()>) -> anyhow::Result<()> {
         let Err(error) = ended else { return Ok(()) };
         match error.downcast_ref::<Error>() {
@@ -145,7 +145,7 @@ impl Cell {
         Ok(())
     }
 
-    /// As a row of comma-separated values, without its end.
+    /// A row of comma-separated values, without the line end.
     pub fn row(&self) -> String {
         let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:e}"));
         [
@@ -166,7 +166,7 @@ impl Cell {
         .join(",")
     }
 
-    /// The few letters that fit into a square of a picture.
+    /// Short text that fits into a square of a picture.
     pub fn label(&self) -> String {
         let value = self.value.map(short);
         match &self.outcome {
@@ -187,7 +187,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// A field of a table: in quotes where it has to be (RFC 4180).
+/// A field of a table, in quotes if necessary (RFC 4180).
 pub fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

@@ -1,4 +1,4 @@
-//! A block that is thrown into fluid at rest: light ones answer to their own wake, fast ones to sound.
+//! A block thrown into fluid at rest: light blocks respond to their own wake, fast ones to sound.
 
 use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
@@ -25,9 +25,9 @@ const RATIO: [f64; 5] = [0.5, 1.0, 2.65, 5.0, 8.0];
 const SHORT_RATIO: [f64; 3] = [0.5, 2.65, 8.0];
 const MACH: [f64; 4] = [0.02, 0.05, 0.1, 0.2];
 const SHORT_MACH: [f64; 3] = [0.02, 0.1, 0.2];
-/// Rise of energy or speed over the start that rounding, sound and the swing of single loads do not explain.
+/// Rise of energy or speed over the start that rounding, sound and the fluctuation of single loads do not explain.
 const RISE: f64 = 1.05;
-/// Looks at the energy in a run.
+/// Readings of the energy in a run.
 const LOOKS: u64 = 10;
 
 fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
@@ -47,7 +47,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A free block of a density, or a driven one.
+/// A free block with the density `ratio`, or a driven one.
 fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::Result<Cell> {
     let speed = mach / 3f64.sqrt();
     let mut scene = tank::scene(CELLS, TAU)?;
@@ -77,7 +77,7 @@ fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::
         let peaks = Peaks::of(&mut tank, ratio.unwrap_or(1.0), [steps, LOOKS], cell)?;
         let [of_block, of_flow] = [peaks.block_speed, peaks.flow_speed].map(|u| u / speed);
         cell.detail = format!("largest speed / U₀: block {of_block:.3}, fluid {of_flow:.3}");
-        // What drives a block gives it energy.
+        // A driven block gains energy from its drive.
         let free = ratio.is_some();
         cell.value = Some(if free { peaks.energy } else { of_flow });
         if free && (peaks.energy > RISE || of_block > RISE) {

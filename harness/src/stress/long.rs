@@ -1,5 +1,4 @@
-//! A hundred blocks that fill three tenths of a periodic box, for a long time: what is conserved, what repeats, and
-//! what memory grows to.
+//! A hundred blocks that fill three tenths of a periodic box, for a long time: conservation, repeatability, and growth of memory.
 
 use super::{Cell, Map, Outcome, Sink, tally::Tally};
 use crate::validate::{
@@ -22,15 +21,15 @@ pub const MAP: Map = Map {
 
 const FRACTION: f64 = 0.3;
 const RATIO: f64 = 2.65;
-/// Speed of the stream and of the blocks, cells a step: Mach 0.1 in all.
+/// Speed of the stream and of the blocks, cells per step: Mach 0.1 in all.
 const SPEED: f64 = 0.03;
-/// Cells from a block to the next.
+/// Distance from a block to the next, cells.
 const SPACING: u32 = 10;
-/// Of the momentum that there is to exchange; that of three blocks over 300 steps.
+/// Limit on the momentum lost over that carried by the blocks; the same as for three blocks over 300 steps.
 const MOMENTUM: f64 = 1e-2;
-/// Of the mass: round-off of f32 in random directions.
+/// Limit on the drift of the mass: round-off of f32 in random directions.
 const MASS: f64 = 1e-6;
-/// Growth of the process in the second half, while nothing is added to what runs.
+/// Limit on the growth of the process in the second half, while nothing is added to the run.
 const GROWTH: f64 = 0.05;
 
 fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
@@ -38,7 +37,7 @@ fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
     scene.numerics.velocity_scale = Some(2.0 * SPEED);
     scene.initial.velocity = numbers([0.0, 0.0, SPEED]);
     scene.materials[0].density = RATIO;
-    // Blocks that meet corner first at twice their speed sink in by 2 % of their edge.
+    // Blocks that collide corner first at twice their speed penetrate by 2 % of their edge.
     scene.materials[0].normal_stiffness = 10.0;
     scene.rock.corner_area = 0.25;
     let edge = f64::from(SPACING) * FRACTION.cbrt();
@@ -49,7 +48,7 @@ fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
         let place = at.map(|k| f64::from(SPACING) * (f64::from(k) + 0.5));
         let mut cube = block(shape, place, Motion::Free);
         cube.velocity = numbers([0, 1, 2].map(|a| SPEED * fields::noise(3 * n + a)));
-        // Turned by less than lets neighbours touch at the start.
+        // Rotated by so little that neighbours do not touch at the start.
         cube.rotation = turn(n);
         cube.rotation.angle = 10.0 * fields::noise(n);
         scene.blocks.push(cube);
@@ -65,7 +64,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     let scene = scene(rows)?;
     let mut tank = Tank::fill(stand, &scene)?;
     let before = Tally::of(&mut tank, RATIO)?;
-    // Pools of the driver and of the allocator fill in the first half: what grows after it grows without end.
+    // Pools of the driver and of the allocator fill in the first half: what grows afterwards grows without end.
     let mut warm = (None, 0);
     for part in 1..=parts {
         let begin = Instant::now();
@@ -78,7 +77,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         let first = Tally::of(&mut tank, RATIO)?;
         tank.advance(1)?;
         let now = Tally::of(&mut tank, RATIO)?;
-        // What cells inside blocks reflect swings with a period of two steps.
+        // The populations reflected by cells inside blocks alternate with a period of two steps.
         let drift = 0.5 * (first.momentum + now.momentum) - before.momentum;
         let lost = drift.length() / before.carried.max(now.carried);
         let mass = (now.mass / before.mass - 1.0).abs();
@@ -101,7 +100,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         }
         let growth = sizes.1 as f64 / device as f64 - 1.0;
         let text = format!("{device} to {} bytes of the blocks on the device", sizes.1);
-        // Buffers grow by halves as blocks reach more bricks, and there are no more than all.
+        // Buffers grow by half as blocks reach more bricks, at most to all bricks.
         report("growth of the buffers", growth, 0.5, text)?;
     }
     repeats(stand, &scene, steps, sink)
@@ -119,7 +118,7 @@ fn cell(tank: &Tank<'_>, name: &str, begin: Instant) -> Cell {
 
 fn judged(cell: Cell, value: f64, limit: f64, detail: String) -> Cell {
     Cell {
-        // NaN is beyond any limit.
+        // NaN exceeds any limit.
         outcome: if value <= limit {
             Outcome::Ended
         } else {
@@ -131,7 +130,7 @@ fn judged(cell: Cell, value: f64, limit: f64, detail: String) -> Cell {
     }
 }
 
-/// The first part again, twice.
+/// Runs the first part twice more and compares the states.
 fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow::Result<()> {
     let begin = Instant::now();
     let once = || -> anyhow::Result<_> {
@@ -160,7 +159,7 @@ fn buffers(tank: &Tank<'_>) -> u64 {
     saturation + blocks
 }
 
-/// Bytes of the process in memory, where the system tells.
+/// Resident memory of the process, bytes, if the system reports it.
 fn resident() -> Option<u64> {
     resident_of(&std::fs::read_to_string("/proc/self/status").ok()?)
 }

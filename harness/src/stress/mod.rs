@@ -1,8 +1,7 @@
-//! `riprap stress`: maps of where the methods hold and where they end, each run to its end or to the error that
-//! ends it.
+//! `riprap stress`: maps of where the methods are stable and where they fail; each run completes, or stops with an error.
 //!
-//! A map is a function that runs one cell after the other and hands each to a [`Sink`], which has it on disk before
-//! the next begins. The short form has coarse axes and short runs, and says so; `--full` has the whole.
+//! A map is a function that runs one cell after the other and hands each to a [`Sink`], which writes it to disk before the next
+//! begins. The short form has coarse axes and short runs, and says so; `--full` runs everything.
 
 mod cell;
 mod density;
@@ -30,8 +29,8 @@ use std::{path::PathBuf, time::Instant};
 /// Maps where the methods are stable, and tries what may break them; writes stress.csv, stress.json and a picture of
 /// each map.
 ///
-/// The short form takes six minutes on two quiet cores, with coarse axes and short runs. A stress that is killed
-/// keeps every cell that it has finished.
+/// The short form takes six minutes on two quiet cores, with coarse axes and short runs. A run that is killed keeps every
+/// finished cell.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
     /// Fine axes and long runs; takes hours on a CPU
@@ -40,7 +39,7 @@ pub struct Args {
     /// Only this map
     #[arg(long, value_name = "NAME", value_parser = names())]
     pub only: Option<String>,
-    /// Folder for what is written
+    /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out/stress")]
     pub out: PathBuf,
     /// Part of the name of the adapter to use
@@ -48,7 +47,7 @@ pub struct Args {
     pub adapter: Option<String>,
 }
 
-/// Warnings, as [`Cell::warned`] has them.
+/// Warnings in the format of [`Cell::warned`].
 fn warned(advice: &Advice) -> String {
     let places: Vec<_> = advice.iter().map(|warning| &*warning.place).collect();
     match places.is_empty() {
@@ -57,13 +56,13 @@ fn warned(advice: &Advice) -> String {
     }
 }
 
-/// Bytes of two states that differ.
+/// Number of bytes that differ between two states.
 fn bytes_that_differ(a: &[u8], b: &[u8]) -> usize {
     let both = a.iter().zip(b).filter(|(a, b)| a != b);
     both.count() + a.len().abs_diff(b.len())
 }
 
-/// Draws the maps; whether no message was unclear and nothing that is judged missed its limit.
+/// Runs and draws the maps. Returns whether no message was unclear and no judged value missed its limit.
 ///
 /// # Errors
 /// If there is no adapter, or the files cannot be written.
@@ -99,15 +98,15 @@ pub fn run(args: &Args) -> anyhow::Result<bool> {
 pub struct Map {
     /// Its name, as `--only` takes it; its picture is `NAME.png`.
     pub name: &'static str,
-    /// What it shows.
+    /// Its title.
     pub title: &'static str,
-    /// What its horizontal axis is.
+    /// Label of the horizontal axis.
     pub x: &'static str,
-    /// What its vertical axis is.
+    /// Label of the vertical axis.
     pub y: &'static str,
-    /// How much of it the short form has.
+    /// Extent of the short form.
     pub short: &'static str,
-    /// And the whole.
+    /// Extent of the full form.
     pub full: &'static str,
     /// Runs its cells.
     pub run: fn(&Stand, &mut Sink) -> anyhow::Result<()>,
@@ -124,24 +123,24 @@ pub const MAPS: &[Map] = &[
     restarts::MAP,
 ];
 
-/// Their names.
+/// Names of all maps.
 pub fn names() -> Vec<&'static str> {
     MAPS.iter().map(|map| map.name).collect()
 }
 
-/// Came to its end.
+/// Completed.
 const GOOD: RGBColor = RGBColor(170, 217, 160);
-/// Stable, and wrong.
+/// Stable, but wrong.
 const UNPHYSICAL: RGBColor = RGBColor(250, 205, 110);
 /// Left the range of the method.
 const DIVERGED: RGBColor = RGBColor(232, 130, 115);
 /// Refused, or ended by another error.
 const OTHER: RGBColor = RGBColor(190, 190, 205);
-/// To be mended.
+/// To be fixed.
 const DEFECT: RGBColor = RGBColor(225, 110, 220);
 
 impl Map {
-    /// How far this form of it goes, in words.
+    /// Describes the extent of the short or the full form.
     pub fn extent(&self, full: bool) -> String {
         match full {
             true => format!("whole: {}", self.full),
@@ -149,7 +148,7 @@ impl Map {
         }
     }
 
-    /// Counts of what became of its cells, and how far the advice was right.
+    /// Counts of the outcomes of its cells, and of advice that was right or wrong.
     pub fn summary(&self, cells: &[&Cell]) -> Vec<String> {
         let mut kinds: Vec<(String, usize)> = Vec::new();
         for cell in cells {
@@ -185,7 +184,7 @@ impl Map {
         lines
     }
 
-    /// Its picture, in the folder of the sink.
+    /// Draws its picture in the folder of the sink.
     ///
     /// # Errors
     /// If the file cannot be written.

@@ -22,14 +22,14 @@ const CELLS: [u32; 3] = [48, 32, 32];
 const EDGE: f64 = 8.0;
 const TAU: f64 = 0.501;
 const RATIO: f64 = 2.65;
-/// Contacts as stiff as lets the stream at Mach 0.3 press them in by a hundredth of a cell.
+/// Normal stiffness of the contacts: the stream at Mach 0.3 presses them in by a hundredth of a cell.
 const STIFFNESS: f64 = 1.0;
 const GAP: [f64; 6] = [0.0, 0.1, 0.5, 1.0, 2.0, 4.0];
 const SHORT_GAP: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
-/// The last one is what the library lets a scene have.
+/// The last one is the largest that the library accepts.
 const MACH: [f64; 4] = [0.05, 0.1, 0.2, 0.3];
 const SHORT_MACH: [f64; 3] = [0.1, 0.2, 0.3];
-/// Rise of energy over the start that rounding, sound and the swing of single loads do not explain.
+/// Rise of energy over the start that rounding, sound and the fluctuation of single loads do not explain.
 const RISE: f64 = 1.05;
 const LOOKS: u64 = 6;
 
@@ -82,7 +82,7 @@ fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> an
         let peaks = Peaks::of(&mut tank, RATIO, [steps, LOOKS], cell)?;
         cell.value = Some(peaks.flow_speed / speed);
         cell.detail = format!("largest energy / that of the start {:.3}", peaks.energy);
-        // Around corners a stream is faster than far away; more energy than at the start it cannot have.
+        // A stream is faster around corners than far away, but it cannot have more energy than at the start.
         if peaks.energy > RISE {
             cell.outcome = Outcome::Unphysical;
         }

@@ -1,4 +1,4 @@
-//! Blocks in places where something may go wrong: each runs, or ends with an error that says what to change.
+//! Blocks in critical positions: each scene runs, or ends with an error that says what to change.
 
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::{Stand, tank::Tank};
@@ -17,17 +17,17 @@ pub const MAP: Map = Map {
     run,
 };
 
-/// The places there are.
+/// Contents of `places.toml`.
 #[derive(Deserialize)]
 struct Places {
-    /// What all scenes share.
+    /// Tables shared by all scenes.
     scene: toml::Table,
-    /// Conditions on the faces, by their names.
+    /// Boundary conditions, by name.
     faces: toml::Table,
     places: Vec<Place>,
 }
 
-/// Blocks, and what an error of their scene has to name if it ends with one.
+/// Blocks, and the words that an error of their scene must contain if it ends with one.
 #[derive(Deserialize)]
 struct Place {
     name: String,
@@ -57,7 +57,7 @@ impl Place {
         Scene::from_toml(&table.to_string(), Path::new("."), "stress")
     }
 
-    /// Whether an error says where.
+    /// Marks an error as unclear if its message lacks one of these words.
     fn judge(&self, cell: &mut Cell) {
         let silent = self.named.iter().any(|word| !cell.detail.contains(word));
         if let (Outcome::Error(name), true) = (&cell.outcome, silent) {
@@ -80,8 +80,8 @@ fn measure(stand: &Stand, place: &Place, all: &Places, steps: u64) -> anyhow::Re
         Ok(())
     })?;
     place.judge(&mut cell);
-    // What will end badly because of where a block is at the start is to be told before; of what comes later, the
-    // library does not know.
+    // A failure caused by the initial position of a block must be announced before the run; the library cannot know of later
+    // ones.
     let told = cell.steps == 0 || cell.warned.contains("boundaries");
     cell.agrees = Some(cell.outcome.is_good() || told || place.name.starts_with("driven"));
     Ok(cell)

@@ -1,4 +1,4 @@
-//! Runs that are cut twenty times and go on from files, beside the same ones uncut.
+//! Runs that are interrupted twenty times and continued from files, compared with uninterrupted ones.
 
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::Stand;
@@ -26,7 +26,7 @@ const ROCK: &str = include_str!("restart_rock.toml");
 const WATER: &str = include_str!("restart_water.toml");
 
 fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    // Not a multiple of the exchanges' interval, and odd.
+    // Odd in the full form, alternately odd and even in the short one.
     let part = |n: u64| if stand.full { 51 } else { 3 + n % 2 };
     let file = sink.folder().join("restart.state");
     let scenes = [
@@ -60,7 +60,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Makes everything anew for each part, continues from the file, writes the file; its bytes at the end.
+/// Creates a new simulation for each part, continues from the file and writes it. Returns its bytes at the end.
 fn run_in_parts(
     stand: &Stand,
     scene: &Scene,

@@ -1,5 +1,5 @@
-//! The doubly periodic shear layer (Minion & Brown 1997, J. Comput. Phys. 138:734), κ = 80 on 64²: layers thinner
-//! than a cell roll up. A scheme that holds here at a viscosity and a Mach number holds where the grid resolves nothing.
+//! The doubly periodic shear layer (Minion & Brown 1997, J. Comput. Phys. 138:734), κ = 80 on 64²: layers thinner than a cell
+//! roll up. A scheme that is stable here at a viscosity and a Mach number is stable on unresolved flow.
 
 use super::{Cell, Map, Outcome, Sink};
 use crate::{
@@ -27,16 +27,16 @@ pub const MAP: Map = Map {
 
 /// As thin as lanes of four cells allow.
 const CELLS: [u32; 3] = [64, 64, 4];
-/// Width of the layers, over the box.
+/// Width of the box over that of the layers.
 const KAPPA: f64 = 80.0;
-/// Speed across the layers that makes them roll up, over U₀.
+/// Perturbation velocity across the layers that makes them roll up, over U₀.
 const DELTA: f64 = 0.05;
-/// Speed over U₀ at the end beyond which a run is marked: what viscosity should have slowed down has not.
+/// Speed over U₀ at the end beyond which a run is marked as unphysical: viscosity should have slowed it down.
 const FASTEST: f64 = 1.2;
-/// Steps between looks at the speed.
+/// Steps between readings of the speed.
 const LOOK: u64 = 250;
 
-/// The lowest viscosity stands for none: the library takes no lattice without.
+/// The lowest viscosity stands for zero, which the library does not accept.
 const NU: [f64; 7] = [1e-6, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 const SHORT_NU: [f64; 3] = [1e-6, 1e-3, 1e-2];
 const MACH: [f64; 5] = [0.1, 0.15, 0.2, 0.3, 0.4];
@@ -73,8 +73,7 @@ impl Method {
         all
     }
 
-    /// Whether the short form has it: each operator as it was published, and the default, also in 16 bits or with
-    /// WALE.
+    /// Whether the short form includes it: each operator as it was published, and the default, also in 16 bits or with WALE.
     fn is_short(&self) -> bool {
         let plain = !self.wale && self.storage == Storage::F32;
         match (self.collision, self.equilibrium) {
@@ -94,7 +93,7 @@ impl Method {
         format!("{collision} {equilibrium}{wale} {storage}")
     }
 
-    /// As a scene has it.
+    /// The method in the syntax of scenes.
     fn numerics(&self) -> String {
         let eddy = if self.wale { "wale" } else { "none" };
         let equilibrium = match self.equilibrium {
@@ -119,8 +118,8 @@ impl Method {
     }
 }
 
-/// What the library says before a run with the lattice viscosity `nu`, the largest speed `speed` (cells a step) and these
-/// `numerics`, lines of TOML, as [`Cell::warned`] has it.
+/// Advice of the library before a run with the lattice viscosity `nu`, the largest speed `speed` (cells per step) and these
+/// `numerics`, lines of TOML, in the format of [`Cell::warned`].
 fn advice(nu: f64, speed: f64, numerics: &str) -> anyhow::Result<String> {
     let text = format!(
         "run = {{ steps = 1 }}\n[domain]\nsize = {CELLS:?}\ncell = 1\n[fluid]\ndensity = 1\nviscosity = {nu:e}\n\
@@ -134,8 +133,8 @@ fn advice(nu: f64, speed: f64, numerics: &str) -> anyhow::Result<String> {
     }
 }
 
-/// Whether advice fits a run that ended well or badly: what ends badly wants a warning at least, and what ends well is
-/// not to be refused. A warning of what ends well may be one of accuracy.
+/// Whether the advice fits the outcome: a run that ends badly needs at least a warning, and one that ends well must not be
+/// refused. A warning before a run that ends well may concern accuracy.
 fn fits(advice: &str, well: bool) -> bool {
     match advice {
         "" => well,
@@ -172,7 +171,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What the same run did in 32 bits.
+/// Outcome of the same run in 32 bits.
 fn against_f32(sink: &Sink, method: &Method, cell: &Cell) -> String {
     if method.storage == Storage::F32 {
         return String::new();
@@ -199,7 +198,7 @@ fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> an
     let advice = advice(nu, speed, &method.numerics())?;
     let mut flow = stand.flow(method.setup(stand, nu), &start(speed), true)?;
     let found = follow(&mut flow, steps, speed)?;
-    // Pressure holds about Ma² of the energy, which may come back; more than that no flow without forces gains.
+    // Pressure stores about Ma² of the energy, which may be returned; a flow without forces cannot gain more.
     let gains = found.gain > mach * mach;
     let (outcome, cause) = match found.fault {
         Some(cell) => (
@@ -212,7 +211,7 @@ fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> an
     };
     let (y, x) = (format!("{nu:e}"), format!("{mach}"));
     Ok(Cell {
-        // That vortices go on is no fault of the method.
+        // Persistent vortices are not a failure of the method.
         agrees: Some(fits(&advice, found.fault.is_none() && !gains)),
         outcome,
         value: found.fault.is_none().then_some(found.speed),
@@ -227,7 +226,7 @@ fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> an
     })
 }
 
-/// What became of a run.
+/// Result of a run.
 #[derive(Default)]
 struct Found {
     /// The cell in which the guard stopped it.
@@ -236,7 +235,7 @@ struct Found {
     /// max|u| / U₀ at the end, and the largest one.
     speed: f64,
     peak: f64,
-    /// Largest rise of the kinetic energy over its least value before, as a part of it.
+    /// Largest rise of the kinetic energy over its previous minimum, relative to it.
     gain: f64,
 }
 
@@ -270,7 +269,7 @@ mod tests {
         assert_eq!(all.len(), 3 * 2 * 2 * 2);
         for (n, method) in all.iter().enumerate() {
             assert!(all[..n].iter().all(|other| other.name() != method.name()));
-            // Within what every method takes.
+            // Within the range of every method.
             let advice = advice(0.01, 0.01, &method.numerics()).unwrap();
             assert_eq!(advice, "", "{}", method.name());
         }

@@ -1,4 +1,4 @@
-//! Where cells go: a table and a list on disk that grow with each, and lines on the terminal.
+//! Output of cells: a table and a list on disk that grow with each, and lines on the terminal.
 
 use super::{
     Cell,
@@ -23,7 +23,7 @@ pub struct Sink {
 }
 
 impl Sink {
-    /// An empty table and list in `folder`, of what this machine finds.
+    /// Starts an empty table and list in `folder`, for results of this machine.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -44,13 +44,13 @@ impl Sink {
         Ok(sink)
     }
 
-    /// Writes a cell to both files and tells it.
+    /// Writes a cell to both files and prints it.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn add(&mut self, cell: Cell) -> Result<()> {
         println!("{}", line(&cell));
-        // One call a row: a killed stress ends between rows.
+        // One write per row: a killed run ends between rows.
         let Machine {
             adapter,
             driver,
@@ -79,12 +79,12 @@ impl Sink {
         self.cells.iter().filter(|cell| cell.map == map).collect()
     }
 
-    /// Where the files are.
+    /// Folder of the files.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// All of them.
+    /// All cells.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }

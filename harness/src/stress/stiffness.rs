@@ -27,14 +27,14 @@ const STIFFNESS: [f64; 6] = [1e6, 1e7, 1e8, 1e9, 1e10, 1e11];
 const STEP: [f64; 10] = [1e-5, 3e-5, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 2e-3, 4e-3, 1e-2];
 /// Height of the fall, m.
 const FALL: f64 = 0.05;
-/// Error of the energy that blocks may make, as a part of what they fell with: that of the ledger of an avalanche.
+/// Limit on the energy error over the energy of the fall; the same as for the ledger of an avalanche.
 const ENERGY: f64 = 0.01;
 
 fn blocks(stiffness: f64) -> anyhow::Result<Setup> {
     let mut list = vec![floor(10.0)?];
     for n in 0..3 {
         let k = f64::from(n);
-        // Not quite above each other, so that corners and edges carry too.
+        // Not exactly above each other, so that corners and edges carry load too.
         let at = DVec3::new(0.2 * k, 0.05 * k, 0.5 + FALL + k * (1.0 + FALL));
         let mut cube = Block::new(format!("cube {n}"), cuboid(1.0, 1.0, 1.0)?, at);
         cube.velocity = DVec3::new(0.5, 0.0, 0.0);
@@ -54,7 +54,8 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Shortest step that the library takes by itself, s, a tenth of 2/ω of the stiffest moment; none where blocks of this stiffness sink too deep.
+/// Shortest default step of the library, s, a tenth of 2/ω at the stiffest moment; `None` if blocks of this stiffness penetrate
+/// too deeply.
 fn shortest(stiffness: f64, time: f64) -> anyhow::Result<Option<f64>> {
     const PARTS: u32 = 60;
     let mut rock = Rock::new(blocks(stiffness)?, "")?;
@@ -78,7 +79,7 @@ fn measure(stiffness: f64, step: f64, usual: Option<f64>, time: f64) -> anyhow::
     let error = rock.energy_error() / (3.0 * rock.blocks.mass(1) * G * FALL);
     let (outcome, detail) = match ended {
         Ok(()) if error <= ENERGY => (Outcome::Ended, String::new()),
-        // NaN is no small error.
+        // NaN fails too.
         Ok(()) => (
             Outcome::Unphysical,
             "the ledger of the energy does not close".into(),
@@ -97,8 +98,8 @@ fn measure(stiffness: f64, step: f64, usual: Option<f64>, time: f64) -> anyhow::
     let (y, x) = (format!("{stiffness:e}"), format!("{step:e}"));
     let quantity = "error of the energy / that of the fall";
     Ok(Cell {
-        // A step that the library takes must not end in wrong motion; that it is too long for the contacts as they
-        // are, or that blocks sink too deep, it says when that is so.
+        // A step that the library accepts must not lead to wrong motion; it reports when the step is too long for the present
+        // contacts, or when blocks penetrate too deeply.
         agrees: Some(outcome != Outcome::Unphysical),
         value: outcome.is_good().then_some(error),
         outcome,

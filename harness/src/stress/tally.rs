@@ -1,20 +1,20 @@
-//! Energy of fluid and blocks, which without forces cannot grow.
+//! Energy of fluid and blocks, which cannot grow without forces.
 
 use super::Cell;
 use crate::validate::tank::Tank;
 use anyhow::Context;
 use glam::DVec3;
 
-/// What fluid and blocks have, in the units of the tank.
+/// Totals of fluid and blocks, in the units of the tank.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     /// Mass of the fluid.
     pub mass: f64,
     /// Momentum of fluid and blocks.
     pub momentum: DVec3,
-    /// Σ |m v| of the blocks: what there is to exchange.
+    /// Σ |m v| of the blocks, which they can exchange.
     pub carried: f64,
-    /// Kinetic energy of fluid and blocks, spins left out.
+    /// Kinetic energy of fluid and blocks, without rotation.
     pub kinetic: f64,
     /// Largest speed of the fluid.
     pub flow_speed: f64,
@@ -23,9 +23,9 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of a tank whose fluid has the density 1 and whose free blocks have `ratio`.
+    /// Totals of a tank whose fluid has the density 1 and whose free blocks have `ratio`.
     ///
-    /// The water inside a block goes where the block goes and is no load on it, so it counts once, in the fluid.
+    /// The water inside a block moves with the block and is no load on it, so it counts once, in the fluid.
     ///
     /// # Errors
     /// If the device is lost, or the tank has no blocks.
@@ -55,10 +55,10 @@ impl Tally {
     }
 }
 
-/// Largest values that a run shows.
+/// Largest values during a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Peaks {
-    /// Kinetic energy, of that at the start.
+    /// Kinetic energy over that at the start.
     pub energy: f64,
     /// Largest speed of a block.
     pub block_speed: f64,
@@ -67,10 +67,10 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// Of a run of `steps` in `looks` equal parts, whose steps `cell` counts; `ratio` as for [`Tally::of`].
+    /// Runs `steps` steps in `looks` equal parts and records the step in `cell`; `ratio` as for [`Tally::of`].
     ///
     /// # Errors
-    /// What ends the run.
+    /// Returns the error that ends the run.
     pub fn of(
         tank: &mut Tank<'_>,
         ratio: f64,

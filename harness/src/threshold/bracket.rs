@@ -1,19 +1,19 @@
-//! Two values with the threshold between them.
+//! Two values that bracket the threshold.
 
 use riprap::{Error, Result};
 
-/// The value at which nothing moves and the one at which something does, either of which may be the larger.
+/// The value at which no block moves and the one at which a block does, either of which may be the larger.
 #[derive(Clone, Copy, Debug)]
 pub struct Bracket {
     still: f64,
     moves: f64,
     tolerance: f64,
-    /// How many of the two have been tried.
+    /// Number of ends that have been tried.
     tried: u8,
 }
 
 impl Bracket {
-    /// Both ends, to be tried first.
+    /// A bracket with both ends, which are tried first.
     ///
     /// # Errors
     /// If they are equal or not finite, or the tolerance is not positive.
@@ -37,7 +37,7 @@ impl Bracket {
         })
     }
 
-    /// The value to be tried next; none once the ends are close enough, or no number lies between them.
+    /// The value to try next; `None` if the ends are close enough, or no number lies between them.
     pub fn next(&self) -> Option<f64> {
         let middle = 0.5 * (self.still + self.moves);
         match self.tried {
@@ -48,10 +48,10 @@ impl Bracket {
         }
     }
 
-    /// Takes over whether something `moved` at the `value` that [`Bracket::next`] gave.
+    /// Records whether a block `moved` at the `value` that [`Bracket::next`] gave.
     ///
     /// # Errors
-    /// In words, if an end turns out not to be one.
+    /// Returns a message if a block moves at the first end, or none at the second.
     pub fn take(&mut self, value: f64, moved: bool) -> std::result::Result<(), String> {
         match (self.tried, moved) {
             (0, true) => {
@@ -77,7 +77,7 @@ impl Bracket {
         self.tried == 2 && (self.moves - self.still).abs() <= self.tolerance
     }
 
-    /// The value at which nothing moves and the one at which something does, once both have been tried.
+    /// The value at which no block moves and the one at which a block does, once both have been tried.
     pub fn found(&self) -> Option<[f64; 2]> {
         (self.tried == 2).then_some([self.still, self.moves])
     }
@@ -106,7 +106,7 @@ mod tests {
         assert!(still <= 2.7 && 2.7 < moves && moves - still <= 0.01);
         // Both ends, and log2(8/0.01) = 9.6 halvings.
         assert_eq!(trials, 12);
-        // A number at whose low values blocks move, as a friction angle.
+        // A number at whose low values blocks move, such as a friction angle.
         let ([still, moves], _) = search(45.0, 5.0, 0.5, 31.0);
         assert!(moves < 31.0 && 31.0 <= still && still - moves <= 0.5);
     }

@@ -1,5 +1,5 @@
-//! Limit equilibrium of a block under the mean loads of a trial: the value at which a factor of safety is one, where the loads
-//! of the flow grow with the square of the value.
+//! Limit equilibrium of a block under the mean loads of a trial: the value at which a factor of safety is one, if the loads of
+//! the flow grow with the square of the value.
 
 use crate::run::{Rock, SceneRun, fluid_wrench};
 use glam::DVec3;
@@ -9,22 +9,22 @@ use std::fmt;
 
 /// Parts of a trial whose means give the statistical error.
 const BATCHES: usize = 5;
-/// Largest square of the factor of the value that is looked at.
+/// Largest square of the factor on the value that is tried.
 const LARGEST: f64 = 1e4;
 
 /// Force (N) and torque about the centroid (N m).
 type Wrench = [DVec3; 2];
 
-/// Loads on the blocks that are watched, during a trial.
+/// Loads on the watched blocks during a trial.
 #[derive(Debug)]
 pub struct Loads {
-    /// The blocks as the trial began: one that lifts for a moment loses contacts.
+    /// The blocks at the start of the trial: a block that lifts for a moment loses contacts.
     blocks: Vec<Block>,
-    /// The blocks' loads at each look.
+    /// Loads of the blocks at each sample.
     samples: Vec<Vec<Wrench>>,
 }
 
-/// What block theory says of the block that is the first to fail.
+/// Result of block theory for the first block to fail.
 #[derive(Clone, Debug, Serialize)]
 pub struct Equilibrium {
     /// Its name.
@@ -33,16 +33,16 @@ pub struct Equilibrium {
     pub mode: &'static str,
     /// The value at which that factor of safety is one.
     pub value: f64,
-    /// Statistical error of the value, from the means over fifths of the time; none if a block stands under one of them.
+    /// Statistical error of the value, from the means over fifths of the time; `None` if a block stands under one of them.
     pub error: Option<f64>,
-    /// Value of the trial whose loads these are.
+    /// Value of the trial that gave the loads.
     pub loads_at: f64,
-    /// Its looks that count: those of the second half.
+    /// Number of samples used: those of the second half of the trial.
     pub samples: usize,
 }
 
 impl Loads {
-    /// Of the blocks of these numbers, as they stand now in a fluid of the `density` (kg/m³).
+    /// Loads of the blocks with the numbers `watched`, in their present state in a fluid of the `density` (kg/m³).
     pub fn new(watched: impl Iterator<Item = usize>, rock: &Rock<'_>, density: f64) -> Self {
         Self {
             blocks: watched
@@ -52,7 +52,7 @@ impl Loads {
         }
     }
 
-    /// Takes the loads as they are.
+    /// Samples the present loads.
     pub fn look(&mut self, run: &SceneRun) {
         if let Some(rock) = run.rock() {
             let loads = self
@@ -63,7 +63,7 @@ impl Loads {
         }
     }
 
-    /// The block that fails at the lowest value; none if all stand at a hundred times `value`, or that is zero.
+    /// The block that fails at the lowest value; `None` if all stand at a hundred times `value`, or if `value` is zero.
     pub fn equilibrium(&self, value: f64) -> Option<Equilibrium> {
         if value == 0.0 {
             return None;
@@ -109,13 +109,13 @@ impl Block {
         }
     }
 
-    /// Least factor of safety and its name where the loads of the flow are so many times those in `loads`.
+    /// Least factor of safety and its name, if the loads of the flow are `times` those in `loads`.
     fn factor(&self, [force, torque]: Wrench, times: f64) -> (f64, &'static str) {
         let force = self.buoyancy + times * (force - self.buoyancy);
         let wrench = [force, times * torque];
         let found = self.footing.under(wrench);
         let uplift = (found.uplift, "uplift");
-        // A block that is lifted slides and topples, too; without contacts neither is known.
+        // A block that is lifted slides and topples too; without contacts neither factor is known.
         if uplift.0 < 1.0 {
             return uplift;
         }
@@ -130,7 +130,8 @@ impl Block {
         )
     }
 
-    /// How many times as large the loads of the flow are at which it fails, and how; none if it stands in much larger ones.
+    /// Factor on the loads of the flow at which the block fails, and the mode of failure; `None` if it stands under much larger
+    /// loads.
     fn fails(&self, loads: Wrench) -> Option<(f64, &'static str)> {
         let mut low = 0.0;
         let mut high = 1e-4;
@@ -153,14 +154,14 @@ impl Block {
     }
 }
 
-/// Of the `n`th block; none of no samples.
+/// Mean loads of the `n`th block; `None` without samples.
 fn mean(samples: &[Vec<Wrench>], n: usize) -> Option<Wrench> {
     let sum = |part: usize| samples.iter().map(|all| all[n][part]).sum::<DVec3>();
     let count = samples.len() as f64;
     (count > 0.0).then(|| [sum(0) / count, sum(1) / count])
 }
 
-/// Mean of values, and its standard error; none of a single one.
+/// Mean of values, and its standard error; `None` for a single value.
 pub(crate) fn mean_and_error(values: &[f64]) -> Option<[f64; 2]> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -231,7 +232,7 @@ mod tests {
         let (times, mode) = fails(0.0, 2.0, 0.0);
         assert_eq!(mode, "uplift");
         assert_near(times, 8.5, 1e-6);
-        // About the edge 17 N on 0.05 m hold it.
+        // 17 N with a lever of 0.05 m about the edge hold it.
         let (times, mode) = fails(0.0, 0.0, 0.5);
         assert_eq!(mode, "toppling");
         assert_near(times, 1.7, 1e-6);

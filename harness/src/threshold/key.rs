@@ -1,9 +1,9 @@
-//! A number or a formula in a scene, by its place.
+//! A number or a formula in a scene, addressed by its key.
 
 use riprap::{Error, Result, formula::Formula};
 use toml::{Table, Value};
 
-/// A place such as `boundaries.x_min.velocity[0]` or `blocks[1].position[2]`.
+/// A key such as `boundaries.x_min.velocity[0]` or `blocks[1].position[2]`.
 #[derive(Clone, Debug)]
 pub struct Key {
     text: String,
@@ -16,17 +16,17 @@ enum Step {
     Index(usize),
 }
 
-/// Whether the text there is a name or a word, which may look like a formula: `x`.
+/// Whether the text at this key is a name or a word, which may look like a formula: `x`.
 fn names(step: &Step) -> bool {
     const NAMES: [&str; 6] = ["name", "axis", "kind", "block", "material", "title"];
     matches!(step, Step::Name(name) if NAMES.contains(&name.as_str()))
 }
 
 impl Key {
-    /// Reads a place.
+    /// Parses a key.
     ///
     /// # Errors
-    /// If it is none.
+    /// If the text is not a key.
     pub fn parse(text: &str) -> Result<Self> {
         let wrong = || {
             let message = format!(
@@ -51,11 +51,11 @@ impl Key {
         })
     }
 
-    /// Gives the number in the scene another value, or multiplies the formula that is there by it. A number that a table
-    /// does not have yet is added.
+    /// Sets the number in the scene to a value, or multiplies the formula that is there by it. A number that a table does not
+    /// have yet is added.
     ///
     /// # Errors
-    /// If there is no such place, or something other than a number or a formula.
+    /// If the scene has no such key, or if its value is neither a number nor a formula.
     pub fn set(&self, scene: &mut Table, value: f64) -> Result<()> {
         let Some((last, way)) = self.steps.split_last() else {
             return Ok(());
@@ -107,11 +107,11 @@ impl Key {
                     .ok_or_else(|| self.wrong(format!("there is no [{index}] among {count}")))
             }
             (Step::Name(name), at) => {
-                let message = format!("`{name}` is asked of {}", at.type_str());
+                let message = format!("a value of type {} has no `{name}`", at.type_str());
                 Err(self.wrong(message))
             }
             (Step::Index(index), at) => {
-                let message = format!("[{index}] is asked of {}", at.type_str());
+                let message = format!("a value of type {} has no [{index}]", at.type_str());
                 Err(self.wrong(message))
             }
         }
@@ -183,8 +183,8 @@ mod tests {
                 "neither a number nor a formula",
             ),
             ("boundaries.x_min.kind", "neither a number nor a formula"),
-            ("numerics.mach[0]", "[0] is asked of float"),
-            ("numerics.mach.x", "`x` is asked of float"),
+            ("numerics.mach[0]", "type float has no [0]"),
+            ("numerics.mach.x", "type float has no `x`"),
         ] {
             let error = set(key).unwrap_err().to_string();
             assert!(error.contains(told), "{key}: {error}");

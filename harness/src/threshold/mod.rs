@@ -1,7 +1,7 @@
-//! `riprap threshold`: at which value of a number in a scene a block moves for the first time.
+//! `riprap threshold`: the value of a number in a scene at which a block moves for the first time.
 //!
-//! A formula in the place of the number is multiplied by the value. Each trial runs the scene with another value and ends when a block moves, or with the scene. Between a
-//! value at which none moves and one at which one does, the next trial takes the middle.
+//! A formula in place of the number is multiplied by the value. Each trial runs the scene with another value until a block moves
+//! or the scene ends. The next trial takes the middle between a value at which no block moves and one at which a block does.
 
 mod bracket;
 mod equilibrium;
@@ -29,9 +29,8 @@ use std::{
 pub struct Args {
     /// The scene, a TOML file
     pub scene: PathBuf,
-    /// Where the number is in the scene, such as `boundaries.x_min.velocity[0]`; several times for numbers
-    /// that are to have the same value. Where the scene has a formula, it is multiplied by the value: A, B and T are
-    /// then factors
+    /// Key of the number in the scene, such as `boundaries.x_min.velocity[0]`; several times for numbers that have the same
+    /// value. If the scene has a formula there, it is multiplied by the value: A, B and T are then factors
     #[arg(long, required = true, value_name = "KEY")]
     pub key: Vec<String>,
     /// Value at which no block moves
@@ -43,27 +42,27 @@ pub struct Args {
     /// Largest distance of the two values at the end
     #[arg(long, value_name = "T")]
     pub tolerance: f64,
-    /// Only the motion of this block counts [default: that of every free one]
+    /// Only the motion of this block counts [default: that of every free block]
     #[arg(long, value_name = "NAME")]
     pub block: Option<String>,
-    /// A block has moved when its centroid is so far, m, from where it was [default: 1 % of its size, the
-    /// cube root of its volume]
+    /// A block has moved when its centroid is this far, m, from its initial position [default: 1 % of its size, the cube root of
+    /// its volume]
     #[arg(long, value_name = "M")]
     pub distance: Option<f64>,
-    /// A block has moved when its centroid is as fast as this, m/s, instead
+    /// Instead of --distance: a block has moved when its centroid is as fast as this, m/s
     #[arg(long, value_name = "V", conflicts_with = "distance")]
     pub speed: Option<f64>,
-    /// Also give the value at which block theory says that a block fails: a factor of safety is one under the mean loads of the
-    /// last trial in which none moved, where the loads of the flow grow with the square of the value. For velocities
+    /// Also report the value at which a block fails according to block theory: a factor of safety is one under the mean loads of
+    /// the last trial in which no block moved, if the loads of the flow grow with the square of the value. For velocities
     #[arg(long)]
     pub equilibrium: bool,
-    /// Begin every trial with the state after so many seconds at the value --from
+    /// Start every trial from the state after so many seconds at the value --from
     #[arg(long, value_name = "S")]
     pub settle: Option<f64>,
     /// Time steps of a trial [default: those of the scene's run]
     #[arg(long, value_name = "N")]
     pub steps: Option<u64>,
-    /// Folder for what is written [default: out/ and the name of the scene, with _threshold]
+    /// Folder for the results [default: out/ and the name of the scene, with _threshold]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Part of the name of the adapter to compute on [default: the first GPU, else a CPU]
@@ -77,14 +76,13 @@ pub struct Args {
 /// Bisects until the values are close enough, or until `stop` is set.
 ///
 /// # Errors
-/// What is wrong with the scene or the key; a block that moves at `from`, or none that does at `to`; what
-/// ends a trial other than its end.
+/// If the scene or the key is wrong, a block moves at `from`, no block moves at `to`, or a trial fails.
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
     let text = std::fs::read_to_string(&args.scene).map_err(|error| {
         let message = format!("cannot read the scene: {error}; check the path");
         Error::file(&args.scene, message)
     })?;
-    // What is wrong with the file as it is has a line there.
+    // Errors in the file itself are reported with their line.
     Scene::from_file(&args.scene)?;
     let keys: Vec<Key> = args
         .key

@@ -1,4 +1,4 @@
-//! What was found, for people and for programs: `threshold.csv` and `threshold.json`.
+//! The result, for people and for programs: `threshold.csv` and `threshold.json`.
 
 use super::{Args, Equilibrium, Motion, Trial, trial::BEGUN};
 use crate::print::percent;
@@ -9,32 +9,32 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// All trials, and the bracket that they leave.
+/// All trials, and the resulting bracket.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The scene's file.
     pub scene: PathBuf,
     /// The numbers that were changed.
     pub keys: Vec<String>,
-    /// Largest width of the bracket that was asked for.
+    /// Requested width of the bracket.
     pub tolerance: f64,
     /// The trials in their order.
     pub trials: Vec<Trial>,
     /// The value at which no block moves, and the one at which one does, once both have been tried.
     pub bracket: Option<[f64; 2]>,
-    /// Where a block was under way at the still end of the bracket: the nearest value at which none came to a tenth of what
-    /// counts as motion.
+    /// If a block was under way at the still end of the bracket: the nearest value at which no block reached a tenth of the
+    /// motion criterion.
     pub rest: Option<f64>,
     /// With `--equilibrium`: the limit equilibrium under the mean loads at the still end of the bracket.
     pub equilibrium: Option<Equilibrium>,
-    /// Whether the bracket is as narrow as was asked for.
+    /// Whether the bracket is as narrow as requested.
     pub complete: bool,
-    /// What is uncertain about the bracket.
+    /// Why the bracket is uncertain, if it is.
     pub warning: Option<String>,
 }
 
 impl Report {
-    /// Before the first trial.
+    /// The report before the first trial.
     pub fn new(args: &Args) -> Self {
         Self {
             scene: args.scene.clone(),
@@ -49,7 +49,7 @@ impl Report {
         }
     }
 
-    /// Takes what the trials leave.
+    /// Stores the results of the trials.
     pub fn end(&mut self, bracket: Option<[f64; 2]>, complete: bool) {
         (self.bracket, self.complete) = (bracket, complete);
         let at = |value| self.trials.iter().find(|trial| trial.value == value);

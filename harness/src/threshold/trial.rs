@@ -13,20 +13,20 @@ use std::{
     time::Instant,
 };
 
-/// Looks at the blocks in a trial: the time of the first motion is known to half a percent of it.
+/// Samples of the blocks in a trial: the time of the first motion is known to half a percent of its duration.
 const LOOKS: u64 = 200;
-/// Part of a block's size by which it has moved.
+/// Displacement over the size of a block that counts as motion.
 const SHARE: f64 = 0.01;
-/// Part of the distance from which on a block that still moves is under way: contacts that take up their load move it
-/// by less.
+/// Fraction of that displacement from which a block that still moves is under way: contacts that take up their load move it by
+/// less.
 pub(super) const BEGUN: f64 = 0.1;
 
-/// What motion is.
+/// Criterion for motion.
 #[derive(Clone, Copy, Debug)]
 enum Criterion {
-    /// The centroid is so far from where it was, m; 1 % of the size without a number.
+    /// Displacement of the centroid, m; 1 % of the size if `None`.
     Distance(Option<f64>),
-    /// The centroid is so fast, m/s.
+    /// Speed of the centroid, m/s.
     Speed(f64),
 }
 
@@ -39,23 +39,23 @@ impl Criterion {
     }
 }
 
-/// How a block moves.
+/// Motion of a block.
 #[derive(Clone, Debug, Serialize)]
 pub struct Motion {
     /// Its name.
     pub block: String,
-    /// Since the trial began, s.
+    /// Time since the trial began, s.
     pub time: f64,
-    /// From where it was, m.
+    /// Displacement since the trial began, m.
     pub distance: f64,
-    /// m/s.
+    /// Speed, m/s.
     pub speed: f64,
-    /// That distance or speed as a part of what counts as motion.
+    /// That distance or speed over the criterion.
     pub part: f64,
 }
 
 impl Motion {
-    /// Whether another such trial, at this speed or with this mean acceleration, would see it move.
+    /// Whether the block would move within another such trial, at this speed or with this mean acceleration.
     fn goes_on(&self, criterion: Criterion) -> bool {
         match criterion {
             Criterion::Distance(_) => {
@@ -67,26 +67,26 @@ impl Motion {
     }
 }
 
-/// What came of a trial.
+/// Result of a trial.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trial {
     /// The value.
     pub value: f64,
     /// The first motion, if there was one.
     pub moved: Option<Motion>,
-    /// The block that came closest to moving, at its end.
+    /// The block closest to moving at the end.
     pub closest: Option<Motion>,
     /// With `--equilibrium`: the limit equilibrium under its mean loads, if no block moved.
     pub equilibrium: Option<Equilibrium>,
-    /// Whether none had moved at its end, but one was about to: it would have in another such trial.
+    /// Whether no block had moved at the end, but one would have in another such trial.
     pub under_way: bool,
-    /// Steps that it took.
+    /// Number of steps.
     pub steps: u64,
-    /// Seconds that it took.
+    /// Duration, s.
     pub seconds: f64,
 }
 
-/// Takes `run` `time` seconds on and writes its state.
+/// Runs `run` for `time` seconds and writes its state.
 pub fn settle(mut run: SceneRun, time: f64, path: &Path) -> Result<()> {
     let steps = (time / run.time_step()).round();
     if !(steps.is_finite() && steps >= 1.0) {
@@ -112,7 +112,7 @@ fn advance(run: &mut SceneRun, batch: &mut Batch, steps: u64) -> riprap::Result<
     Ok(())
 }
 
-/// Runs a trial of `value`, from the state in the file `settled` if there is one; none if it was stopped.
+/// Runs a trial of `value`, from the state in the file `settled` if there is one; `None` if it was stopped.
 pub fn run(
     mut run: SceneRun,
     value: f64,
@@ -173,9 +173,9 @@ pub fn run(
 
 /// The blocks whose motion counts.
 struct Watched {
-    /// Number, place at the start (m), and size (m).
+    /// Number, initial position (m), and size (m).
     blocks: Vec<(usize, DVec3, f64)>,
-    /// When the trial began, s.
+    /// Time at the start of the trial, s.
     start: f64,
 }
 
@@ -198,7 +198,7 @@ impl Watched {
         if watched.is_empty() {
             let names = blocks.iter().filter(|(_, block)| free(block));
             let names: Vec<_> = names.take(20).map(|(_, block)| &*block.name).collect();
-            let message = format!("no free block is called so; there are {}", names.join(", "));
+            let message = format!("no free block has this name; there are {}", names.join(", "));
             return Err(Error::argument("--block", message));
         }
         Ok(Self {
@@ -207,7 +207,7 @@ impl Watched {
         })
     }
 
-    /// To be taken on all of them.
+    /// Loads to be sampled on all watched blocks.
     fn loads(&self, run: &SceneRun) -> riprap::Result<Loads> {
         let watched = self.blocks.iter().map(|(n, ..)| *n);
         match run.rock() {
@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn what_another_trial_would_see_move_is_under_way() {
-        // 80 µm count as motion, 15 s are a trial.
+        // 80 µm count as motion, a trial is 15 s.
         let goes_on = |distance: f64, speed| {
             let motion = Motion {
                 block: "s".into(),

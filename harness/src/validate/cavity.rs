@@ -5,13 +5,13 @@ use anyhow::Context;
 use riprap::lattice::{Face, State};
 use serde_json::Value;
 
-/// Speed of the lid: its square is what the weak compressibility costs.
+/// Speed of the lid: the error of the weak compressibility grows with its square.
 const SPEED: f64 = 0.1;
 /// Largest change of the velocity in a time L/U, in units of U, that counts as steady.
 const STEADY: f64 = 1e-5;
-/// Times L/U without a smaller change after which what changes is rounding, or a flow that is not to become steady.
+/// Times L/U without a smaller change after which a run ends: the rest is rounding, or the flow does not become steady.
 const STALLED: u64 = 10;
-/// Times L/U after which a cavity that is not steady is taken as it is.
+/// Times L/U after which a run ends even if the cavity is not steady.
 const LONGEST: u64 = 150;
 
 /// The published tables that several cases compare with.
@@ -20,14 +20,14 @@ pub fn literature() -> anyhow::Result<Value> {
     serde_json::from_str(text).context("the table of published values")
 }
 
-/// A list of numbers of the tables.
+/// A list of numbers from the tables.
 pub fn list(table: &Value, names: [&str; 2]) -> anyhow::Result<Vec<f64>> {
     let values = table[names[0]][names[1]].as_array();
     let values = values.with_context(|| format!("no published list {names:?}"))?;
     Ok(values.iter().filter_map(Value::as_f64).collect())
 }
 
-/// Re = 100: on 64 cells, with `--full` on 128.
+/// Re = 100 on 64 cells; with `--full` also on 128.
 pub fn re100(stand: &Stand) -> Outcome {
     let sizes: &[u32] = if stand.full { &[64, 128] } else { &[64] };
     run(stand, sizes, 100.0, "Re100", 0.005)
@@ -38,7 +38,7 @@ pub fn re1000(stand: &Stand) -> Outcome {
     run(stand, &[64, 128], 1000.0, "Re1000", 0.01)
 }
 
-/// `limit` is of the rms error on the centre lines over U; it holds on the finest grid.
+/// `limit` bounds the rms error on the centre lines over U on the finest grid.
 fn run(stand: &Stand, sizes: &[u32], reynolds: f64, column: &str, limit: f64) -> Outcome {
     let mut records = Vec::new();
     for &n in sizes {
@@ -65,9 +65,9 @@ pub fn tau(n: u32, reynolds: f64) -> f64 {
     0.5 + 3.0 * viscosity(n, reynolds)
 }
 
-/// What is found on one grid.
+/// Results on one grid.
 pub struct Cavity {
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
     /// Errors of u, of v and of both on the centre lines, r.m.s., in units of U.
     pub errors: [f64; 3],
@@ -75,7 +75,7 @@ pub struct Cavity {
     pub change: f64,
 }
 
-/// On `n` cells along each edge; a Reynolds number has its column in the tables.
+/// Runs the cavity on `n` cells along each edge; `column` names the published values for the Reynolds number.
 pub fn measure(
     stand: &Stand,
     n: u32,
@@ -130,7 +130,7 @@ fn line(n: u32, walls: [f64; 2], value: impl Fn(u32) -> f64) -> (Vec<f64>, Vec<f
         .unzip()
 }
 
-/// Differences from the table inside; on the walls both have the boundary's value.
+/// Differences from the table between the walls; on the walls both have the boundary value.
 fn errors(line: &(Vec<f64>, Vec<f64>), places: &[f64], values: &[f64]) -> Vec<f64> {
     let inside = places
         .iter()

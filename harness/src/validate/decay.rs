@@ -4,17 +4,17 @@ use super::{Method, Outcome, Stand, Trial, fields};
 use riprap::lattice::Equilibrium;
 use std::f64::consts::{LN_2, TAU};
 
-/// Viscosity on every grid: in diffusive scaling the step goes with the square of the cell.
+/// Viscosity on every grid: in diffusive scaling the time step is proportional to the square of the cell size.
 const NU: f64 = 0.05;
-/// Relaxation time that it amounts to.
+/// Relaxation time for that viscosity.
 pub const TAU_OF_VORTICES: f64 = 0.5 + 3.0 * NU;
-/// Velocity of the coarsest grid, 16 cells; it falls with the cell, so that compressibility errors
-/// fall with the square.
+/// Velocity on the coarsest grid, 16 cells; it is proportional to the cell size, so that compressibility errors fall with the
+/// square.
 const COARSE_SPEED: f64 = 0.04;
 const SIZES: [u32; 3] = [16, 32, 64];
-/// Order that a scheme of second order shows on these grids.
+/// Least order that a second-order scheme shows on these grids.
 const LEAST_ORDER: f64 = 1.95;
-/// Of the viscosity on 64 cells: (2π/64)² = 0.01 times the leading coefficient of the error, 0.1.
+/// Limit on the relative error of the viscosity on 64 cells: (2π/64)² = 0.01 times the leading coefficient of the error, 0.1.
 const VISCOSITY_LIMIT: f64 = 1e-3;
 
 /// A decaying flow in units of its speed, on a periodic box of edge 2π.
@@ -23,8 +23,8 @@ struct Vortices {
     flat: bool,
     /// The amplitude falls as exp(−rate ν k² t).
     rate: f64,
-    /// The amplitude falls to exp(−loss) in the run: long enough that the sound of the start, which
-    /// has no divergence while the pressure decays, is gone.
+    /// The amplitude falls to exp(−loss) during the run: long enough for the initial sound to decay, which arises because the
+    /// start has no divergence while the pressure decays.
     loss: f64,
     velocity: fn([f64; 3]) -> [f64; 3],
     pressure: fn([f64; 3]) -> f64,
@@ -73,9 +73,9 @@ pub fn abc_flow(stand: &Stand) -> Outcome {
     )
 }
 
-/// What is found on one grid.
+/// Results on one grid.
 pub struct Decay {
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
     /// L2 error of the velocity at the end.
     pub error: f64,
@@ -140,10 +140,10 @@ const WAVE_NU: f64 = 0.01;
 const WAVE_SPEED: f64 = 0.005;
 /// Times that the wave crosses the box.
 const CROSSINGS: f64 = 8.0;
-/// Of the viscosity.
+/// Limit on the relative error of the viscosity.
 const LIMIT: f64 = 1e-3;
 
-/// Galilean invariance: a shear wave that is carried along an axis decays as one at rest.
+/// Galilean invariance: a shear wave carried along an axis decays like one at rest.
 pub fn shear_wave(stand: &Stand) -> Outcome {
     // With the equilibrium of order 2 the viscosity falls as 1 − 3U² (Qian & Orszag 1993).
     let runs = [
@@ -163,7 +163,7 @@ pub fn shear_wave(stand: &Stand) -> Outcome {
             (0.0, [speed, WAVE_SPEED * (k * x).sin(), 0.0])
         });
         let mut flow = stand.flow(setup, &start, true)?;
-        // Whole crossings at both speeds, so that a wave that is not quite one is weighed alike.
+        // Whole crossings at both speeds, so that a wave that is not quite a sine is weighted equally both times.
         let steps = CROSSINGS / 2.0 * f64::from(WAVE_CELLS) / 0.1;
         let mut size = || -> anyhow::Result<f64> {
             flow.advance(steps as u64)?;

@@ -4,7 +4,7 @@ use kit::twin::noise::hash32;
 use riprap::lattice::{Setup, State};
 use std::f64::consts::{PI, TAU};
 
-/// A setup with a change.
+/// A copy of a setup with `change` applied.
 pub fn changed(setup: &Setup, change: impl FnOnce(&mut Setup)) -> Setup {
     let mut setup = setup.clone();
     change(&mut setup);
@@ -67,7 +67,7 @@ pub fn largest_change(a: &State, b: &State) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// A number in [−1, 1) that looks random, from an integer hash.
+/// A pseudo-random number in [−1, 1), from an integer hash.
 pub fn noise(n: u32) -> f64 {
     f64::from(hash32(n)) / f64::from(1u32 << 31) - 1.0
 }
@@ -88,7 +88,7 @@ pub fn cubic(nodes: &[f64], values: &[f64], x: f64) -> f64 {
         .sum()
 }
 
-/// Slope of the straight line with the least squares through (x, y).
+/// Slope of the least-squares line through (x, y).
 pub fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean_x = points.iter().map(|p| p.0).sum::<f64>() / n;
@@ -98,8 +98,8 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
     above / below
 }
 
-/// A channel along x, from a wall normal to y on h deep, of a friction velocity and with Re_τ: the mean profile of Reichardt 1951 with
-/// rolls along the stream and waves across it, strong enough to break up.
+/// Initial state of a turbulent channel along x, of depth `h` from the wall at y = 0, for a friction velocity and Re_τ: the mean
+/// profile of Reichardt 1951 with streamwise rolls and spanwise waves, strong enough to break up.
 pub fn turbulent_channel(cells: [u32; 3], h: f64, friction: f64, reynolds: f64) -> State {
     let [nx, _, nz] = cells.map(f64::from);
     state(cells, |[x, y, z]| {

@@ -1,8 +1,8 @@
-//! The pressure in a joint whose mouth feels a pressure that changes, under a block at rest: in a closed joint, in open ones of a few cells,
-//! and in one of twelve cells.
+//! Pressure in a joint under a block at rest while the pressure at its mouth changes: in closed joints, in open joints of a few
+//! cells, and in one of twelve cells.
 //!
-//! A held block lies between two basins; both ends of its joint are mouths, and the middle is the closed end of a slot of half its
-//! length.
+//! A fixed block lies between two basins. Both ends of its joint are mouths, and by symmetry its middle is the closed end of a
+//! slot of half the length.
 
 use super::{
     Outcome, Stand, Trial,
@@ -19,21 +19,21 @@ use std::f64::consts::{PI, TAU};
 
 /// Cells of water before each mouth.
 const BASIN: u32 = 6;
-/// Cells of the domain along the mouth: it repeats.
+/// Cells of the domain along the mouth, where it is periodic.
 const WIDE: u32 = 4;
 /// Thickness of a block, cells.
 const THICK: u32 = 8;
 /// Amplitude of the pressure; the density is 1.
 const PRESSURE: f64 = 1e-3;
-/// Steps in which a pressure that rises does so: a sudden one would ring in the basins.
+/// Steps over which the pressure rises in a step test: a sudden rise would ring in the basins.
 const RAMP: u32 = 20;
-/// Periods until a sine is steady.
+/// Periods until the response to a sine is steady.
 const SETTLE: u64 = 2;
-/// Viscosity of water in closed joints: hardly any.
+/// Viscosity of water in closed joints, close to zero.
 const NU: f64 = 1e-5;
-/// Of a closed joint's amplitude, delay and time.
+/// Limit on the relative errors of amplitude, delay and rise time of a closed joint.
 const CLOSED_LIMIT: f64 = 0.05;
-/// The same of a joint of twelve cells.
+/// The same limit for an open joint of twelve cells.
 const RESOLVED_LIMIT: f64 = 0.03;
 
 /// Runs the case.
@@ -45,7 +45,7 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Joints of blocks in contact, as they are and of two thirds of the aperture.
+/// Joints of blocks in contact, with the default aperture and with two thirds of it.
 fn closed() -> Vec<Joint> {
     let beds = [Bed::Wall, Bed::Block(0.0), Bed::Block(0.5)];
     let both = [(None, 1200.0), (Some(0.03), 3600.0)].map(|(aperture, period)| {
@@ -62,7 +62,7 @@ fn closed() -> Vec<Joint> {
     both.concat()
 }
 
-/// Joints twelve times as long as wide, with the friction number a √(ω/ν)/2 = 1 and a sine whose sound is 27 times as long as the joint.
+/// Joints twelve times as long as wide, with the friction number a √(ω/ν)/2 = 1 and a sine of 160 steps per cell of width.
 fn open() -> Vec<Joint> {
     let beds = [
         (1, Bed::Wall),
@@ -87,11 +87,11 @@ fn open() -> Vec<Joint> {
     beds.map(joint).into()
 }
 
-/// What the block lies on.
+/// Bed under the block.
 #[derive(Clone, Copy)]
 enum Bed {
     Wall,
-    /// A block whose surface is so far above a side of cells, in cells.
+    /// A block whose surface is this far above a face between cells, in cells.
     Block(f64),
 }
 
@@ -101,9 +101,9 @@ struct Joint {
     bed: Bed,
     /// Opening, cells; 0 for blocks in contact.
     width: u32,
-    /// Hydraulic aperture of a closed one, where it is given.
+    /// Hydraulic aperture of a closed joint; `None` for the default.
     aperture: Option<f64>,
-    /// From a mouth to the middle, cells.
+    /// Distance from a mouth to the middle, cells.
     length: u32,
     nu: f64,
     period: f64,
@@ -147,7 +147,7 @@ impl Joint {
         }
     }
 
-    /// What it should be.
+    /// The slot that the joint should behave like.
     fn slot(&self) -> Slot {
         if self.width > 0 {
             return Slot::Open {
@@ -159,7 +159,7 @@ impl Joint {
         setup.solid_operator = Some(SolidOperator::Holdych);
         setup.joint_aperture = self.aperture;
         let [one, two] = setup.joint_apertures();
-        // Populations that full cells reflect spend a step there: a sixth of a row.
+        // Populations reflected by full cells spend a step inside them: each such side stores as much as a sixth of a row.
         let (rows, sides, aperture) = match self.bed {
             Bed::Wall => (1.0, 1.0, one),
             Bed::Block(0.0) => (2.0, 2.0, two),
@@ -208,8 +208,8 @@ impl Joint {
         Tank::fill(stand, &scene)
     }
 
-    /// Mean pressures across the joint, as far inside a mouth as it is wide and in the middle, after multiples of so many steps: the flow
-    /// into a slot is another one.
+    /// Mean pressures across the joint every `every` steps: in the middle, and inside a mouth by the width of the joint, because
+    /// at the mouth itself the flow is not that of a slot.
     fn sample(&self, tank: &mut Tank<'_>, every: u64, times: u64) -> anyhow::Result<Vec<[f64; 2]>> {
         let [nx, ny, _] = tank.lattice().grid().cells;
         let row = match self.bed {
@@ -237,7 +237,7 @@ impl Joint {
         Ok(found)
     }
 
-    /// Pressure in the middle over that near the mouth, of a pressure that goes as a sine.
+    /// Ratio of the pressure in the middle to that near the mouth, for a sinusoidal pressure.
     fn sine(&self, stand: &Stand) -> anyhow::Result<(Complex<f64>, Trial)> {
         let Self { period, .. } = *self;
         let omega = TAU / period;
@@ -245,7 +245,7 @@ impl Joint {
         let mut tank = self.fill(stand, &text)?;
         tank.advance(SETTLE * period as u64)?;
         let begin = tank.simulation.step();
-        // A whole number of samples a period.
+        // A whole number of samples per period.
         let every = (period / 40.0) as u64;
         let found = self.sample(&mut tank, every, 40)?;
         let mut sums = [Complex::from(0.0); 2];
@@ -258,7 +258,7 @@ impl Joint {
         Ok((sums[1] / sums[0], tank.trial(&self.name())))
     }
 
-    /// Pressures near the mouth and in the middle after the pressure rose.
+    /// Pressures near the mouth and in the middle after a rise of the pressure.
     fn rise(&self, stand: &Stand, every: u64) -> anyhow::Result<Vec<[f64; 2]>> {
         let mut tank = self.fill(stand, &format!("{PRESSURE}*min(1, t/{RAMP})"))?;
         let times = 1.25 * self.period / every as f64;
@@ -266,12 +266,12 @@ impl Joint {
     }
 }
 
-/// How water goes through a joint.
+/// Model of the water in a joint.
 #[derive(Clone, Copy)]
 enum Slot {
-    /// Between plates so far apart, of viscous water.
+    /// Viscous water between plates `width` apart.
     Open { width: f64, nu: f64 },
-    /// In so many rows of cells, which hold water and let it through.
+    /// Rows of cells that store and conduct water.
     Closed {
         rows: f64,
         holds: f64,
@@ -280,8 +280,8 @@ enum Slot {
 }
 
 impl Slot {
-    /// Pressure at the closed end over that at the mouth, as the time goes as e^{st}: 1/cosh qL of sound whose inertia and friction
-    /// are those of the profile between plates, q² = s²/c² / (1 − tanh Λ/Λ) with Λ = a/2 √(s/ν), or those of a bed of pores.
+    /// Pressure at the closed end over that at the mouth for a time dependence e^{st}: 1/cosh qL of sound with the inertia and
+    /// friction of the profile between plates, q² = s²/c² / (1 − tanh Λ/Λ) with Λ = a/2 √(s/ν), or with those of a bed of pores.
     fn transfer(self, s: Complex<f64>, length: f64) -> Complex<f64> {
         let squared = match self {
             Self::Open { width, nu } => {
@@ -301,7 +301,8 @@ impl Slot {
         }
     }
 
-    /// Pressure at the closed end at the time `t` after the mouth's became 1, by Talbot's contour (Abate & Valkó 2004).
+    /// Pressure at the closed end at the time `t` after the pressure at the mouth becomes 1, by Talbot's contour (Abate & Valkó
+    /// 2004).
     fn step(self, t: f64, length: f64) -> f64 {
         const NODES: u32 = 24;
         let r = 2.0 * f64::from(NODES) / (5.0 * t);
@@ -318,7 +319,7 @@ impl Slot {
     }
 }
 
-/// What the slot would have at its closed end for the pressures at the mouth.
+/// Pressures that the slot predicts at its closed end from the pressures at the mouth.
 fn predicted(slot: Slot, length: f64, every: u64, found: &[[f64; 2]]) -> Vec<f64> {
     let steps: Vec<f64> = (0..found.len())
         .map(|n| slot.step((n as f64 + 0.5) * every as f64, length))
@@ -330,7 +331,7 @@ fn predicted(slot: Slot, length: f64, every: u64, found: &[[f64; 2]]) -> Vec<f64
         .collect()
 }
 
-/// When half the pressure is there.
+/// Step at which the pressure reaches half of [`PRESSURE`], interpolated.
 fn half(values: impl Iterator<Item = f64>, every: u64) -> f64 {
     let (mut before, half) = (0.0, 0.5 * PRESSURE);
     for (n, p) in values.enumerate() {

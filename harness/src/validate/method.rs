@@ -1,4 +1,4 @@
-//! How a case is computed, where it leaves that open.
+//! Numerical methods for cases that leave the choice open.
 
 use riprap::{
     lattice::{self, Setup},
@@ -6,19 +6,19 @@ use riprap::{
 };
 use std::fmt;
 
-/// A setting: what it changes of the defaults of a lattice, or of a scene.
+/// A named change to the defaults of a lattice or of a scene.
 #[derive(Clone, Copy)]
 pub struct Method {
-    /// What it is called.
+    /// Name of the method.
     pub name: &'static str,
     flow: fn(&mut Setup),
     scene: fn(&mut Scene),
 }
 
 impl Method {
-    /// As the library has it by default.
+    /// The defaults of the library.
     pub const DEFAULT: Self = Self::of("default", |_| {}, |_| {});
-    /// One relaxation time.
+    /// The BGK operator, with one relaxation time.
     pub const BGK: Self = Self::of(
         "bgk",
         |flow| {
@@ -48,7 +48,7 @@ impl Method {
         |flow| flow.equilibrium = lattice::Equilibrium::SecondOrder,
         |scene| scene.numerics.equilibrium = scene::Equilibrium::SecondOrder,
     );
-    /// Two bytes a population.
+    /// Two bytes per population.
     pub const HALF: Self = Self::of(
         "16-bit",
         |flow| {
@@ -64,7 +64,7 @@ impl Method {
         |_| {},
         |scene| scene.numerics.solid_operator = scene::SolidOperator::Noble,
     );
-    /// Their second one.
+    /// The second solid operator of Noble & Torczynski (1998).
     pub const SUPERPOSITION: Self = Self::of(
         "superposition",
         |_| {},
@@ -76,21 +76,21 @@ impl Method {
         |_| {},
         |scene| scene.numerics.solid_weight = Some(scene::SolidWeight::Standard),
     );
-    /// Fluid and blocks meet every second step.
+    /// Fluid and blocks are coupled every second step.
     pub const EVERY_2: Self = Self::of("interval 2", |_| {}, |scene| scene.coupling.interval = 2);
-    /// Every eighth step.
+    /// Fluid and blocks are coupled every eighth step.
     pub const EVERY_8: Self = Self::of("interval 8", |_| {}, |scene| scene.coupling.interval = 8);
 
     const fn of(name: &'static str, flow: fn(&mut Setup), scene: fn(&mut Scene)) -> Self {
         Self { name, flow, scene }
     }
 
-    /// Changes a lattice that has the defaults.
+    /// Applies the method to a lattice that has the defaults.
     pub fn arrange(&self, flow: &mut Setup) {
         (self.flow)(flow);
     }
 
-    /// Changes a scene that has the defaults.
+    /// Applies the method to a scene that has the defaults.
     pub fn choose(&self, scene: &mut Scene) {
         (self.scene)(scene);
     }

@@ -1,10 +1,9 @@
-//! Flows whose answer is known, run on the device of the user, judged against published limits.
+//! Validation: flows with a known solution, run on the user's device and judged against published limits.
 //!
-//! A case is a function that runs flows on a [`Stand`] and returns [`Record`]s: a number, what it
-//! should be, the error, the limit and the cost. Cases are named `family/case`, one family a file.
-//! The short form fits a CPU adapter of two cores within minutes; `--full` adds the fine grids and
-//! long runs. Flows are in lattice units: cell, step and density of the fluid are 1. Dry blocks, in SI,
-//! run on the host.
+//! A case is a function that runs flows on a [`Stand`] and returns [`Record`]s: the value found, the expected value, the error,
+//! the limit and the cost. Cases are named `family/case`, one file per family. The short form takes minutes on a CPU adapter with
+//! two cores; `--full` adds the fine grids and long runs. Flows are in lattice units: cell, step and density of the fluid are 1.
+//! Dry blocks, in SI, run on the host.
 
 pub mod fields;
 pub mod method;
@@ -49,7 +48,7 @@ pub(crate) mod solids {
     pub mod sphere;
 }
 
-/// Free water by particles.
+/// Free-surface water, by particles.
 pub(crate) mod water {
     pub mod buoyancy;
     pub mod dam;
@@ -72,7 +71,7 @@ use std::path::PathBuf;
 /// Compares flows with exact solutions, published tables and float64 references.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Args {
-    /// Cases to run, such as `cavity/*`; all without it
+    /// Cases to run, such as `cavity/*` [default: all]
     #[arg(long, value_name = "GLOB")]
     pub case: Option<String>,
     /// Print the names of the cases, whether they need --full, and what they compute; run none
@@ -84,7 +83,7 @@ pub struct Args {
     /// Where to write the records as a JSON array
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Directory for pictures of what cases found
+    /// Directory for pictures of the results
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,
     /// Part of the name of the adapter to use
@@ -92,7 +91,7 @@ pub struct Args {
     pub adapter: Option<String>,
 }
 
-/// What a case returns: its records, without its name.
+/// Result of a case: its records, not yet labelled with its name.
 type Outcome = anyhow::Result<Vec<Record>>;
 
 /// A named case.
@@ -100,7 +99,7 @@ type Outcome = anyhow::Result<Vec<Record>>;
 pub struct Case {
     /// Family and case, as `--case` matches them.
     pub name: &'static str,
-    /// What it computes, in a line.
+    /// What the case computes, in one line.
     pub about: &'static str,
     /// Whether it only runs with `--full`.
     pub only_full: bool,
@@ -222,7 +221,7 @@ pub const CASES: &[Case] = &[
 /// The cases whose names match.
 ///
 /// # Errors
-/// If the pattern is not one, or no case matches: the names there are.
+/// If the pattern is invalid, or if no case matches; the message lists the names of all cases.
 pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
     let pattern = glob::Pattern::new(pattern.unwrap_or("*"))
         .with_context(|| format!("--case {} is no pattern", pattern.unwrap_or_default()))?;
@@ -241,7 +240,7 @@ pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
     Ok(found)
 }
 
-/// The table of `cases`: name, `short` or `full`, what it computes. Those of `full` run with `--full` only.
+/// The table of `cases`: name, `short` or `full`, what it computes. `full` cases run only with `--full`.
 pub fn list(cases: &[Case]) -> String {
     let row = |case: &Case| {
         let form = if case.only_full { "full" } else { "short" };
@@ -250,11 +249,11 @@ pub fn list(cases: &[Case]) -> String {
     cases.iter().map(row).collect()
 }
 
-/// Runs the cases that match, prints each record as its case ends; whether all passed.
+/// Runs the matching cases and prints the records of each case as it ends. Returns whether all passed.
 ///
 /// # Errors
-/// If no case matches, there is no adapter, or the JSON file cannot be written. A case that breaks
-/// off does not end the others: it fails with what went wrong.
+/// If no case matches, there is no adapter, or the JSON file cannot be written. A case that breaks off does not stop the others:
+/// it fails, and its record holds the error.
 pub fn run(args: Args) -> anyhow::Result<bool> {
     let cases = select(args.case.as_deref())?;
     if args.list {
@@ -267,7 +266,7 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
             .with_context(|| format!("cannot make {}", folder.display()))?;
     }
     stand.pictures = args.pictures;
-    // Cases may take hours, in which other commits are made.
+    // Read before the run: cases may take hours, during which other commits are made.
     let machine = Machine::of(&stand.device.adapter_info());
     let mut records = Vec::new();
     println!("{}", record::header());
@@ -288,7 +287,7 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
     Ok(failed == 0)
 }
 
-/// What a case finds, printed; what went wrong if it breaks off.
+/// Runs a case and prints its records. A case that breaks off has one record, which holds the error.
 pub(crate) fn found(stand: &Stand, case: &Case) -> Vec<Record> {
     println!("{}", case.name);
     let mut found = (case.run)(stand).unwrap_or_else(|error| vec![broken_off(&error)]);

@@ -1,4 +1,4 @@
-//! A periodic box of noise and shear: against float64, by models that are to be the same, and what it conserves.
+//! A periodic box of noise and shear: comparison with float64, models that must agree, and conservation.
 
 use super::{Outcome, Record, Stand, Trial, fields::changed};
 use kit::twin::{
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 const GOLDEN_CELLS: [u32; 3] = [12, 10, 8];
 const STEPS: u64 = 50;
-/// Relative to the weights: five times what f32 and 16-bit storage do to the populations.
+/// Limits relative to the weights: five times the error of the populations in f32 and in 16-bit storage.
 const F32_LIMIT: f64 = 1e-6;
 const F16_LIMIT: f64 = 2e-3;
 
@@ -33,7 +33,7 @@ fn noise_and_shear(cells: [u32; 3]) -> Populations {
             values.push((w * 0.05 * (r - 0.5) + equilibrium) as f32);
         }
     }
-    // The velocity j/ρ that the eddy viscosity of the first step looks at.
+    // Velocity j/ρ for the eddy viscosity of the first step.
     let mut velocity = vec![0.0; 3 * count];
     for cell in 0..count {
         let f = |q: usize| f64::from(values[q * count + cell]);
@@ -63,7 +63,7 @@ fn suga(cells: [u32; 3]) -> Setup {
     setup
 }
 
-/// A periodic box of noise and shear after 50 steps, known in float64.
+/// A periodic box of noise and shear after 50 steps, against float64.
 pub fn golden(stand: &Stand) -> Outcome {
     let base = suga(GOLDEN_CELLS);
     let f16 = |lanes| changed(&base, |s| (s.storage, s.lanes) = (Storage::F16, lanes));
@@ -102,8 +102,8 @@ pub fn golden(stand: &Stand) -> Outcome {
 }
 
 const NULL_CELLS: [u32; 3] = [24, 10, 8];
-/// Two orders of the same sums differ by f32 round-off, some 1e-7 of what is summed; the
-/// populations differ from their weights by some 0.1.
+/// Sums taken in different orders differ by f32 round-off, some 1e-7 of the summands; the populations differ from their weights
+/// by some 0.1.
 const NULL_LIMIT: f64 = 1e-6;
 
 /// A model with its constant at zero is the simpler model.
@@ -152,8 +152,8 @@ fn end(stand: &Stand, setup: Setup, steps: u64) -> anyhow::Result<(Trial, Popula
     Ok((flow.trial(), flow.populations()?))
 }
 
-/// One solid cell turns its bricks into flagged ones. Nothing of it reaches farther than one cell a
-/// step: beyond that the flagged kernel is the plain one.
+/// One solid cell makes its bricks flagged ones. Its effect spreads by one cell per step; farther away the flagged kernel must
+/// agree with the plain one.
 fn flagged(stand: &Stand, base: &Setup, lanes: u32) -> anyhow::Result<Record> {
     let steps = 3;
     let setup = changed(base, |s| s.lanes = lanes);
@@ -171,7 +171,7 @@ fn flagged(stand: &Stand, base: &Setup, lanes: u32) -> anyhow::Result<Record> {
     ))
 }
 
-/// Largest difference of a population over its weight in the cells that count.
+/// Largest difference of a population over its weight, in the cells selected by `counts`.
 fn difference(a: &Populations, b: &Populations, counts: impl Fn(usize) -> bool) -> f64 {
     let n = a.values.len() / 27;
     let pairs = a.values.iter().zip(&b.values).enumerate();
@@ -183,7 +183,7 @@ fn difference(a: &Populations, b: &Populations, counts: impl Fn(usize) -> bool) 
 
 const BOX: [u32; 3] = [16, 16, 16];
 const LONG_STEPS: u64 = 10_000;
-/// Of Σf and of Σ|c f̃|: round-off of f32 in random directions.
+/// Limit on the drift over Σf and over Σ|c f̃|: round-off of f32 in random directions.
 const DRIFT_LIMIT: f64 = 1e-6;
 
 /// Mass and momentum of a periodic box over 10⁴ steps.
@@ -220,7 +220,7 @@ pub fn conservation(stand: &Stand) -> Outcome {
 struct Totals {
     mass: f64,
     momentum: [f64; 3],
-    /// Σ |c f̃| of each axis.
+    /// Σ |c f̃| along each axis.
     scale: [f64; 3],
 }
 

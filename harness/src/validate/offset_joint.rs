@@ -5,13 +5,13 @@ use anyhow::Context;
 use riprap::scene::{Field, ProbePlace, Scene};
 use std::path::Path;
 
-/// The scene that ships, with cells of 1/16 in.
+/// The bundled scene, with cells of 1/16 in.
 const SCENE: &str = include_str!("../../scenes/offset_joint.toml");
-/// Cells of the three grids over the scene's: 4, 8 and 16 across the joint.
+/// Cell size of the three grids over that of the scene: 4, 8 and 16 cells across the joint.
 const GRIDS: [f64; 3] = [2.0, 1.0, 0.5];
-/// On a CPU, where the finest of them would take most of an hour: 4, 6 and 8 across the joint.
+/// The same on a CPU, where the finest of those grids would take most of an hour: 4, 6 and 8 cells across the joint.
 const COARSE_GRIDS: [f64; 3] = [2.0, 4.0 / 3.0, 1.0];
-/// The flow develops until then, s; from then on means are taken.
+/// Time at which the flow has developed and the means begin, s.
 const BEGIN: f64 = 0.1;
 /// Time between samples of the means, s.
 const SAMPLE: f64 = 0.5e-3;
@@ -21,9 +21,9 @@ const DYNAMIC: f64 = 0.5 * 1000.0 * 6.096 * 6.096;
 /// Lower and upper corner, m.
 type Region = ([f64; 3], [f64; 3]);
 
-/// Means over time and span of what the scene's probes see.
+/// Means over time and span in the regions of the scene's probes.
 struct Means {
-    /// Height of the cells beside the downstream face, m, and the pressure there, Pa.
+    /// Height of the cells next to the downstream face, m, and the pressure there, Pa.
     face: Vec<(f64, f64)>,
     /// Pressure in the joint, Pa.
     joint: f64,
@@ -32,7 +32,7 @@ struct Means {
     trial: Trial,
 }
 
-/// Where the stagnation point is, as the grid is refined twice.
+/// Position of the stagnation point, on three successively finer grids.
 pub fn stagnation(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let grids = if stand.software { COARSE_GRIDS } else { GRIDS };
@@ -49,7 +49,7 @@ pub fn stagnation(stand: &Stand) -> Outcome {
         records.push(trial.report(name("its pressure / (ρV²/2)"), pressure / DYNAMIC));
         let joint = means.joint / DYNAMIC;
         records.push(trial.at_most(name("joint's pressure / (ρV²/2)"), joint, 1.0));
-        // Water that turns over in the joint goes up and down; nothing can pass through.
+        // Water that circulates in the joint moves up and down; none can pass through.
         let [up, down] = means.upright.map(|v| v / 6.096);
         records.push(trial.report(name("largest mean upward velocity in the joint / V"), up));
         records.push(trial.report(name("largest mean downward velocity there / V"), -down));
@@ -67,7 +67,7 @@ fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
     let end = scene.run.duration.context("the scene has a duration")?;
     let cell = scene.domain.cell;
     let [mut face, joint] = [region(scene, "downstream_face")?, region(scene, "joint")?];
-    // Only the cells that touch it.
+    // Only the cells that touch the face.
     face.0[0] = face.1[0] - cell;
     let centres: Vec<_> = scene.domain.centres().collect();
     let open = |n: &u32| tank.simulation.solid().get(*n as usize) != Some(&true);
@@ -130,12 +130,12 @@ fn region(scene: &Scene, name: &str) -> anyhow::Result<Region> {
     }
 }
 
-/// Whether a point is in a region of the plane of the flow.
+/// Whether a point is in a region, seen in the plane of the flow.
 fn within(region: &Region, point: &[f64; 3]) -> bool {
     (0..2).all(|a| point[a] > region.0[a] && point[a] < region.1[a])
 }
 
-/// The largest value and where it is, by the parabola through it and its neighbours.
+/// Height and value of the maximum, from the parabola through the largest value and its neighbours.
 fn peak(values: &[(f64, f64)]) -> (f64, f64) {
     let largest = (0..values.len()).max_by(|&a, &b| values[a].1.total_cmp(&values[b].1));
     let Some(n) = largest else {

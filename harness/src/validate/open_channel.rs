@@ -6,7 +6,7 @@ use riprap::lattice::{Face, Setup, State};
 const LENGTH: u32 = 48;
 const HEIGHT: u32 = 11;
 const TAU: f64 = 0.9;
-/// Speed in the middle: the density falls along the channel by a part in 300 only.
+/// Speed in the middle: the density falls along the channel by only one part in 300.
 const SPEED: f64 = 0.004;
 const LIMIT: f64 = 0.01;
 /// Twenty times H²/ν, and the time in which the mean pressure settles.
@@ -29,19 +29,19 @@ fn parabola() -> Face {
     Face::Velocity((0..4 * HEIGHT).map(of).collect())
 }
 
-/// A parabola comes in, the pressure is held at the end.
+/// Parabolic inlet; the pressure is held at the outlet.
 pub fn velocity_pressure(stand: &Stand) -> Outcome {
     let outlet = Face::Pressure { density: 1.0 };
     run(stand, channel(stand, [parabola(), outlet]), Some(SPEED))
 }
 
-/// A parabola comes in, sound and vortices may leave at the end.
+/// Parabolic inlet; sound and vortices may leave through the outlet.
 pub fn velocity_outflow(stand: &Stand) -> Outcome {
     let outlet = Face::Outflow { density: 1.0 };
     run(stand, channel(stand, [parabola(), outlet]), Some(SPEED))
 }
 
-/// Both pressures are held, 3 ΔP apart.
+/// Both pressures are held; the densities differ by 3 Δp.
 pub fn pressure_pressure(stand: &Stand) -> Outcome {
     let half = 1.5 * slope(SPEED) * f64::from(LENGTH);
     let face = |density| Face::Pressure { density };
@@ -54,7 +54,7 @@ fn slope(speed: f64) -> f64 {
     -8.0 * (TAU - 0.5) / 3.0 * speed / f64::from(HEIGHT * HEIGHT)
 }
 
-/// `inlet` is the speed in the middle where it is prescribed; else the gradient is.
+/// `inlet` is the speed in the middle if it is prescribed; otherwise the pressure gradient is prescribed.
 fn run(stand: &Stand, setup: Setup, inlet: Option<f64>) -> Outcome {
     let cells = setup.cells;
     let rest = State::rest((LENGTH * HEIGHT * 4) as usize);

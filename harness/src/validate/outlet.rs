@@ -1,20 +1,20 @@
-//! Outlets: what they return of a pulse of sound, and vortices behind a square cylinder that cross them.
+//! Outlets: reflection of a pulse of sound, and vortices behind a square cylinder that cross them.
 
 use super::{Outcome, Stand, Trial, fields};
 use riprap::lattice::Face;
 
 /// Length of the channel of the pulse, cells.
 const LENGTH: u32 = 200;
-/// Of the density.
+/// Amplitude of the pulse in density.
 const PULSE: f64 = 1e-3;
 /// Standard deviation of the pulse, cells: a tenth of the domain from flank to flank.
 const WIDTH: f64 = 8.0;
-/// The pulse starts in the middle; after this it would be back at a third of the way.
+/// Steps of a run: the pulse starts in the middle, and its reflection would have travelled back a third of the channel.
 const PULSE_STEPS: u64 = 300;
-/// Of the amplitude of the pulse.
+/// Limit on the returned amplitude over that of the pulse.
 const RETURNED: f64 = 0.02;
 
-/// What an outlet returns of sound that reaches it: a pulse of density 1e-3 that runs into the outlet, in fluid at rest and in a stream.
+/// Reflection of sound by an outlet: a pulse of density 1e-3 runs into the outlet, in fluid at rest and in a stream.
 pub fn pulse(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for speed in [0.0, 0.05, 0.1] {
@@ -36,7 +36,7 @@ fn send(stand: &Stand, speed: f64, outlet: Face) -> anyhow::Result<(Trial, f64)>
     let start = fields::state(cells, |[x, _, _]| {
         let distance = (x - 0.5 * f64::from(LENGTH)) / WIDTH;
         let excess = PULSE * (-0.5 * distance * distance).exp();
-        // A wave that only runs towards x: u' = c_s ρ'/ρ.
+        // A wave that travels only towards +x: u' = c_s ρ'/ρ.
         let sound = excess / (3f64.sqrt() * (1.0 + excess));
         (excess, [speed + sound, 0.0, 0.0])
     });
@@ -55,17 +55,17 @@ const D: u32 = 10;
 const SPEED: f64 = 0.1;
 const REYNOLDS: f64 = 200.0;
 const CELLS: [u32; 3] = [16 * D, 8 * D, 4];
-/// From inlet to outlet the fluid takes 1600 steps, a vortex is shed every 560.
+/// The fluid takes 1600 steps from inlet to outlet; a vortex is shed every 560.
 const STEPS: u64 = 6_400;
 const FULL_STEPS: u64 = 12_800;
 const SAMPLE: u64 = 50;
 
-/// Vortices behind a square cylinder leave where the pressure is held.
+/// Vortices behind a square cylinder leave through a face of held pressure.
 pub fn wake_pressure(stand: &Stand) -> Outcome {
     run(stand, Face::Pressure { density: 1.0 })
 }
 
-/// They leave where sound and vortices may.
+/// Vortices behind a square cylinder leave through an outlet that lets sound and vortices leave.
 pub fn wake_outflow(stand: &Stand) -> Outcome {
     run(stand, Face::Outflow { density: 1.0 })
 }
@@ -82,7 +82,7 @@ fn run(stand: &Stand, outlet: Face) -> Outcome {
     let half = 0.5 * f64::from(D);
     let in_cylinder = |[x, y, _]: [f64; 3]| (low..high).contains(&x) && (y - middle).abs() < half;
     setup.solid = fields::centres(CELLS).map(in_cylinder).collect();
-    // A crosswind behind the cylinder breaks the symmetry, so that vortices come at once.
+    // A crosswind behind the cylinder breaks the symmetry, so that vortices form at once.
     let start = fields::state(CELLS, |at| {
         let crosswind = if (high..high + 20.0).contains(&at[0]) {
             0.1 * SPEED
@@ -94,7 +94,7 @@ fn run(stand: &Stand, outlet: Face) -> Outcome {
     });
     let mut flow = stand.flow(setup, &start, false)?;
 
-    // Two edges behind the cylinder, on the centre line, and at the outlet.
+    // Two edge lengths behind the cylinder, on the centre line, and at the outlet.
     let at = |x: u32| (x + nx * (ny / 2)) as usize;
     let (behind, last) = (at(7 * D), at(nx - 1));
     let mut crosswise = Vec::new();
@@ -127,7 +127,7 @@ fn run(stand: &Stand, outlet: Face) -> Outcome {
     Ok(records)
 }
 
-/// From the first to the last upward zero crossing of the velocity across.
+/// Strouhal number from the first and the last upward crossing of the mean of the cross-stream velocity.
 fn strouhal(samples: &[f64]) -> f64 {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let crossings: Vec<f64> = samples

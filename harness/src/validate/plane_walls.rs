@@ -6,7 +6,7 @@ use riprap::lattice::{Face, Force, Setup, State};
 /// Ginzburg & d'Humières 2003: the parabola is exact, and the straight line at any Λ.
 const LAMBDA: f64 = 3.0 / 16.0;
 const TAUS: [f64; 6] = [0.55, 0.6, 0.8, 1.0, 2.0, 3.0];
-/// Largest velocity: its square is what the weak compressibility costs.
+/// Largest velocity: the error of the weak compressibility grows with its square.
 const SPEED: f64 = 0.01;
 /// Round-off of f32 in a steady state.
 const LIMIT: f64 = 1e-5;
@@ -29,7 +29,7 @@ pub fn poiseuille(stand: &Stand) -> Outcome {
     each_tau(stand, 9, BETWEEN_WALLS, between_walls)
 }
 
-/// The same on `height` cells at one τ: what was run, and the L2 error of the velocity.
+/// Poiseuille flow on `height` cells at one τ: the trial, and the L2 error of the velocity.
 pub fn poiseuille_on(
     stand: &Stand,
     height: u32,
@@ -58,7 +58,7 @@ pub fn film(stand: &Stand) -> Outcome {
     })
 }
 
-/// Runs the flow that `arrange` makes at each τ to its steady state.
+/// Runs the flow that `arrange` sets up at each τ to its steady state.
 fn each_tau<Exact: Fn(f64, f64) -> f64>(
     stand: &Stand,
     height: u32,
@@ -78,7 +78,7 @@ fn each_tau<Exact: Fn(f64, f64) -> f64>(
     Ok(records)
 }
 
-/// A flow that has become steady.
+/// A steady flow.
 struct Steady {
     trial: Trial,
     /// L2 error of the velocity.
@@ -86,7 +86,7 @@ struct Steady {
     end: State,
 }
 
-/// Runs the flow that `arrange` makes to its steady state.
+/// Runs the flow that `arrange` sets up to its steady state.
 fn steady<Exact: Fn(f64, f64) -> f64>(
     stand: &Stand,
     mut setup: Setup,

@@ -1,20 +1,20 @@
-//! The velocity at which the block of the scene `plucking` begins to move, beside that of limit equilibrium under the mean pressures on
-//! its faces.
+//! The velocity at which the block of the scene `plucking` begins to move, compared with that of limit equilibrium under the mean
+//! pressures on its faces.
 
 use super::{Outcome, Stand, Trial};
 use crate::threshold::{self, Args, mean_and_error};
 use anyhow::Context;
 use std::{fs, sync::atomic::AtomicBool, time::Instant};
 
-/// The scene that ships, with 16 cells across the block.
+/// The bundled scene, with 16 cells across the block.
 const SCENE: &str = include_str!("../../scenes/plucking.toml");
-/// Velocity outside of the boundary layer in the scene, m/s: the values are factors of its profile.
+/// Velocity outside the boundary layer in the scene, m/s; the search varies a factor on the velocity profile.
 const VELOCITY: f64 = 4.0;
-/// Times for which the block is held, s: the eddies that it feels from then on are others.
+/// Times for which the block is held, s: each releases it into different eddies.
 const HOLDS: [f64; 3] = [0.05, 0.09, 0.13];
-/// Time in which it may move, s.
+/// Time for which the block is free to move, s.
 const FREE: f64 = 0.3;
-/// Factors of the profile at which it stands and at which it moves, and how closely the threshold is wanted.
+/// Factors on the profile at which the block stays and at which it moves, and the tolerance of the search between them.
 const ENDS: [f64; 2] = [0.3, 0.5];
 const TOLERANCE: f64 = 0.015;
 
@@ -68,7 +68,7 @@ pub fn run(stand: &Stand) -> Outcome {
     let trial = Trial::since(begin, "plucking, from three moments", 96 * 32 * 48, 0);
     let of_all = |all: &[f64]| mean_and_error(all).context("a single moment");
     let (moves, fails) = (of_all(&moves)?, of_all(&fails)?);
-    // A threshold is anywhere in its bracket with the same probability; the three brackets may be the same one.
+    // A threshold is uniformly distributed in its bracket; the three brackets may coincide.
     let bracket = half_bracket / 3f64.sqrt();
     let mut add = |what: &str, value| records.push(trial.report(what, value));
     add("least velocity that moves it, mean, m/s", moves[0]);

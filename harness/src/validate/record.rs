@@ -1,4 +1,4 @@
-//! What a case found: one number with its reference, its error, its limit and its cost.
+//! Result of a case: one number with its reference, its error, its limit and its cost.
 
 use kit::clock::Spent;
 use riprap::lattice::{Collision, Equilibrium, Force, Setup, Storage};
@@ -10,32 +10,32 @@ use std::time::Instant;
 pub struct Record {
     /// Name of the case, such as `cavity/re100`.
     pub case: String,
-    /// What was run, in one line.
+    /// Setup of the run, in one line.
     pub setup: String,
-    /// Fluid and solid cells of the domain; of dry rock its blocks.
+    /// Fluid and solid cells of the domain; for dry rock, the number of blocks.
     pub cells: u64,
     /// Steps done.
     pub steps: u64,
-    /// Time on the device, read-outs included, or on the host, s.
+    /// Time on the device, readbacks included, or on the host, s.
     pub seconds: f64,
-    /// What `value` is, with its unit where it has one.
+    /// Name of `value`, with its unit if it has one.
     pub quantity: String,
-    /// What was found.
+    /// Value found.
     pub value: f64,
-    /// What it should be, if that is known.
+    /// Expected value, if known.
     pub reference: Option<f64>,
-    /// How far it is off, in the measure of `limit`.
+    /// Deviation from the reference, in the measure of `limit`.
     pub error: Option<f64>,
-    /// Largest error that passes; none where the number is only reported.
+    /// Largest error that passes; `None` if the number is only reported.
     pub limit: Option<f64>,
     /// Whether the error is within the limit.
     pub passed: bool,
 }
 
-/// What was run and what it cost: the part that the records of one run share.
+/// Setup and cost of a run, shared by all its records.
 #[derive(Clone, Debug, Default)]
 pub struct Trial {
-    /// What was run, in one line.
+    /// Setup of the run, in one line.
     pub setup: String,
     /// Cells of the domain.
     pub cells: u64,
@@ -43,12 +43,12 @@ pub struct Trial {
     pub steps: u64,
     /// Time on the device, s.
     pub seconds: f64,
-    /// Time of steps alone, where it was taken.
+    /// Time of the steps alone, if measured.
     pub stepping: Spent,
 }
 
 impl Trial {
-    /// What was run on the host since `begin`.
+    /// A trial run on the host since `begin`.
     pub fn since(begin: Instant, setup: impl Into<String>, cells: u64, steps: u64) -> Self {
         Self {
             setup: setup.into(),
@@ -59,7 +59,7 @@ impl Trial {
         }
     }
 
-    /// A number without reference and limit.
+    /// Reports a number without reference and limit.
     pub fn report(&self, quantity: impl Into<String>, value: f64) -> Record {
         Record {
             case: String::new(),
@@ -116,7 +116,7 @@ impl Trial {
         }
     }
 
-    /// Passes if value ≥ bound; the error is what is missing.
+    /// Passes if value ≥ bound; the error is the shortfall.
     pub fn at_least(&self, quantity: impl Into<String>, value: f64, bound: f64) -> Record {
         // `f64::max` would turn NaN into 0.
         let missing = if value >= bound { 0.0 } else { bound - value };
@@ -131,14 +131,14 @@ impl Record {
             reference: Some(reference),
             error: Some(error),
             limit,
-            // A comparison with NaN is false: what is not a number does not pass.
+            // A comparison with NaN is false: a NaN does not pass.
             passed: limit.is_none_or(|limit| error <= limit),
             ..self
         }
     }
 }
 
-/// Name of a collision operator, as scenes have it.
+/// Name of a collision operator, as in scene files.
 pub fn collision(collision: Collision) -> &'static str {
     match collision {
         Collision::Bgk => "bgk",
@@ -155,7 +155,7 @@ pub fn equilibrium(equilibrium: Equilibrium) -> &'static str {
     }
 }
 
-/// A setup in one line: cells, relaxation time, and what differs from the defaults.
+/// Describes a setup in one line: cells, relaxation time, and the settings that differ from the defaults.
 pub fn describe(setup: &Setup) -> String {
     let [x, y, z] = setup.cells;
     let collision = collision(setup.collision);
@@ -182,7 +182,7 @@ pub fn describe(setup: &Setup) -> String {
     text + &format!(" lanes {}", setup.lanes)
 }
 
-/// Heads of the columns of [`row`].
+/// Column heads for [`row`].
 pub fn header() -> String {
     format!(
         "{:4} {:44} {:>13} {:>13} {:>10} {:>10} {:>8} {:>7}  setup",
@@ -190,7 +190,7 @@ pub fn header() -> String {
     )
 }
 
-/// A record as a line of the table.
+/// Formats a record as a line of the table.
 pub fn row(record: &Record) -> String {
     let small = |value: Option<f64>| value.map_or(String::from("-"), |v| format!("{v:.2e}"));
     let verdict = match (record.passed, record.limit) {

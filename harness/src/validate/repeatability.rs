@@ -1,11 +1,11 @@
-//! The same run gives the same bits: twice, after a restart, in workgroups of other shapes.
+//! The same run gives the same bits: twice, after a restart, and with other workgroup shapes.
 
 use super::{Outcome, Stand, fields};
 use riprap::lattice::{Face, Force, Populations, Setup};
 
 const CELLS: [u32; 3] = [24, 12, 8];
 const STEPS: u64 = 41;
-/// Odd, so that the restart changes the parity of the steps that follow.
+/// Odd, so that the restart changes the parity of the following steps.
 const BREAK: u64 = 17;
 
 /// Inlet, outflow, a moving wall, a wall at rest, a solid block, a force and WALE.

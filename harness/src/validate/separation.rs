@@ -1,14 +1,14 @@
-//! Flows in a channel that separate at an edge and come back to the floor: behind a step, and around a cube.
+//! Channel flows that separate at an edge and reattach to the floor: behind a step, and around a cube.
 //!
-//! The stream is along x and the floor normal to y; h is the height of the step or the cube. Turbulent water comes out of a
-//! periodic channel that runs along.
+//! The stream is along x and the floor normal to y; h is the height of the step or the cube. A periodic channel that runs
+//! alongside supplies the turbulent inflow.
 
 use super::{Flow, Outcome, Record, Stand, fields};
 use anyhow::Context;
 use riprap::lattice::{Face, Force, WallModel};
 use std::ops::Range;
 
-/// Mean velocity of the inlet, cells a step.
+/// Mean velocity of the inlet, cells per step.
 const BULK: f64 = 0.05;
 const WALL: Face = Face::Wall([0.0; 3]);
 /// Reynolds number with the mean velocity and the hydraulic diameter 2h of the inlet, and reattachment over h (Erturk 2008).
@@ -17,19 +17,19 @@ const LAMINAR_LIMIT: f64 = 0.03;
 /// Reynolds number with the mean velocity and h, and reattachment over h (Kopera, Kerr, Blackburn & Barkley 2017).
 const STEP: (f64, f64) = (9000.0, 8.62);
 const STEP_LIMIT: f64 = 0.1;
-/// Reynolds number with the mean velocity and h, and over h where the flow separates before the cube and reattaches behind it
-/// (Martinuzzi & Tropea 1993).
+/// Reynolds number with the mean velocity and h, and the lengths, over h, of separation before the cube and of reattachment
+/// behind it (Martinuzzi & Tropea 1993).
 const CUBE: (f64, f64, f64) = (40_000.0, 1.04, 1.61);
 const CUBE_LIMIT: f64 = 0.15;
 
-/// Steps in which the inlet keeps what it has: a quarter of a cell of the stream.
+/// Steps between updates of the inlet: the stream moves a quarter of a cell.
 const KEEP: u64 = 5;
-/// Times h/u_τ until the periodic channel has forgotten its start.
+/// Times h/u_τ until the periodic channel no longer depends on its start.
 const DEVELOP: f64 = 6.0;
-/// Times h/U until a turbulent flow has forgotten its start, and over which means are taken.
+/// Times h/U until a turbulent flow no longer depends on its start, and over which means are taken.
 const SETTLE: f64 = 30.0;
 const AVERAGE: f64 = 50.0;
-/// Parts of that time, whose means give the error of the whole mean, and states in each.
+/// Batches of that time, whose means give the error of the whole mean, and states in each.
 const BATCHES: usize = 8;
 const SAMPLES: u64 = 50;
 
@@ -39,7 +39,7 @@ enum Regime {
     Turbulent(Option<WallModel>),
 }
 
-/// The two that are compared: with a wall model and without.
+/// The two turbulent regimes that are compared: with a wall model and without.
 const TURBULENT: [(Regime, &str); 2] = [
     (Regime::Turbulent(Some(WallModel::WernerWengle)), ""),
     (Regime::Turbulent(None), ", no model"),
@@ -50,12 +50,12 @@ const TURBULENT: [(Regime, &str); 2] = [
 struct Channel {
     h: u32,
     cells: [u32; 3],
-    /// Where the body is along x and z; it is h high.
+    /// Extent of the body along x and z; it is h high.
     body: [Range<u32>; 2],
     regime: Regime,
 }
 
-/// Such a flow, and the channel that its inlet belongs to.
+/// The flow in a [`Channel`], and the channel that feeds its inlet.
 struct Stream<'a> {
     flow: Flow<'a>,
     upstream: Option<Upstream<'a>>,
@@ -65,11 +65,11 @@ struct Stream<'a> {
 struct Upstream<'a> {
     flow: Flow<'a>,
     cells: [u32; 3],
-    /// Rows of cells below it at the inlet.
+    /// Rows of cells below the channel at the inlet.
     below: u32,
 }
 
-/// Laminar flow behind a step, in a plane. The edge makes the error one of the first order: the coarse grid shows it.
+/// Laminar, plane flow behind a step. The edge makes the error first-order: the coarse grid shows it.
 pub fn laminar_step(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for h in [8, 16] {
@@ -92,7 +92,7 @@ pub fn laminar_step(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Cells of h in turbulent flows: what a CPU of two cores runs in minutes, and what a GPU does.
+/// Cells across h in turbulent flows: for a CPU of two cores within minutes, and for a GPU.
 fn fineness(stand: &Stand) -> u32 {
     if stand.software { 12 } else { 24 }
 }
@@ -137,7 +137,7 @@ pub fn cube(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// A place that follows from the mean of all batches, and its standard error from the means without one of them (jackknife).
+/// A position derived from the mean of all batches, and its standard error from the means without one of them (jackknife).
 fn place(
     batches: &[Vec<f64>],
     of: impl Fn(&[f64]) -> anyhow::Result<f64>,
@@ -166,7 +166,7 @@ fn place(
     ])
 }
 
-/// A place with its standard error.
+/// Records of a position and its standard error.
 fn judge(
     stream: &Stream<'_>,
     quantity: &str,
@@ -182,7 +182,7 @@ fn judge(
 }
 
 impl Channel {
-    /// Behind a step, which begins at the inlet and is four heights long.
+    /// The channel behind a step, which begins at the inlet and is four heights long.
     fn step(h: u32, behind: u32, wide: u32, regime: Regime) -> Self {
         Self {
             h,
@@ -192,7 +192,7 @@ impl Channel {
         }
     }
 
-    /// A wall model is held to the published length; what a flow has without one is for comparison.
+    /// Limit on the error of the length; none for flows without a wall model, which are for comparison.
     fn limit(&self, limit: f64) -> Option<f64> {
         match self.regime {
             Regime::Turbulent(None) => None,
@@ -206,13 +206,13 @@ impl Channel {
         y < f64::from(self.h) && within(&self.body[0], x) && within(&self.body[1], z)
     }
 
-    /// Floor and height of the inlet.
+    /// Floor level and height of the inlet.
     fn inlet(&self) -> [f64; 2] {
         let floor = if self.body[0].start == 0 { self.h } else { 0 };
         [floor, self.cells[1] - floor].map(f64::from)
     }
 
-    /// Velocity of the inlet.
+    /// Velocity profile of the inlet.
     fn profile(&self, y: f64) -> f64 {
         let [floor, height] = self.inlet();
         // 0 at the walls, 1 in the middle.
@@ -223,7 +223,7 @@ impl Channel {
         }
     }
 
-    /// The flow at its start, which is that of the inlet everywhere above its floor.
+    /// The flow at its start, with the inlet profile everywhere above the floor.
     fn stream<'a>(&self, stand: &'a Stand, nu: f64) -> anyhow::Result<Stream<'a>> {
         let [_, ny, nz] = self.cells;
         let mut setup = stand.setup(self.cells, nu);
@@ -256,7 +256,7 @@ impl Channel {
         Ok(Stream { flow, upstream })
     }
 
-    /// A turbulent flow that has run, and what [`Self::on_floor`] found in parts of the time.
+    /// A developed turbulent flow, and the result of [`Self::on_floor`] for each batch.
     fn batches<'a>(
         &self,
         stand: &'a Stand,
@@ -265,16 +265,16 @@ impl Channel {
         let h = f64::from(self.h);
         let mut stream = self.stream(stand, h * BULK / reynolds)?;
         stream.advance((SETTLE * h / BULK) as u64)?;
-        // Odd, so that populations that alternate at walls take part in both states.
+        // Odd, so that populations that alternate at walls contribute both of their states.
         let each = (AVERAGE * h / BULK / (BATCHES as f64 * SAMPLES as f64)) as u64 | 1;
         let batch = |_| self.on_floor(&mut stream, SAMPLES, each);
         let batches = (0..BATCHES).map(batch).collect::<anyhow::Result<_>>()?;
         Ok((stream, batches))
     }
 
-    /// Which way the floor is rubbed along the stream: the mean velocity in the cells on it, of laminar flow the slope at the floor of the
-    /// parabola through two cells; over states `each` steps apart, and across the stream over the two columns in the middle of the body,
-    /// or over all of a step.
+    /// Streamwise direction of the friction on the floor: the mean velocity in the cells on it or, for laminar flow, the slope at
+    /// the floor of the parabola through two cells. The mean is over states `each` steps apart and, across the stream, over the
+    /// two columns in the middle of the body, or over all columns for a step.
     fn on_floor(
         &self,
         stream: &mut Stream<'_>,
@@ -310,7 +310,7 @@ impl Channel {
         Ok(mean)
     }
 
-    /// Where the flow on the floor turns from back to forth for the last time behind the body, from its rear, over h.
+    /// Position over h, from the rear of the body, of the last change from backward to forward flow on the floor behind it.
     fn reattachment(&self, u: &[f64]) -> anyhow::Result<f64> {
         let rear = self.body[0].end as usize;
         let last = (rear..u.len() - 1)
@@ -320,7 +320,7 @@ impl Channel {
         Ok((crossing(u, n) - rear as f64) / f64::from(self.h))
     }
 
-    /// Where it turns back for the first time before the body, from its front, over h.
+    /// Position over h, from the front of the body, of the first change from forward to backward flow before it.
     fn separation(&self, u: &[f64]) -> anyhow::Result<f64> {
         let front = self.body[0].start as usize;
         let first = (1..front).find(|&n| u[n - 1] >= 0.0 && u[n] < 0.0);
@@ -346,7 +346,7 @@ impl Stream<'_> {
 }
 
 impl<'a> Upstream<'a> {
-    /// One that has forgotten its start; with a wall model, whatever there is behind the inlet.
+    /// A developed channel, always with a wall model.
     fn develop(stand: &'a Stand, cells: [u32; 3], below: u32, nu: f64) -> anyhow::Result<Self> {
         let h = 0.5 * f64::from(cells[1]);
         // Re_τ of a channel (Pope 2000, eq. 7.9 and 7.10).
@@ -363,7 +363,7 @@ impl<'a> Upstream<'a> {
         Ok(Self { flow, cells, below })
     }
 
-    /// Velocity of the inlet after further steps: that of a plane, with the mean of the inlet.
+    /// Velocity of the inlet after further steps: that of one plane of the channel, scaled to the mean velocity of the inlet.
     fn inlet(&mut self, steps: u64) -> anyhow::Result<Vec<[f32; 3]>> {
         self.flow.advance(steps)?;
         let state = self.flow.state()?;
@@ -384,7 +384,7 @@ impl<'a> Upstream<'a> {
     }
 }
 
-/// Where a line through the values of the cells n and n + 1 is zero.
+/// Zero of the line through the values of the cells n and n + 1.
 fn crossing(u: &[f64], n: usize) -> f64 {
     n as f64 + 0.5 + u[n] / (u[n] - u[n + 1])
 }
@@ -400,7 +400,8 @@ mod tests {
             body: [8..10, 0..4],
             ..Channel::step(2, 6, 4, Regime::Laminar)
         };
-        // Between the centres of the cells 4 and 5, a quarter of a cell from the first; and a half behind cell 13.
+        // Separation between the centres of cells 4 and 5, a quarter of a cell from the first; reattachment half a cell behind
+        // cell 13.
         let mut u = [1.0; 20];
         (u[4], u[5], u[6], u[7]) = (1.0, -3.0, -1.0, -1.0);
         (u[10], u[11], u[12], u[13], u[14]) = (0.5, -1.0, -1.0, -1.0, 1.0);
@@ -408,7 +409,7 @@ mod tests {
         assert_eq!(channel.reattachment(&u).unwrap(), (14.0 - 10.0) / 2.0);
         assert!(channel.reattachment(&[1.0; 20]).is_err());
         assert!(channel.separation(&[1.0; 20]).is_err());
-        // Batches whose mean is u: the same place, and an error as theirs differ.
+        // Batches whose mean is u: the same position, and an error from their difference.
         let shifted = |by: f64| u.map(|u| u + by).to_vec();
         let [same, none] = place(&[u.to_vec(), u.to_vec()], |u| channel.reattachment(u)).unwrap();
         let [mean, error] =

@@ -1,4 +1,4 @@
-//! Every combination of slots is valid WGSL, and what a setup does not use is not bound.
+//! Every combination of slots is valid WGSL, and a setup binds only what it uses.
 
 use super::{Outcome, Stand, Trial, fields::changed, record::describe};
 use anyhow::Context;
@@ -23,7 +23,7 @@ pub fn run(_: &Stand) -> Outcome {
             BrickKind::Flagged,
             BrickKind::Psm,
         ] {
-            // One binding as on most devices, and four as large grids need.
+            // One binding, as on most devices, and four, as large grids need.
             for bindings in [1, 4] {
                 let program = collide_stream(&setup, bindings, kind);
                 let shader = program

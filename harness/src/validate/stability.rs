@@ -1,11 +1,11 @@
-//! What must not blow up: noise in fluid at rest, and vortices at the lowest viscosity.
+//! Runs that must stay stable: noise in fluid at rest, and vortices at the lowest viscosity.
 
 use super::{Outcome, Stand, fields};
 use kit::twin::lattice::W;
 use riprap::lattice::{C, Collision, Equilibrium, Populations, Setup};
 use std::f64::consts::TAU;
 
-/// A quiescent box with noise of 1e-6 calms down, at every relaxation time that a method allows.
+/// Noise of 1e-6 in a quiescent box decays at every relaxation time that a method allows.
 pub fn quiescent(stand: &Stand) -> Outcome {
     let cells = [16; 3];
     let taus: &[f64] = &[0.51, 0.6, 0.8, 1.0, 2.0];
@@ -133,8 +133,8 @@ fn method(
 ) -> Setup {
     let mut setup = stand.setup([32; 3], 1e-6);
     (setup.collision, setup.equilibrium, setup.wale) = (collision, equilibrium, wale);
-    // The vortices pass Mach 0.5, where the guard stands by default, before they break; at the
-    // speed of sound the flow has left the method.
+    // The vortices exceed Mach 0.5, the default limit of the guard, before they break up; at the speed of sound the flow has left
+    // the range of the method.
     setup.max_speed = 1.0 / 3f64.sqrt();
     setup
 }

@@ -13,11 +13,11 @@ use std::{path::PathBuf, time::Instant};
 
 /// Cell updates in one submission: under a second on a CPU, several milliseconds on a GPU.
 pub const SUBMISSION: u64 = 20_000_000;
-/// Steps at the start of a run that are not timed: drivers compile at the first dispatch, boundaries begin with the
-/// second step, and even and odd ones have kernels of their own.
+/// Steps at the start of a run that are not timed: drivers compile at the first dispatch, boundaries begin with the second step,
+/// and even and odd steps have kernels of their own.
 pub const WARM_UP: u64 = 4;
 
-/// Where the cases run.
+/// The device on which the cases run, and their options.
 #[derive(Debug)]
 pub struct Stand {
     /// The device.
@@ -26,9 +26,9 @@ pub struct Stand {
     pub queue: wgpu::Queue,
     /// Whether the adapter computes on the CPU.
     pub software: bool,
-    /// Whether the long form of the cases is wanted.
+    /// Whether to run the long form of the cases.
     pub full: bool,
-    /// Where cases may draw what they found.
+    /// Folder for charts and tables of the results; `None` for none.
     pub pictures: Option<PathBuf>,
 }
 
@@ -49,7 +49,7 @@ impl Stand {
         })
     }
 
-    /// The short form on a device that is open.
+    /// The short form on an open device.
     pub fn on(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self {
             device: device.clone(),
@@ -60,7 +60,7 @@ impl Stand {
         }
     }
 
-    /// Draws a chart into NAME.png, where pictures are wanted.
+    /// Draws a chart into NAME.png if [`Self::pictures`] is set.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -71,7 +71,7 @@ impl Stand {
         }
     }
 
-    /// Writes numbers below the heads of their columns into NAME.csv, where pictures are wanted.
+    /// Writes a table with column heads into NAME.csv if [`Self::pictures`] is set.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -107,10 +107,10 @@ impl Stand {
         setup
     }
 
-    /// A flow that starts from a state; with `non_equilibrium` from its viscous stress too.
+    /// A flow that starts from a state; with `non_equilibrium`, its viscous stress is included.
     ///
     /// # Errors
-    /// What [`Lattice::new`] and [`Lattice::start`] refuse.
+    /// Returns the errors of [`Lattice::new`] and [`Lattice::start`].
     pub fn flow(
         &self,
         setup: Setup,
@@ -123,10 +123,10 @@ impl Stand {
         Ok(flow)
     }
 
-    /// A flow that goes on from populations.
+    /// A flow that continues from populations.
     ///
     /// # Errors
-    /// What [`Lattice::new`] and [`Lattice::set_populations`] refuse.
+    /// Returns the errors of [`Lattice::new`] and [`Lattice::set_populations`].
     pub fn resumed(&self, setup: Setup, populations: &Populations) -> anyhow::Result<Flow<'_>> {
         let mut flow = self.still(setup)?;
         flow.lattice
@@ -145,7 +145,7 @@ impl Stand {
         })
     }
 
-    /// Waits for a future, not longer than a device may be silent.
+    /// Waits for a future, at most as long as a device may be silent.
     ///
     /// # Errors
     /// If it is not ready in time.
@@ -154,7 +154,7 @@ impl Stand {
     }
 }
 
-/// A lattice that runs, with the time that it took.
+/// A running lattice, with the time spent on it.
 ///
 /// Its methods return an error if the device is lost or silent, and those that run steps if the flow leaves the range of
 /// the method.
@@ -162,14 +162,14 @@ impl Stand {
 pub struct Flow<'a> {
     stand: &'a Stand,
     lattice: Lattice,
-    /// Made when first asked for.
+    /// Created on first use.
     observer: Option<Observer>,
     seconds: f64,
     stepping: Spent,
 }
 
 impl Flow<'_> {
-    /// What has been run so far.
+    /// Setup and cost of the run so far.
     pub fn trial(&self) -> Trial {
         Trial {
             setup: describe(self.lattice.setup()),
@@ -233,7 +233,7 @@ impl Flow<'_> {
         Ok((observer, &mut self.lattice, self.stand))
     }
 
-    /// What the guard found; also waits for all that was submitted.
+    /// The fault that the guard found, if any; also waits for all submitted work.
     fn fault(&mut self) -> riprap::Result<Option<Fault>> {
         let (observer, lattice, stand) = self.observer()?;
         let future = observer.fault(&stand.device, &stand.queue, lattice);
@@ -250,13 +250,13 @@ impl Flow<'_> {
         Ok(state)
     }
 
-    /// Gives the cells of the velocity face x− new velocities.
+    /// Sets the velocities of the cells of the velocity face x−.
     pub fn set_inlet(&mut self, velocity: Vec<[f32; 3]>) -> anyhow::Result<()> {
         let lattice = &mut self.lattice;
         Ok(lattice.set_face_velocity(&self.stand.queue, 0, 0, velocity)?)
     }
 
-    /// Velocities of moving faces in the last step, nine of each cell.
+    /// Velocities of moving faces in the last step, nine values per cell.
     pub fn wall_velocities(&mut self) -> anyhow::Result<Vec<f32>> {
         let Some(buffer) = self.lattice.wall_velocity_buffer() else {
             return Ok(Vec::new());
@@ -272,14 +272,14 @@ impl Flow<'_> {
         Ok(stand.drive("velocities of faces", read)??)
     }
 
-    /// What the walls of a wall model received in the last step, lattice units.
+    /// Stresses on the walls of a wall model in the last step, lattice units.
     pub fn wall_stresses(&mut self) -> anyhow::Result<Vec<WallStress>> {
         let stand = self.stand;
         let future = self.lattice.wall_stresses(&stand.device, &stand.queue);
         Ok(stand.drive("reading wall stresses", future)??)
     }
 
-    /// A field that follows from the velocity gradient, lattice units.
+    /// A field derived from the velocity gradient, lattice units.
     pub fn derived(&mut self, quantity: Derived) -> anyhow::Result<Vec<f32>> {
         let (observer, lattice, stand) = self.observer()?;
         let future = observer.derived(&stand.device, &stand.queue, lattice, quantity);

@@ -1,4 +1,4 @@
-//! Statistics over time on the device, of a signal whose statistics are known.
+//! Statistics over time on the device, for a signal with known statistics.
 
 use super::{Outcome, Stand, record::Trial};
 use kit::Random;
@@ -9,20 +9,20 @@ use riprap::{
 };
 use std::time::Instant;
 
-/// Each cell has a signal of its own.
+/// Cells, each with a signal of its own.
 const CELLS: usize = 64;
-/// As many as a long run takes.
+/// Samples, as many as in a long run.
 const SAMPLES: usize = 300_000;
-/// Samples of one submission.
+/// Samples per submission.
 const BATCH: usize = 500;
-/// Of mean and variance.
+/// Limit on the errors.
 const LIMIT: f64 = 1e-5;
 /// Mean and root mean square of density and velocity, as in turbulent water.
 const SIGNAL: [(f64, f64); 4] = [(2e-3, 4e-4), (0.05, 5e-3), (0.01, 3e-3), (-0.005, 3e-3)];
-/// Correlation of a sample with the one before.
+/// Correlation of a sample with the previous one.
 const MEMORY: f64 = 0.95;
 
-/// What the device finds of 3·10⁵ correlated samples in f32, against sums in f64.
+/// Statistics of 3·10⁵ correlated samples in f32 on the device, against sums in f64.
 pub fn known_signal(stand: &Stand) -> Outcome {
     let begin = Instant::now();
     let (device, queue) = (&stand.device, &stand.queue);
@@ -71,7 +71,7 @@ pub fn known_signal(stand: &Stand) -> Outcome {
             statistics.record(device, &mut lattice, &mut pass)?;
         }
         queue.submit([encoder.finish()]);
-        // Submissions do not pile up.
+        // A read per batch keeps submissions from piling up.
         let read = statistics.read(device, queue, &lattice, Statistic::Excess, Some(&[0]));
         stand.drive("statistics", read)??;
     }

@@ -1,4 +1,4 @@
-//! Flow between planes that are static solids: where their surfaces lie, as partially saturated cells and as staircases.
+//! Flow between planes that are static solids: positions of their surfaces, as partially saturated cells and as staircases.
 
 use super::{Outcome, Record, Stand, fields};
 use riprap::lattice::{Force, Setup, SurfaceCell};
@@ -7,14 +7,14 @@ use riprap::lattice::{Force, Setup, SurfaceCell};
 const PERIOD: u32 = 32;
 /// Cells along z.
 const WIDE: u32 = 4;
-/// Largest velocity aimed at.
+/// Target of the largest velocity.
 const SPEED: f64 = 0.01;
-/// Normals in the plane of x and y, whole numbers without a common divisor, with what of a cell a surface may lie off.
+/// Normals in the plane of x and y, coprime integers, with the limit on the offset of a surface in cells.
 const NORMALS: [([u32; 2], f64); 3] = [([1, 0], 0.03), ([2, 1], 0.03), ([1, 1], 0.06)];
-/// Thickness of the solid between two gaps, cells: its surfaces lie at no corner.
+/// Thickness of the solid between two gaps, cells: its surfaces pass through no corner.
 const THICK: f64 = 6.7;
 
-/// How far the surfaces lie outside by the flux between them.
+/// Offset of the surfaces, by the flux between them.
 pub fn planes(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let taus: &[f64] = match stand.full {
@@ -43,17 +43,17 @@ struct Planes {
     normal: [u32; 2],
     tau: f64,
     along_z: bool,
-    /// Partially saturated cells, or those whose centre is solid.
+    /// Partially saturated cells if true; otherwise a cell is solid if its centre is.
     exact: bool,
 }
 
 impl Planes {
-    /// The part of each cell of a layer that is solid, x fastest.
+    /// Solid fraction of each cell of a layer, x fastest.
     fn fractions(&self) -> Vec<f64> {
         let [a, b] = self.normal.map(f64::from);
         let length = a.hypot(b);
         let (begin, period) = (0.37 * length, f64::from(PERIOD));
-        // Of a x + b y, which the period of the box makes repeat.
+        // The solid lies between `begin` and `end` of a x + b y, and repeats with the period of the box.
         let end = begin + THICK * length;
         let repeats = self.normal.iter().sum::<u32>() + 1;
         let cell = |x: f64, y: f64| -> f64 {
@@ -130,7 +130,7 @@ impl Planes {
     }
 }
 
-/// The part of the unit square where a x + b y < s.
+/// Area of the unit square where a x + b y < s.
 fn below(a: f64, b: f64, s: f64) -> f64 {
     if b == 0.0 {
         return (s / a).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Turbulence that a velocity face feeds: what the face has, and what becomes of it in the fluid.
+//! Synthetic turbulence of a velocity face: its intensity on the face and in the fluid.
 
 use super::{Outcome, Stand, fields};
 use riprap::lattice::{Face, SyntheticTurbulence};
@@ -10,13 +10,13 @@ const TURBULENCE: SyntheticTurbulence = SyntheticTurbulence {
     length: 4.0,
     seed: 1,
 };
-/// The water has been replaced twice.
+/// Steps before the measurement: the water is replaced twice.
 const SETTLE: u64 = 1_280;
 const EVERY: u64 = 20;
 const SAMPLES: u64 = 240;
-/// Of the RMS of each component on the face.
+/// Limit on the relative error of the RMS of each component on the face.
 const LIMIT: f64 = 0.03;
-/// Planes at which the fluid is looked at, in eddy lengths behind the face.
+/// Planes at which the fluid is sampled, in eddy lengths behind the face.
 const PLANES: [u32; 3] = [0, 1, 4];
 
 /// Root mean square of each component about the mean flow, on the face and behind it.

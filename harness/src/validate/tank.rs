@@ -1,7 +1,7 @@
-//! Scenes of validation cases, and a scene that runs.
+//! Scenes of validation cases, and a running scene.
 //!
-//! Those of the lattice have a cell of 1 m, a step of 1 s and a fluid of 1 kg/m³: SI and lattice units are the same. Those
-//! of free water are in a plane.
+//! Lattice scenes have a cell of 1 m, a step of 1 s and a fluid of 1 kg/m³, so that SI and lattice units are the same. Scenes of
+//! free water are plane.
 
 use super::{
     Stand, Trial,
@@ -26,7 +26,7 @@ use std::{path::Path, time::Instant};
 pub fn scene(cells: [u32; 3], tau: f64) -> anyhow::Result<Scene> {
     let [x, y, z] = cells;
     let nu = (tau - 0.5) / 3.0;
-    // Nothing touches: the stiffness only has to let blocks take the fluid's steps.
+    // Nothing is in contact: the stiffness only has to allow blocks the time step of the fluid.
     let text = format!(
         r#"
         domain = {{ size = [{x}, {y}, {z}], cell = 1 }}
@@ -56,7 +56,7 @@ pub fn close(scene: &mut Scene) {
     (faces.z_min, faces.z_max) = (wall(), wall());
 }
 
-/// Three numbers where formulas could be.
+/// Three numbers as formulas.
 pub fn numbers(values: [f64; 3]) -> [Formula; 3] {
     values.map(Formula::number)
 }
@@ -82,7 +82,7 @@ pub fn block(shape: BlockShape, position: [f64; 3], motion: Motion) -> Block {
     }
 }
 
-/// The `n`th of a sequence of turns that fill all turns evenly: multiples of irrational numbers.
+/// The `n`th of a sequence of rotations that cover all rotations evenly: multiples of irrational numbers.
 pub fn turn(n: u32) -> Rotation {
     // Powers of the inverse of the plastic number.
     let [a, b, c] = [0.819_172_513, 0.671_043_607, 0.549_700_478]
@@ -99,10 +99,10 @@ pub fn turn(n: u32) -> Rotation {
 /// Gravity, m/s².
 pub const GRAVITY: f64 = 9.81;
 
-/// A tank of `size` (m; in a plane, open above) with water; `more` are further tables.
+/// A plane tank of `size` (m), open above, with water; `more` holds further TOML tables.
 ///
 /// # Errors
-/// If the text is no scene.
+/// If the text is not a valid scene.
 pub fn pool(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyhow::Result<Scene> {
     let [length, height] = size;
     let [reach, depth] = water;
@@ -139,31 +139,31 @@ pub fn pool(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyhow
     Ok(scene)
 }
 
-/// Chooses the equations of the water.
+/// Sets the SPH scheme of the water.
 pub fn choose(scene: &mut Scene, scheme: Scheme) {
     if let Some(particles) = &mut scene.particles {
         particles.scheme = scheme;
     }
 }
 
-/// A scene that runs, with the time that it took.
+/// A running scene, with the time spent on it.
 ///
 /// Its methods return an error if the device is lost or silent, and those that run steps if the flow leaves the range of
 /// the method.
 #[derive(Debug)]
 pub struct Tank<'a> {
     stand: &'a Stand,
-    /// What runs.
+    /// The simulation.
     pub simulation: Simulation,
     seconds: f64,
     stepping: Spent,
 }
 
 impl<'a> Tank<'a> {
-    /// Puts the scene on the device.
+    /// Creates the simulation of a scene on the device.
     ///
     /// # Errors
-    /// What the scene or the device lack.
+    /// If the scene is invalid, or the device cannot run it.
     pub fn fill(stand: &'a Stand, scene: &Scene) -> anyhow::Result<Self> {
         scene.check()?;
         let made = Simulation::new(&stand.device, &stand.queue, scene);
@@ -241,7 +241,7 @@ impl<'a> Tank<'a> {
         }
     }
 
-    /// Where a block is.
+    /// Pose of a block.
     pub fn pose(&self, block: usize) -> Pose {
         let rock = self.simulation.rock().expect("a tank with blocks");
         rock.blocks().poses()[block]
@@ -254,13 +254,13 @@ impl<'a> Tank<'a> {
         Ok(found.blocks.map(|cell| cell.y_plus))
     }
 
-    /// Sums over the fluid, that inside blocks too.
+    /// Sums over the fluid, including the fluid inside blocks.
     pub fn totals(&mut self) -> anyhow::Result<Totals> {
         let totals = self.simulation.totals();
         Ok(self.stand.drive("reading sums", totals)??)
     }
 
-    /// Fields in single cells, places in an array over the domain with x fastest.
+    /// Fields in single cells, given by their indices in an array over the domain with x fastest.
     ///
     /// # Errors
     /// If a cell is outside, or the device is lost or silent.
@@ -269,13 +269,13 @@ impl<'a> Tank<'a> {
         Ok(self.stand.drive("reading cells", read)??)
     }
 
-    /// The free water as it is.
+    /// Current state of the free water.
     pub fn water(&mut self) -> anyhow::Result<Water> {
         let water = self.simulation.water();
         Ok(self.stand.drive("reading particles", water)??)
     }
 
-    /// What has been run so far; `what` says what is in the tank.
+    /// Setup and cost of the run so far; `what` describes the content of the tank.
     pub fn trial(&self, what: &str) -> Trial {
         let (how, cells) = match self.simulation.particles() {
             Some(particles) => {

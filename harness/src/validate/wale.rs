@@ -1,4 +1,4 @@
-//! Eddy viscosity of WALE (Nicoud & Ducros 1999) on velocity fields that it knows, and in a turbulent channel.
+//! Eddy viscosity of WALE (Nicoud & Ducros 1999) on velocity fields with a known answer, and in a turbulent channel.
 
 use super::{Flow, Outcome, Stand, cavity, fields};
 use riprap::lattice::{Derived, Face, Force, State};
@@ -71,8 +71,8 @@ pub fn near_wall(stand: &Stand) -> Outcome {
     ])
 }
 
-/// The mean over x and z of the eddy viscosity of that field, from its formula in f64; sin k takes
-/// the place of k, as central differences have it.
+/// Mean over x and z of the eddy viscosity of the field of [`near_wall`], from its formula in f64; sin k replaces k, as in
+/// central differences.
 fn mean_near_wall(y: f64, k: f64, [gamma, alpha, beta]: [f64; 3]) -> f64 {
     let n = 128;
     let mut total = 0.0;
@@ -118,21 +118,21 @@ pub fn solid_rotation(stand: &Stand) -> Outcome {
     ])
 }
 
-/// Half height, cells: 4.5 wall units a cell, the first centre at y⁺ = 2.2.
+/// Half height, cells: 4.5 wall units per cell, the first centre at y⁺ = 2.2.
 const H: u32 = 40;
 /// Streamwise, between the walls, spanwise: long enough for the streaks, 6h × 2h × 3h.
 const CHANNEL: [u32; 3] = [6 * H, 2 * H, 3 * H];
 /// Friction velocity: the centre line moves at 0.1.
 const FRICTION: f64 = 0.0055;
 const REYNOLDS: f64 = 178.12;
-/// Times h/u_τ until the flow has forgotten its start, and over which the mean is taken.
+/// Times h/u_τ until the flow no longer depends on its start, and over which the mean is taken.
 const SETTLE: f64 = 15.0;
 const AVERAGE: f64 = 20.0;
 const SAMPLES: u32 = 200;
-/// Of the mean velocity at y⁺ > 10.
+/// Limit on the relative error of the mean velocity at y⁺ > 10.
 const LIMIT: f64 = 0.05;
 
-/// Turbulent channel at Re_τ = 180 against Moser, Kim & Mansour 1999, where a GPU is at hand: it is 6·10¹¹ cell updates.
+/// Turbulent channel at Re_τ = 180 against Moser, Kim & Mansour 1999, on a GPU only: it takes 6·10¹¹ cell updates.
 pub fn turbulent_channel(stand: &Stand) -> Outcome {
     if stand.software {
         println!("     left out, it needs a GPU: 6·10¹¹ cell updates");
@@ -156,7 +156,7 @@ pub fn turbulent_channel(stand: &Stand) -> Outcome {
         flow.advance((AVERAGE * turn / f64::from(SAMPLES)) as u64)?;
         add_profile(&mut profile, &flow.state()?);
     }
-    // Both halves are the same flow.
+    // Both halves are statistically the same.
     let mean = |y: usize| (profile[y] + profile[2 * H as usize - 1 - y]) / 2.0 / FRICTION;
     let tables = cavity::literature()?;
     let heights = cavity::list(&tables, ["mkm_1999_Retau180", "y_over_delta"])?;

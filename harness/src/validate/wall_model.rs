@@ -1,4 +1,4 @@
-//! Walls whose friction a law of the wall gives, where the grid does not resolve the layer next to them.
+//! Wall model: a law of the wall gives the friction of walls whose near-wall layer the grid does not resolve.
 
 use super::{
     Outcome, Record, Stand, fields,
@@ -9,24 +9,24 @@ use riprap::{
     scene::{self, BlockShape, EddyViscosity, Motion, Scene},
 };
 
-/// Mean velocity of the start.
+/// Initial mean velocity.
 const BULK: f64 = 0.04;
 const WALL: Face = Face::Wall([0.0; 3]);
-/// States that are averaged.
+/// Number of states averaged.
 const SAMPLES: u64 = 100;
-/// Of the mean velocity over the friction velocity.
+/// Limit on the relative error of the mean velocity over the friction velocity.
 const LIMIT: f64 = 0.05;
 /// Re_τ and the mean velocity over the friction velocity (Lee & Moser 2015).
 const CHANNELS: [(f64, f64); 2] = [(1000.0, 19.99), (5200.0, 24.1)];
 
-/// The same between plates that are blocks.
+/// The same limit between plates that are blocks.
 const PLATES_LIMIT: f64 = 0.08;
-/// Half of the distance between plates, their thickness, and the box of one of them with its copy, cells.
+/// Half of the distance between plates, their thickness, and the periodic box of one plate, cells.
 const PLATES_H: f64 = 12.0;
 const PLATE: f64 = 8.0;
 const PLATES: [u32; 3] = [48, 32, 24];
 
-/// A channel of a length and width of 4 and 2 depths, between walls or from a wall to a face without friction.
+/// A channel 4 depths long and 2 depths wide, between walls or between a wall and a face without friction.
 #[derive(Clone, Copy, Debug)]
 struct Channel {
     /// Cells of the depth: from a wall to the middle or to the other face.
@@ -41,15 +41,15 @@ struct Channel {
     model: Option<WallModel>,
 }
 
-/// What it has on average.
+/// Averages of a channel.
 struct Means {
     /// Mean velocity over the friction velocity, from the momentum that the fluid loses.
     bulk: f64,
     /// Mean of the stresses that the walls report, over the momentum that the fluid loses.
     reported: f64,
-    /// Mean velocity of the cells beside the walls, over the friction velocity.
+    /// Mean velocity of the cells next to the walls, over the friction velocity.
     first: f64,
-    /// Least increase of that from one layer to the next.
+    /// Least increase of the mean velocity, over the friction velocity, from one layer to the next.
     least_increase: f64,
 }
 
@@ -106,14 +106,14 @@ pub fn rough_channel(stand: &Stand) -> Outcome {
 /// A channel at Re_τ 5200 between plates that are blocks.
 #[derive(Clone, Copy, Debug)]
 struct Plates {
-    /// Height of their faces over the sides of cells, cells.
+    /// Height of their surfaces above a face between cells, cells.
     offset: f64,
-    /// Their velocity along the stream, cells a step.
+    /// Their velocity along the stream, cells per step.
     velocity: f64,
     model: bool,
 }
 
-/// The friction of plates that are blocks, with faces on sides of cells and off them, at rest and moving, and without the model.
+/// Friction of plates that are blocks, with surfaces on cell faces and off them, at rest and moving, and without the model.
 pub fn blocks(stand: &Stand) -> Outcome {
     let rest = Plates {
         offset: 0.0,
@@ -160,7 +160,7 @@ impl Plates {
             tank.advance(each)?;
             let [length, height, width] = PLATES.map(f64::from);
             let open = length * (height - PLATE) * width;
-            // The solid is in the momentum too.
+            // The momentum includes that of the solid.
             let solid = length * PLATE * width * self.velocity;
             bulk.push((tank.totals()?.momentum[0] - solid) / open - self.velocity);
         }
@@ -184,8 +184,8 @@ impl Plates {
         ])
     }
 
-    /// A plate in a periodic box, its middle at the height `offset`. The flow begins with the log law and rolls across the stream,
-    /// which break up.
+    /// A plate in a periodic box, its middle at the height `offset`. The flow begins with the log law and rolls across the
+    /// stream, which break up.
     fn scene(&self, friction: f64, reynolds: f64) -> anyhow::Result<Scene> {
         let h = PLATES_H;
         let size = PLATES.map(f64::from);
@@ -228,7 +228,7 @@ impl Plates {
 }
 
 impl Channel {
-    /// Cells across.
+    /// Layers of cells across the channel.
     fn layers(&self) -> u32 {
         self.depth * if self.closed { 2 } else { 1 }
     }
@@ -250,10 +250,10 @@ impl Channel {
         let mean = u.iter().map(|u| f64::from(*u)).sum::<f64>() / u.len() as f64;
         u.iter_mut().for_each(|u| *u += (BULK - mean) as f32);
         let mut flow = stand.flow(setup, &start, true)?;
-        // Times h/u_τ until the flow has forgotten its start, and over which means are taken.
+        // Times h/u_τ until the flow no longer depends on its start, and over which means are taken.
         let (settle, average) = if stand.full { (8.0, 16.0) } else { (4.0, 4.0) };
         flow.advance((settle * h / friction) as u64)?;
-        // Odd, so that populations that alternate at walls take part in both states.
+        // Odd, so that populations that alternate at walls contribute both of their states.
         let each = ((average * h / friction) as u64 / SAMPLES) | 1;
         let means = self.average(&mut flow, friction * friction / h, each)?;
         let trial = flow.trial();
@@ -290,7 +290,7 @@ impl Channel {
         })
     }
 
-    /// Means over states that lie `each` steps apart, in a flow that a force per volume drives.
+    /// Means over states `each` steps apart, in a flow driven by a force per volume.
     fn average(&self, flow: &mut super::Flow<'_>, force: f64, each: u64) -> anyhow::Result<Means> {
         let (h, layers) = (f64::from(self.depth), self.layers() as usize);
         let length = 4 * self.depth as usize;
@@ -316,7 +316,7 @@ impl Channel {
                 reported += sum / walls.len() as f64 / (SAMPLES + 1) as f64;
             }
         }
-        // The fluid loses what the force gives it and it does not keep.
+        // The fluid loses to the walls what the force adds and it does not keep.
         let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
         let stress = h * (force - change);
         let cells = (SAMPLES + 1) as f64 * (length * rows) as f64;

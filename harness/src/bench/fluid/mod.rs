@@ -1,5 +1,5 @@
-//! The fluid part: how fast each form of the fluid's kernel is, beside what memory and arithmetic allow. The variants of
-//! a group are measured in turns, so that a busy minute strikes all of them alike.
+//! The fluid part: speed of each variant of the fluid kernel, compared with the limits of memory and arithmetic. The variants of
+//! a group are measured in turns, so that load on the machine affects all of them alike.
 
 mod row;
 mod variant;
@@ -24,7 +24,7 @@ use riprap::{
 use row::{Ceilings, StepWork};
 use variant::{Group, PLAIN, STATISTICS, STREAM_ONLY, Variant};
 
-/// The kernels of the fluid on each grid.
+/// Measures the kernels of the fluid on each grid.
 ///
 /// # Errors
 /// If the device fails.
@@ -53,9 +53,9 @@ pub fn measure(args: &Args, bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<
     Ok((rows, judged))
 }
 
-/// Why a grid of the default list takes too long, from the speed on the grids before.
+/// Returns why a grid of the default list would take too long, from the speed on the previous grids.
 fn too_slow(args: &Args, grid: u32, rows: &[Row]) -> Option<String> {
-    // A group takes tens of steps: 0.2 s each are seconds.
+    // A group takes tens of steps: at 0.2 s each, that is seconds.
     const PATIENCE: f64 = 0.2;
     let last = rows.iter().rev().find(|row| row.variant == PLAIN)?;
     let seconds = f64::from(grid).powi(3) / (last.mlups_wall * 1e6);
@@ -63,9 +63,9 @@ fn too_slow(args: &Args, grid: u32, rows: &[Row]) -> Option<String> {
         .then(|| format!("a step would take {seconds:.1} s; ask for it by --grid {grid}"))
 }
 
-/// Rows of the group, in its order, printed as they are done.
+/// Measures a group and returns its rows in its order; prints each row.
 fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row>, Error> {
-    // Seconds of a submission, and how often each variant has its turn.
+    // Seconds per submission, and number of rounds.
     let (long, rounds) = if quick { (0.1, 3) } else { (0.25, 5) };
     let copy = Copy::new(&clock.device, group.variants[0].memory.populations)?;
     let arithmetic = Arithmetic::new(&clock.device)?;
@@ -77,8 +77,8 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
     }
     subjects.extend(METHODS.map(|method| Subject::Copying(&copy, method)));
     subjects.push(Subject::Computing(&arithmetic));
-    // The first turns compile and clear memory; the next ones tell how many fill the time. An even
-    // number, because a lattice steps in pairs; as many as hold whole intervals between samples, where there are some.
+    // The first turns compile and clear memory; the next ones determine how many steps fill the time. Their number is even,
+    // because a lattice steps in pairs; with statistics it covers whole intervals between samples.
     let mut turns = Vec::new();
     for (n, subject) in subjects.iter_mut().enumerate() {
         let is_sampled = group.variants.get(n).is_some_and(|v| v.name == STATISTICS);
@@ -113,7 +113,7 @@ fn measure_group(clock: &mut Clock, group: Group, quick: bool) -> Result<Vec<Row
     Ok(rows.map(row).collect())
 }
 
-/// The lattice of a variant in motion, and what a step of it moves and computes.
+/// The lattice of a variant with moving fluid, and the bytes and operations of its step.
 fn subject(clock: &Clock, variant: &Variant) -> Result<(Subject<'static>, StepWork), Error> {
     let mut lattice = Lattice::new(&clock.device, variant.setup.clone())?;
     let state = sheared_noise(&variant.setup)?;
@@ -147,7 +147,7 @@ fn sampled(device: &wgpu::Device, mut lattice: Lattice) -> Result<Subject<'stati
     })))
 }
 
-/// The median of each kind of time by itself.
+/// Median of each kind of time, separately.
 fn median(all: &[Turn]) -> Turn {
     let of = |field: &dyn Fn(&Turn) -> f64| super::median(all.iter().map(field).collect());
     let timed = all.iter().all(|turn| turn.device.is_some());
@@ -162,12 +162,12 @@ fn median(all: &[Turn]) -> Turn {
 }
 
 fn targets(grid: u32, rows: &[Row], software: bool) -> Vec<Option<Target>> {
-    // The layout that the adapter likes best comes first.
+    // The adapter's preferred layout comes first.
     let find = |name, storage| {
         let mut same = rows.iter().filter(|r| r.grid == grid);
         same.find(|r| r.variant == name && r.storage == storage)
     };
-    // How much longer than the plain step a variant takes, both beside the streaming of their group.
+    // Time of a variant over that of the plain step, both relative to the streaming of their group.
     let longer = |name| {
         let plain: &Row = find(PLAIN, "f32")?;
         Some(plain.ratio_to_stream_only / find(name, "f32")?.ratio_to_stream_only)

@@ -1,5 +1,5 @@
-//! A result of the fluid part, in the table and in the file, and where the time of a step goes: to the bytes that it must
-//! move, to their places, to arithmetic, to the rest (Williams, Waterman & Patterson 2009, Commun. ACM 52:65).
+//! A result of the fluid part, in the table and in the file, and the split of the time of a step: bytes moved, their scattered
+//! places, arithmetic, rest (Williams, Waterman & Patterson 2009, Commun. ACM 52:65).
 
 use super::variant::Variant;
 use crate::bench::work::Work;
@@ -8,79 +8,78 @@ use riprap::lattice::{Lattice, Storage, bytes_a_cell, bytes_a_step};
 use serde::Serialize;
 use std::fmt;
 
-/// What one variant does on one grid.
+/// Result of one variant on one grid.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Name of the variant.
     pub variant: &'static str,
-    /// Cells an axis.
+    /// Cells per axis.
     pub grid: u32,
     /// Storage of the populations.
     pub storage: &'static str,
-    /// Cells an invocation.
+    /// Cells per invocation.
     pub lanes: u32,
     /// Storage bindings of the populations.
     pub bindings: u32,
-    /// Elements of a brick an axis.
+    /// Elements of a brick per axis.
     pub brick: [u32; 3],
-    /// Milliseconds a step by the clock on the wall.
+    /// Wall time per step, ms.
     pub ms_wall: f64,
-    /// Milliseconds a step between GPU timestamps.
+    /// Time per step between GPU timestamps, ms.
     pub ms_device: Option<f64>,
-    /// Milliseconds of CPU time a step, all threads together.
+    /// CPU time per step of all threads together, ms.
     pub ms_cpu: f64,
-    /// Million cells a second: cells × steps × cores / CPU seconds on a software adapter, by GPU
-    /// time, or wall time without timestamps, elsewhere.
+    /// Million cells per second: cells × steps × cores / CPU seconds on a software adapter; elsewhere by GPU time, or by wall
+    /// time without timestamps.
     pub mlups: f64,
-    /// Million cells a second by the clock on the wall.
+    /// Million cells per second of wall time.
     pub mlups_wall: f64,
-    /// Bytes that a step moves for a cell away from walls.
+    /// Bytes that a step moves per cell away from walls.
     pub bytes_a_cell: u64,
-    /// Bytes that a step moves in all.
+    /// Total bytes that a step moves.
     pub bytes_a_step: u64,
-    /// Counted bytes a second, on the time that `mlups` has.
+    /// Counted bytes per second, on the time base of `mlups`.
     pub bandwidth: f64,
-    /// Bytes that the fastest copy reads and writes a second, in the same rounds.
+    /// Bytes that the fastest copy reads and writes per second, in the same rounds.
     pub copy_bandwidth: f64,
     /// `bandwidth` over `copy_bandwidth`.
     pub share_of_copy: f64,
-    /// Time of streaming without collision in the same layout, over the time of this.
+    /// Time of streaming without collision in the same layout, over the time of this variant.
     pub ratio_to_stream_only: f64,
     /// Floating-point operations of a step over its cells, counted from the code of its kernels.
     pub flops_a_cell: f64,
-    /// Such operations a second.
+    /// Floating-point operations per second.
     pub flops: f64,
-    /// Those of a kernel that does nothing else, in the same rounds.
+    /// The same of a kernel that does nothing else, in the same rounds.
     pub arithmetic_ceiling: f64,
-    /// Where the time goes, as parts of it.
+    /// Split of the time, as fractions of it.
     pub parts: Parts,
 }
 
-/// What the machine can do, from the same rounds as the steps that are compared with it.
+/// Limits of the machine, from the same rounds as the steps compared with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Ceilings {
-    /// Bytes that the fastest copy reads and writes a second.
+    /// Bytes that the fastest copy reads and writes per second.
     pub copy_bandwidth: f64,
     /// Seconds of a step that only streams, in the same layout.
     pub stream_only: f64,
-    /// Bytes that it moves.
+    /// Bytes moved by that step.
     pub stream_bytes: u64,
-    /// Floating-point operations a second, where nothing else is done.
+    /// Floating-point operations per second of a kernel that does nothing else.
     pub arithmetic: f64,
 }
 
-/// What a step moves and computes.
+/// Bytes and operations of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct StepWork {
     /// Bytes.
     pub bytes: u64,
-    /// Floating-point operations, counted from its kernels; those of cells outside of the domain too, which few bricks
-    /// have.
+    /// Floating-point operations, counted from its kernels, including those of cells outside the domain, which few bricks have.
     pub flops: u64,
 }
 
 impl StepWork {
-    /// Of a step of a lattice.
+    /// Counts a step of a lattice.
     pub fn of(lattice: &Lattice) -> Self {
         let kernels = lattice.kernels(false).map(|(kernel, groups)| {
             let work = Work::of(kernel.linked(), kernel.entry());
@@ -94,7 +93,7 @@ impl StepWork {
 }
 
 impl Row {
-    /// A row from the time of a step and what it moves and computes.
+    /// A row from the time, the bytes and the operations of a step.
     pub fn new(
         variant: &Variant,
         grid: u32,
@@ -138,7 +137,7 @@ pub fn storage(storage: Storage) -> &'static str {
     }
 }
 
-/// Heads of the columns of a row.
+/// Column heads of a row.
 pub const HEAD: &str = "variant                        store  lanes bindings |  ms wall   ms GPU   ms CPU | \
     MLUPS  B/cell   GB/s  of copy  of streaming";
 
@@ -163,21 +162,21 @@ impl fmt::Display for Row {
     }
 }
 
-/// Parts of the time of a step; a device that does two of them at once has parts that add up to more than it all.
+/// Fractions of the time of a step; on a device that overlaps them they add up to more than one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Parts {
-    /// What the fastest copy takes for the same bytes.
+    /// Time of the fastest copy for the same bytes.
     pub copy: f64,
-    /// What streaming alone takes beyond that: words that lie apart, and finding them.
+    /// Additional time of streaming alone: scattered words, and their addresses.
     pub places: f64,
-    /// What the operations take at the arithmetic ceiling.
+    /// Time of the operations at the arithmetic ceiling.
     pub arithmetic: f64,
-    /// What nothing of that explains: conversions, selections and integers, registers that do not suffice, launches.
+    /// The rest: conversions, selections and integers, register pressure, launches.
     pub rest: f64,
 }
 
 impl Parts {
-    /// Of a step of `seconds`.
+    /// Splits the time of a step of `seconds`.
     pub fn of(seconds: f64, work: StepWork, ceilings: Ceilings) -> Self {
         let copied = |bytes: u64| bytes as f64 / ceilings.copy_bandwidth;
         let places = (ceilings.stream_only - copied(ceilings.stream_bytes)).max(0.0);
@@ -192,7 +191,7 @@ impl Parts {
         }
     }
 
-    /// What takes the greatest part.
+    /// Name of the largest part.
     pub fn limit(&self) -> &'static str {
         let all = [
             (self.copy, "bandwidth"),
@@ -205,7 +204,7 @@ impl Parts {
     }
 }
 
-/// Prints where the time of the steps on a grid goes.
+/// Prints the split of the time of the steps on a grid.
 pub fn explain(grid: u32, rows: &[Row]) {
     let mut some = rows.iter().filter(|row| row.grid == grid).peekable();
     let Some(first) = some.peek() else { return };
@@ -247,7 +246,7 @@ mod tests {
     fn the_ceiling_has_the_operations_that_are_counted() {
         let linked = program().link().unwrap();
         let work = Work::of(&linked, "multiply_add");
-        // A turn of the loop, and seven sums of four components at the end.
+        // An iteration of the loop, and seven sums of four components at the end.
         assert_eq!((work.flops, work.loops), (FLOPS + 28, 1));
     }
 

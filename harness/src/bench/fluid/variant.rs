@@ -1,4 +1,4 @@
-//! The forms of the kernel that are measured, and which of them run side by side.
+//! The variants of the kernel that are measured, and the groups in which they run.
 
 use riprap::{
     lattice::{
@@ -21,7 +21,7 @@ pub const STREAM_ONLY: &str = "stream only";
 /// A named setup.
 #[derive(Clone)]
 pub struct Variant {
-    /// What it is.
+    /// Name of the variant.
     pub name: &'static str,
     /// Its setup.
     pub setup: Setup,
@@ -29,9 +29,9 @@ pub struct Variant {
     pub memory: Memory,
 }
 
-/// Variants of one layout that are measured in turns; the first only streams, the second is plain.
+/// Variants of one layout, measured in turns; the first only streams, the second is plain.
 pub struct Group {
-    /// Cells an axis.
+    /// Cells per axis.
     pub grid: u32,
     /// Streaming, plain, then the others.
     pub variants: Vec<Variant>,
@@ -39,7 +39,7 @@ pub struct Group {
 
 type Change = fn(&mut Setup);
 
-/// What changes the plain step.
+/// Changes to the plain step.
 const MAIN: [(&str, Change); 9] = [
     ("bgk", |s| s.collision = Collision::Bgk),
     ("mrt, force", |s| s.force = FORCE),
@@ -59,7 +59,7 @@ const MAIN: [(&str, Change); 9] = [
     }),
 ];
 
-/// The rest, in the layout that the adapter likes best.
+/// Further changes, in the adapter's preferred layout only.
 const REST: [(&str, Change); 11] = [
     ("mrt, second-order equilibrium", |s| {
         s.equilibrium = Equilibrium::SecondOrder;
@@ -78,7 +78,7 @@ const REST: [(&str, Change); 11] = [
     ("mrt, bricks 128 × 1 × 1", |s| s.brick = [128, 1, 1]),
 ];
 
-/// A weak one: its value does not matter to the time.
+/// A weak force: its value does not affect the time.
 const FORCE: Force = Force::Constant([1e-6, 0.0, 0.0]);
 
 fn walls() -> [[Face; 2]; 3] {
@@ -86,7 +86,7 @@ fn walls() -> [[Face; 2]; 3] {
     [[wall(), wall()], [wall(), wall()], [wall(), wall()]]
 }
 
-/// The groups on a grid; a variant that the adapter cannot hold is named and left out.
+/// The groups on a grid; a variant that the adapter cannot hold is reported and left out.
 pub fn groups(
     grid: u32,
     software: bool,
@@ -94,7 +94,7 @@ pub fn groups(
     budget: u64,
     device: &wgpu::Device,
 ) -> Vec<Group> {
-    // The layout that the adapter likes best first, then the one that is there to compare.
+    // The adapter's preferred layout first, then those for comparison.
     let (f32, f16) = (Storage::F32, Storage::F16);
     let mut layouts = [(f32, 4), (f16, 4), (f32, 1), (f16, 2)];
     if !software {
@@ -154,10 +154,10 @@ pub fn plain(
     setup
 }
 
-/// Puts as many variants side by side as memory holds, each group with the two it is compared to.
+/// Groups as many variants as memory holds, each group with the two variants that it is compared with.
 fn split(grid: u32, base: [Variant; 2], others: Vec<Variant>, budget: u64) -> Vec<Group> {
     let bytes = |v: &Variant| v.memory.populations + v.memory.others;
-    // The copies have two stretches as long as the populations.
+    // The copies need two buffers as long as the populations.
     let fixed = base.iter().map(bytes).sum::<u64>() + 2 * base[0].memory.populations;
     let new = || Group {
         grid,

@@ -1,26 +1,26 @@
-//! From how many boxes on the device finds pairs faster than the host.
+//! Number of boxes from which the device finds pairs faster than the host.
 
 use super::{Core, Plan, Row, kernels};
 use crate::bench::Bench;
 use riprap::{Result, gpu::Processor, rock::broadphase::AutoBroadphase};
 use serde::Serialize;
 
-/// The number of boxes from which on a search on the device is the faster one.
+/// The number of boxes from which a search on the device is the faster one.
 #[derive(Clone, Debug, Serialize)]
 pub struct Crossover {
-    /// What: `crossover`.
+    /// Kind of record: `crossover`.
     pub part: &'static str,
     /// Sizes of the boxes.
     pub variant: String,
-    /// The number; none if the host is faster up to the largest one that was tried.
+    /// The number; `None` if the host is faster up to the largest number tried.
     pub boxes: Option<usize>,
-    /// That largest one.
+    /// Largest number of boxes tried.
     pub up_to: usize,
-    /// What the library takes by itself on such an adapter; none: it never searches there.
+    /// Default of the library on such an adapter; `None` if it never searches on the device.
     pub default: Option<usize>,
 }
 
-/// Both searches over the numbers of boxes, and where they cross.
+/// Measures both searches over the numbers of boxes, and their crossover.
 ///
 /// # Errors
 /// If the device fails.
@@ -67,10 +67,10 @@ pub fn crossover(bench: &Bench<'_>) -> Result<(Vec<Row>, Vec<Crossover>)> {
     Ok((rows, all))
 }
 
-/// The count from which on the second cost is below the first one, on a straight line of their logarithms.
+/// The count from which the second cost is below the first, by log–log interpolation of the cost ratio.
 fn crossing(first: &[(usize, f64)], second: &[(usize, f64)]) -> Option<usize> {
     let both = first.iter().zip(second);
-    // How much dearer the second one is.
+    // Logarithm of the second cost over the first.
     let excess: Vec<_> = both.map(|(a, b)| (a.0 as f64, (b.1 / a.1).ln())).collect();
     let from = excess.iter().rposition(|(_, excess)| *excess >= 0.0);
     let Some(last) = from else {
@@ -89,7 +89,7 @@ mod tests {
     fn costs_cross_where_their_lines_do() {
         let host = [100, 1000, 10_000].map(|n| (n, n as f64));
         let device = |overhead: f64| [100, 1000, 10_000].map(|n| (n, overhead + 0.01 * n as f64));
-        // Dearer by 300/100 at 100, cheaper by 1000/309 at 1000: 100·10^(ln 3/(ln 3 + ln 3.236)).
+        // More expensive by 300/100 at 100, cheaper by 1000/309 at 1000: 100·10^(ln 3/(ln 3 + ln 3.236)).
         assert_eq!(crossing(&host, &device(299.0)), Some(304));
         assert_eq!(crossing(&host, &device(1.0)), Some(100));
         assert_eq!(crossing(&host, &device(1e6)), None);

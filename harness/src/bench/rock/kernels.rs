@@ -17,16 +17,16 @@ use riprap::{
 };
 use std::sync::Arc;
 
-/// What is cut, on all cores.
+/// Variant of the cut, on all cores.
 pub const CUBE: &str = "cube by three joint sets";
 
-/// A cube by three oblique sets of 1 m with scattered spacing, over the numbers of blocks.
+/// Cuts a cube by three oblique joint sets of 1 m with scattered spacing, over the numbers of blocks.
 ///
 /// # Errors
 /// If the cutter refuses the mass.
 pub fn cut(plan: &Plan, rows: &mut Vec<Row>) -> Result<()> {
     for &wanted in &plan.items {
-        // Each block has one cubic metre, and those at the sides less.
+        // Each block has one cubic metre, less at the sides.
         let half = 0.5 * (wanted as f64).cbrt();
         let sides = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
             [-axis, axis].map(|normal| HalfSpace {
@@ -49,7 +49,7 @@ pub fn cut(plan: &Plan, rows: &mut Vec<Row>) -> Result<()> {
     Ok(())
 }
 
-/// Both broadphases on boxes of one size and of sizes 1:100, over the numbers of boxes.
+/// Measures both broadphases on boxes of one size and of sizes 1:100, over the numbers of boxes.
 ///
 /// # Errors
 /// If the device fails.
@@ -65,7 +65,7 @@ pub fn broadphase(
         for &count in &plan.items {
             let items = scattered(count as u32, f64::from(ratio), count as u64);
             let (mut host, mut gpu) = (Spent::MOST, Spent::MOST);
-            // The first turn compiles and allocates.
+            // The first round compiles and allocates.
             let mut pairs = pollster::block_on(HostBroadphase.pairs(&items))?.len();
             for _ in 0..=plan.rounds {
                 let search = || pollster::block_on(HostBroadphase.pairs(&items)).map(drop);
@@ -98,9 +98,9 @@ pub fn broadphase(
 
 /// A variant of the step: one block among five fixed ones.
 pub const AMONG_FIVE: &str = "one block among five fixed";
-/// Steps between two looks at the clock.
+/// Steps between two clock readings.
 const TURNS: usize = 500;
-/// Middles of walls of 1 m, none of which the block can reach.
+/// Centres of walls of 1 m, none of which the block can reach.
 const WALLS: [DVec3; 4] = [
     DVec3::new(2.5, 0.0, 0.5),
     DVec3::new(-2.5, 0.0, 0.5),
@@ -108,8 +108,8 @@ const WALLS: [DVec3; 4] = [
     DVec3::new(0.0, -2.5, 0.5),
 ];
 
-/// One moving block among five fixed ones, beside one on a plane: nothing is to be done for pairs that cannot touch and
-/// blocks that do not move. Steps of both, in turns; their ratio is that of the fastest.
+/// Compares one moving block among five fixed ones with one on a plane: pairs that cannot touch and blocks that do not move
+/// should cost nothing. The two are stepped in turns; the ratio is that of the fastest times.
 ///
 /// # Errors
 /// If a step fails.

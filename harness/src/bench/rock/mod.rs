@@ -18,10 +18,10 @@ use riprap::{Error, Result};
 use serde::Serialize;
 use std::{fmt, time::Instant};
 
-/// How much is measured.
+/// Extent of the measurement.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Numbers of free blocks in piles, about.
+    /// Approximate numbers of free blocks in piles.
     pub piles: Vec<usize>,
     /// Numbers of boxes for the broadphase.
     pub items: Vec<usize>,
@@ -30,8 +30,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Up to a thousand blocks where it must be `quick`, to ten thousand, or in `full` to a hundred
-    /// thousand, which takes long to come to rest.
+    /// Up to a thousand blocks if `quick`, ten thousand by default, or a hundred thousand if `full`, which take long to come to
+    /// rest.
     pub fn new(quick: bool, full: bool) -> Self {
         let (blocks, boxes, rounds) = match (quick, full) {
             (_, true) => (5, 5, 9),
@@ -47,52 +47,52 @@ impl Plan {
     }
 }
 
-/// What one kernel takes for one number of blocks or boxes.
+/// Time of one kernel for one number of blocks or boxes.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// `cut`, `broadphase`, `contact` or `step`.
     pub kernel: &'static str,
-    /// What it is done on, and by what.
+    /// What the kernel works on, and where it runs.
     pub variant: String,
     /// Boxes of the broadphase, blocks that a cut makes, free blocks otherwise.
     pub count: usize,
-    /// Pairs that a call finds or looks at.
+    /// Pairs that a call finds or resolves.
     pub pairs: usize,
-    /// Contacts of a call.
+    /// Contacts per call.
     pub contacts: usize,
-    /// Milliseconds of CPU time a call, the least of some.
+    /// CPU time per call, the least of several, ms.
     pub ms_cpu: f64,
-    /// Milliseconds a call by the clock on the wall, the least of some.
+    /// Wall time per call, the least of several, ms.
     pub ms_wall: f64,
-    /// The one of these two that is the cost: wall time on a GPU and on all cores, else CPU time.
+    /// The cost, one of these two: wall time on a GPU and on all cores, else CPU time.
     pub ms: f64,
     /// Contacts over the cost of all pairs.
     pub contacts_a_second: f64,
     /// Pairs over the cost.
     pub pairs_a_second: f64,
-    /// Share of the pairs that took a linear program.
+    /// Share of the pairs that needed a linear program.
     pub share_of_programs: Option<f64>,
-    /// p of cost ∝ countᵖ over this count and those before it of the same variant.
+    /// p of cost ∝ countᵖ over this count and the previous ones of the same variant.
     pub exponent: Option<f64>,
     /// Speed of the fastest free block, m/s.
     pub largest_speed: Option<f64>,
-    /// Cost over that of the variant that it is compared with.
+    /// Cost over that of the variant that this one is compared with.
     pub ratio: Option<f64>,
-    /// Where the time of a step goes.
+    /// Split of the time of a step.
     pub split: Option<Split>,
 }
 
-/// Which time is the cost.
+/// Time that counts as the cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// CPU time.
     Cpu,
-    /// Time by the clock on the wall.
+    /// Wall time.
     Wall,
 }
 
 impl Row {
-    /// What a call on so many boxes or blocks takes.
+    /// A row for a call on `count` boxes or blocks.
     pub fn new(
         kernel: &'static str,
         variant: impl Into<String>,
@@ -123,7 +123,7 @@ impl Row {
         }
     }
 
-    /// Prints the row and puts it after the others, with its rates and the exponent up to it.
+    /// Adds the rates and the exponent to the row, prints it and appends it to `rows`.
     pub fn push(mut self, rows: &mut Vec<Self>) {
         let alike = |other: &&Self| other.kernel == self.kernel && other.variant == self.variant;
         let all = rows.iter().filter(alike).chain([&self]);
@@ -136,7 +136,7 @@ impl Row {
     }
 }
 
-/// Heads of the columns of a row.
+/// Column heads of a row.
 pub const HEAD: &str = "kernel      variant                               count     pairs  contacts |     ms CPU    ms wall | contacts/s    pairs/s    LP     p  ratio";
 
 impl fmt::Display for Row {
@@ -165,7 +165,7 @@ impl fmt::Display for Row {
     }
 }
 
-/// A thread of its own, on which parallel loops run one after the other.
+/// A dedicated thread, on which parallel loops run serially.
 struct Core(rayon::ThreadPool);
 
 impl Core {
@@ -175,7 +175,7 @@ impl Core {
             .map_err(|e| Error::argument("threads", e.to_string()))
     }
 
-    /// What `work` takes on the core.
+    /// Time of `work` on that thread.
     fn time(&self, work: impl FnOnce() -> Result<()> + Send) -> Result<Spent> {
         self.0.install(|| {
             let (wall, cpu) = (Instant::now(), ThreadTime::now());
@@ -188,7 +188,7 @@ impl Core {
     }
 }
 
-/// What a call takes in the fastest of some rounds, each of which has so many calls.
+/// Time per call in the fastest of some `rounds`, each with the given number of `calls`.
 fn fastest(rounds: usize, calls: usize, mut call: impl FnMut() -> Result<Spent>) -> Result<Spent> {
     let mut least = Spent::MOST;
     for _ in 0..rounds {
@@ -201,10 +201,10 @@ fn fastest(rounds: usize, calls: usize, mut call: impl FnMut() -> Result<Spent>)
     Ok(least)
 }
 
-/// Measures all of the plan and prints a table as it goes; without a device, the host's part.
+/// Measures the whole plan and prints a table as it goes; without a device, only on the host.
 ///
 /// # Errors
-/// If the device fails, or a step.
+/// If the device or a step fails.
 pub fn measure(plan: &Plan, device: Option<&Bench<'_>>) -> Result<(Vec<Row>, Vec<Target>)> {
     println!("\nrock: the fastest of {} samples\n{}", plan.rounds, HEAD);
     let core = Core::new()?;
@@ -217,7 +217,7 @@ pub fn measure(plan: &Plan, device: Option<&Bench<'_>>) -> Result<(Vec<Row>, Vec
     Ok((rows, targets))
 }
 
-/// The aims of which there are rows.
+/// The targets for which there are rows.
 fn targets(rows: &[Row]) -> [Option<Target>; 10] {
     let of = |kernel, variant| {
         let all = rows.iter().filter(move |row| row.kernel == kernel);
@@ -228,7 +228,7 @@ fn targets(rows: &[Row]) -> [Option<Target>; 10] {
     let programs = of("step", pile::ONE_CORE).filter_map(|row| row.share_of_programs);
     let mut cut = of("cut", kernels::CUBE).filter(|row| row.count >= 100_000);
     let ratio = of("step", kernels::AMONG_FIVE).filter_map(|row| row.ratio);
-    // That over all counts.
+    // The exponent of the last row covers all counts.
     let exponent = |says, kernel, variant| {
         let last = of(kernel, variant).next_back();
         Target::at_most(says, last.and_then(|row| row.exponent), 1.1)

@@ -1,5 +1,4 @@
-//! Piles at rest: their contacts with the caches of the step before and for the first time, the step of all of their
-//! blocks, and where its time goes.
+//! Piles at rest: their contacts with warm and with cold caches, the step of all of their blocks, and the split of its time.
 
 use super::{Basis, Core, Plan, Row, fastest};
 use glam::{DQuat, DVec3};
@@ -18,16 +17,16 @@ use riprap::{
 use serde::Serialize;
 use std::{fmt, hint::black_box};
 
-/// Variants of the contact.
+/// Variant of the contact: with the caches of the previous step.
 pub const WARM: &str = "pile at rest, warm";
-/// Variants of the contact.
+/// Variant of the contact: with empty caches.
 pub const COLD: &str = "pile at rest, cold";
 /// A variant of the step.
 pub const ONE_CORE: &str = "pile at rest, one core";
-/// Successive steps in which the pairs are looked at, gone to and fro.
+/// Successive steps whose pairs are resolved, back and forth.
 const FRAMES: usize = 4;
 
-/// Contacts warm and cold and the step, for each number of blocks.
+/// Measures contacts, warm and cold, and the step, for each number of blocks.
 ///
 /// # Errors
 /// If a step fails.
@@ -63,13 +62,13 @@ pub fn measure(plan: &Plan, core: &Core, rows: &mut Vec<Row>) -> Result<()> {
 /// A candidate pair of a pile.
 struct Pair {
     blocks: [u32; 2],
-    /// What it keeps of the first frame.
+    /// Its cache after the first frame.
     cache: Cache,
-    /// Whether it is in contact there.
+    /// Whether it is in contact in the first frame.
     touches: bool,
 }
 
-/// The pairs of a pile and what the resolver sees of its blocks in some steps.
+/// The pairs of a pile, and its blocks as the resolver sees them in some steps.
 struct Film {
     frames: Vec<Vec<Placed>>,
     pairs: Vec<Pair>,
@@ -101,8 +100,8 @@ impl Film {
         })
     }
 
-    /// What the pairs that are `wanted` take on one core, their contacts, and the share of them that takes a linear
-    /// program; `cold` empties their caches before.
+    /// Time of the `wanted` pairs on one core, their contacts, and the share of them that needs a linear program; `cold` empties
+    /// their caches first.
     fn resolve(
         &self,
         core: &Core,
@@ -125,12 +124,12 @@ impl Film {
             turn += 1;
             Ok(())
         };
-        // Once to and fro: solvers are built and caches filled.
+        // Once back and forth: solvers are built and caches filled.
         for _ in 0..2 * FRAMES - 2 {
             pass(&mut resolver, &mut caches)?;
         }
         let before = resolver.counts();
-        // Few pairs are looked at several times between two looks at the clock.
+        // A small set of pairs is resolved several times between two clock readings.
         let turns = (2000 / pairs.len().max(1)).max(1);
         let spent = fastest(rounds, turns, || {
             if cold {
@@ -143,13 +142,13 @@ impl Film {
     }
 }
 
-/// Share of the pairs between two counts that took a linear program.
+/// Share of the pairs between two counts that needed a linear program.
 fn share_of_programs(before: Counts, after: Counts) -> f64 {
     let pairs = (after.pairs - before.pairs).max(1);
     (after.programs - before.programs) as f64 / pairs as f64
 }
 
-/// The whole step, on one core with its split, and on all.
+/// Measures the whole step, on one core with its split, and on all cores.
 fn steps(
     plan: &Plan,
     core: &Core,
@@ -157,11 +156,11 @@ fn steps(
     film: &Film,
     rows: &mut Vec<Row>,
 ) -> Result<()> {
-    // Small piles step several times between two looks at the clock.
+    // Small piles step several times between two clock readings.
     let turns = (1000 / pile.free.max(1)).max(1);
     let (mut lists, mut taken) = (0, 0);
     let before = pile.blocks.counts();
-    // First all on one core: a step finds in its cache what it has left there, not what another core has.
+    // One core first: a step then finds in the CPU cache its own data, not that of another core.
     let [one, all] = [true, false].map(|on_one| {
         fastest(plan.rounds, turns, || {
             lists += u32::from(pile.find_pairs()?);
@@ -195,27 +194,27 @@ fn steps(
     Ok(())
 }
 
-/// Parts of a step on one core, ms of CPU time, each measured by itself on the same blocks.
+/// Parts of a step on one core, ms of CPU time, each measured separately on the same blocks.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Split {
-    /// A new list of pairs: boxes, search, taking over. Not in every step.
+    /// A new list of pairs: boxes, search, update. Not in every step.
     pub ms_broadphase: f64,
-    /// Lists a step.
+    /// Lists per step.
     pub lists_a_step: f64,
     /// Pairs that are not in contact.
     pub ms_decision: f64,
-    /// Pairs in contact: the cached point proves it; centre, normal and section.
+    /// Pairs in contact, as the cached point proves: centre, normal and section.
     pub ms_contact: f64,
     /// The force law of all contacts.
     pub ms_law: f64,
     /// A step of the same blocks without pairs: flight, placing, second kick, ledger.
     pub ms_motion: f64,
-    /// What is left of the step: sums, ledger of the contacts, stability bound, lists.
+    /// The rest of the step: sums, ledger of the contacts, stability bound, lists.
     pub ms_rest: f64,
 }
 
 impl Split {
-    /// The parts of a step that takes `whole` s.
+    /// Measures the parts of a step that takes `whole` s.
     fn of(
         core: &Core,
         pile: &mut Pile,
@@ -262,7 +261,7 @@ impl Split {
     }
 }
 
-/// What the law is called with, for all contacts.
+/// Arguments of the force law, for all contacts.
 fn sections(pile: &Pile) -> Vec<(Section, Motion, History)> {
     let time_step = pile.blocks.time_step();
     let contacts = pile.blocks.contacts().map(|contact| {

@@ -1,4 +1,4 @@
-//! What solids in the fluid cost: cells that are partly solid, blocks that move, contacts, solid fractions.
+//! Cost of solids in the fluid: partially saturated cells, moving blocks, contacts, solid fractions.
 
 mod world;
 
@@ -21,19 +21,19 @@ use std::{fmt, sync::Arc};
 
 /// Cells across the spheres of a crowd.
 const ACROSS: f64 = 16.0;
-/// Share of the volume that is solid in a crowd.
+/// Solid share of the volume of a crowd.
 const SHARE: f64 = 0.1;
 
-/// One number.
+/// One measured number.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What: `solids` or `unused`.
+    /// Kind of record: `solids` or `unused`.
     pub part: &'static str,
-    /// What it is.
+    /// Name of the number.
     pub name: String,
-    /// What was run.
+    /// Setup of the run.
     pub setup: String,
-    /// The number: times are CPU time over the cores on software adapters, else time by the clock on the wall.
+    /// The number: times are CPU time over the cores on software adapters, else wall time.
     pub value: f64,
     /// Its unit.
     pub unit: &'static str,
@@ -49,7 +49,7 @@ impl fmt::Display for Row {
     }
 }
 
-/// The numbers of a part, which are printed as they come.
+/// The numbers of a part, printed as they come.
 pub struct Table {
     part: &'static str,
     /// The numbers so far.
@@ -57,7 +57,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Prints the heads of the columns.
+    /// Prints the column heads.
     pub fn begin(part: &'static str) -> Self {
         println!("\n{part}\nwhat                                          value unit   of");
         Self {
@@ -66,7 +66,7 @@ impl Table {
         }
     }
 
-    /// Adds a number, and gives it back.
+    /// Adds a number and returns it.
     pub fn add(&mut self, name: &str, setup: &str, value: f64, unit: &'static str) -> f64 {
         let row = Row {
             part: self.part,
@@ -81,13 +81,13 @@ impl Table {
     }
 }
 
-/// Sizes of what is measured.
+/// Sizes of the measured systems.
 struct Plan {
     /// Cells along an edge of the box of the crowds.
     crowd: u32,
-    /// Of the box with one block.
+    /// The same of the box with one block.
     large: u32,
-    /// Diameters of which the solid fractions are computed, cells.
+    /// Diameters of the spheres whose solid fractions are computed, cells.
     voxels: &'static [u32],
 }
 
@@ -156,7 +156,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     table.add("a moving block, more", &of, of_small, "µs");
     drop(worlds);
 
-    // Blocks that stand on each other, and the same without weight, a hair apart.
+    // Stacked blocks, and the same without weight, slightly apart.
     let mut worlds = [World::stacks(n, false)?, World::stacks(n, true)?];
     let times = turns.measure(&mut worlds)?;
     let (contacts, sub_steps) = worlds[1].contacts();
@@ -188,7 +188,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let mut points = Vec::new();
     for &across in plan.voxels {
         let seconds = solid_fractions(&turns, across)?;
-        // Cells that the surface is in, on average 3/2 of its area.
+        // Cells that the surface crosses, on average 3/2 of its area.
         let surface = 1.5 * std::f64::consts::PI * f64::from(across * across);
         let of = format!("D {across}, {surface:.0} cells of its surface");
         let each = 1e9 * seconds / surface;
@@ -197,7 +197,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     }
     let power = exponent(&points).unwrap_or(f64::NAN);
     table.add("solid fractions, cost ∝ surfaceᵖ, p", "", power, "");
-    // Without the smallest, of which most is the same for all sizes.
+    // Without the smallest, whose cost is mostly the same for all sizes.
     let last = exponent(&points[1..]).unwrap_or(f64::NAN);
     table.add("the same without the smallest", "", last, "");
     let aims = [
@@ -213,7 +213,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     Ok((table.rows, show("solids", aims)))
 }
 
-/// Cell, step and density of 1.
+/// A frame with cell, step and density of 1.
 pub fn unit_frame() -> Frame {
     Frame {
         origin: DVec3::ZERO,
@@ -225,11 +225,11 @@ pub fn unit_frame() -> Frame {
     }
 }
 
-/// A way of a third of a cell, so that each place in a cell comes.
+/// Displacement of about a third of a cell, so that all positions within a cell occur.
 const STRIDE: f64 = 0.37;
 
-/// Seconds of the solid fractions of a sphere of `across` cells that moves on: tiles, their cells, and the velocity of the
-/// solid there.
+/// Seconds to compute the solid fractions of a moving sphere of `across` cells: tiles, their cells, and the velocity of the solid
+/// there.
 fn solid_fractions(turns: &Turns, across: u32) -> anyhow::Result<f64> {
     let (device, queue) = (&turns.clock.device, &turns.clock.queue);
     let edge = (across + 16).next_multiple_of(16);

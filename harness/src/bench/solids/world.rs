@@ -1,5 +1,5 @@
-//! Boxes of fluid with blocks in them, in lattice units: cell, step and density are 1. Several of them step in turns, so
-//! that a busy minute strikes all of them alike.
+//! Boxes of fluid with blocks in them, in lattice units: cell, step and density are 1. Several of them step in turns, so that
+//! load on the machine affects all of them alike.
 
 use crate::{
     bench::{Bench, median},
@@ -17,7 +17,7 @@ use std::{path::Path, time::Instant};
 const SPEED: f64 = 0.02;
 /// Edge of the blocks of a stack, cells.
 const BRICK: u32 = 3;
-/// What parts them where they have no weight, cells.
+/// Gap between blocks of a stack without weight, cells.
 const APART: f64 = 0.01;
 
 /// A scene, and its simulation once it is made.
@@ -35,7 +35,7 @@ impl World {
         Self::of(n, SPEED, "", String::new())
     }
 
-    /// The same with spheres that move, or stand.
+    /// The same with spheres, moving or fixed.
     ///
     /// # Errors
     /// If the scene is none.
@@ -44,7 +44,7 @@ impl World {
         for (k, place) in places.iter().enumerate() {
             let motion = match moving {
                 true => {
-                    // All the same way, so that none meets another, and each by itself.
+                    // All in the same direction, so that they do not collide, with slightly different velocities.
                     let aside = 1e-4 * (k % 7) as f64;
                     format!("velocity = [{aside:e}, {SPEED:e}, 0]")
                 }
@@ -58,7 +58,7 @@ impl World {
         Self::of(n, SPEED, "rock = { gravity = [0, 0, 0] }", blocks)
     }
 
-    /// The same with spheres that the fluid moves.
+    /// The same with spheres moved by the fluid.
     ///
     /// # Errors
     /// If the scene is none.
@@ -70,7 +70,7 @@ impl World {
         Ok(world)
     }
 
-    /// A fixed sphere at `place`, of which somebody wants to know the loads of its faces.
+    /// A fixed sphere at `place`, with a probe that requests the loads on its faces.
     ///
     /// # Errors
     /// If the scene is none.
@@ -116,8 +116,8 @@ impl World {
         })
     }
 
-    /// Stacks of four cubes on a floor; without weight they float, so near that the fluid sees no difference. The fluid is slow:
-    /// as fast as elsewhere it would throw them against each other.
+    /// Stacks of four cubes on a floor; without weight they float, so close together that the flow hardly differs. The fluid is
+    /// slow: at its usual speed it would throw them against each other.
     ///
     /// # Errors
     /// If the scene is none.
@@ -183,7 +183,7 @@ impl World {
         })
     }
 
-    /// Contacts, and sub-steps of the blocks a step.
+    /// Contacts, and sub-steps of the blocks per step.
     pub fn contacts(&self) -> (f64, f64) {
         let coupled = self.simulation.as_ref().and_then(Simulation::coupled);
         coupled.map_or((0.0, 0.0), |coupled| {
@@ -194,7 +194,7 @@ impl World {
     }
 }
 
-/// Places of spheres that fill `share` of a box of n³ cells, on a lattice of their own, not on that of the cells.
+/// Positions of spheres that fill `share` of a box of n³ cells, on a lattice that does not match the cells.
 pub fn crowd(n: u32, across: f64, share: f64) -> Vec<[f64; 3]> {
     let edge = f64::from(n);
     let volume = std::f64::consts::PI / 6.0 * across.powi(3);
@@ -211,15 +211,15 @@ pub fn crowd(n: u32, across: f64, share: f64) -> Vec<[f64; 3]> {
     (0..count).map(place).collect()
 }
 
-/// How turns are taken.
+/// Measurement of worlds in turns.
 pub struct Turns {
     pub clock: Clock,
     pub rounds: usize,
-    /// How long a turn should be, s.
+    /// Duration of a turn, s.
     long: f64,
 }
 
-/// Seconds of a step of each world in each round.
+/// Seconds per step of each world in each round.
 pub struct Times(Vec<Vec<f64>>);
 
 impl Times {
@@ -244,15 +244,15 @@ impl Turns {
         }
     }
 
-    /// Seconds of `work`, as speeds are made from.
+    /// Seconds of `work`, on the time base of the speeds.
     ///
     /// # Errors
-    /// Those of `work`.
+    /// Returns the errors of `work`.
     pub fn time(&self, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<f64> {
         Ok(self.clock.basis(self.clock.time(work)?))
     }
 
-    /// Makes the worlds and steps them in turns.
+    /// Creates the simulations of the worlds and steps them in turns.
     ///
     /// # Errors
     /// If the device fails.
@@ -263,14 +263,14 @@ impl Turns {
             let made = Simulation::new(device, queue, &world.scene);
             let made = gpu::drive(device, PATIENCE, "the kernels", made)??;
             world.simulation = Some(made);
-            // The first ones compile, and blocks find their tiles.
+            // The first steps compile, and blocks find their tiles.
             self.steps(world, 4)?;
             let begin = Instant::now();
             self.steps(world, 2)?;
             let seconds = begin.elapsed().as_secs_f64() / 2.0;
             steps.push(((self.long / seconds) as u64).clamp(2, 200));
         }
-        // The same number for all: what a submission costs is then the same part of each.
+        // The same number for all, so that the cost of a submission has the same share in each.
         let steps = steps.into_iter().min().unwrap_or(2);
         let mut times = vec![Vec::new(); worlds.len()];
         for _ in 0..self.rounds {
@@ -282,7 +282,7 @@ impl Turns {
         Ok(Times(times))
     }
 
-    /// Seconds of a step on the host, without the wait for the device, and on the device; zero on one without timestamps.
+    /// Seconds per step on the host, without the wait for the device, and on the device; zero without timestamps.
     ///
     /// # Errors
     /// If the device fails.

@@ -1,4 +1,4 @@
-//! Blocks that deform as a whole (Mikola & Sitar 2014, §2), against exact solutions of affine bodies.
+//! Blocks with uniform deformation (Mikola & Sitar 2014, §2), against exact solutions of affine bodies.
 
 use super::{DENSITY, G, Rock, cuboid, floor, joint, setup};
 use crate::validate::{Outcome, Stand, Trial};
@@ -19,14 +19,14 @@ const ROCK: Elastic = Elastic {
     poissons_ratio: 0.25,
 };
 
-/// Blocks of one material with this elasticity.
+/// Blocks of one material with the given elasticity.
 fn elastic(blocks: Vec<Block>, joint: Joint, elastic: Elastic) -> Setup {
     let mut setup = setup(blocks, joint);
     setup.materials[0].elastic = Some(elastic);
     setup
 }
 
-/// A box of these edges (m) alone.
+/// A single box with these edges (m).
 fn alone(edges: DVec3) -> Affine {
     let volume = edges.x * edges.y * edges.z;
     let squares = edges * edges;
@@ -35,7 +35,7 @@ fn alone(edges: DVec3) -> Affine {
     Affine::new(volume, inertia, DENSITY, ROCK, DMat3::ZERO)
 }
 
-/// A free step of `dt` (s) by the central difference.
+/// One central-difference step of `dt` (s) of a free body.
 fn step(body: &Affine, f: &mut DMat3, rate: &mut DMat3, dt: f64) {
     let free = Wrench {
         force: DVec3::ZERO,
@@ -52,11 +52,11 @@ fn norm(a: DMat3) -> f64 {
     squares.iter().sum::<f64>().sqrt()
 }
 
-/// Largest strain within `steps` of `share` of the critical step, from one of 1e-9 in every mode.
+/// Largest strain within `steps` steps of `share` of the critical step, from an initial strain of 1e-9 in every mode.
 fn largest(edges: DVec3, share: f64, steps: u64) -> (f64, Trial) {
     let begin = Instant::now();
     let body = alone(edges);
-    // No two entries alike, so that every mode has a share.
+    // All entries differ, so that every mode is excited.
     let start = [1.0, 0.3, -0.7, 0.2, -0.9, 0.5, -0.4, 0.6, 0.8];
     let mut f = DMat3::IDENTITY + DMat3::from_cols_array(&start) * 1e-9;
     let (mut rate, mut most) = (DMat3::ZERO, 0.0f64);
@@ -69,8 +69,8 @@ fn largest(edges: DVec3, share: f64, steps: u64) -> (f64, Trial) {
     (most, Trial::since(begin, what, 1, steps))
 }
 
-/// Δt_c = 2/ω_max of the nine-by-nine elastic problem of a block and of a cube, and that the central difference is stable
-/// just below it and not just above.
+/// Δt_c = 2/ω_max of the nine-by-nine elastic problem of a block and of a cube; the central difference must be stable just below
+/// it and unstable just above.
 pub fn critical_step(_: &Stand) -> Outcome {
     let trial = Trial {
         setup: "E = 1 GPa, ν = 0.25, ρ = 2500 kg/m³".into(),
@@ -88,7 +88,7 @@ pub fn critical_step(_: &Stand) -> Outcome {
             8.13e-4,
             5e-7,
         ),
-        // The two take different ways to the same number.
+        // Two derivations of the same number.
         trial.relative(
             "Δt_c of 1 m, s",
             alone(cube).critical_step(),
@@ -101,18 +101,18 @@ pub fn critical_step(_: &Stand) -> Outcome {
         let (late, trial) = largest(edges, 0.98, 100_000);
         records.push(trial.absolute("strain over 1e5 steps / over 5e4", late / early, 1.0, 0.01));
         let (blown, trial) = largest(edges, 1.02, 40);
-        // It gains the factor 1.49 a step.
+        // It grows by the factor 1.49 per step.
         records.push(trial.at_least("strain over 40 steps / at 0.98", blown / early, 1e4));
     }
     Ok(records)
 }
 
-/// Rate of the turning block, rad/s.
+/// Angular velocity of the spinning block, rad/s.
 const OMEGA: f64 = 20.0;
 
-/// A block that turns at a constant rate: its centrifugal strain is known exactly, and it must not grow. With F = R U and
-/// U constant, U Σ = ω² U S/V in the plane of the turn, so that Σ = ω² S/V there. Strain, angular momentum and energy over
-/// a hundred revolutions; with `--full` over a thousand.
+/// A block that spins at a constant rate: its centrifugal strain is known exactly, and it must not grow. With F = R U and U
+/// constant, U Σ = ω² U S/V in the plane of rotation, so that Σ = ω² S/V there. Checks strain, angular momentum and energy over a
+/// hundred revolutions; over a thousand with `--full`.
 pub fn spin(stand: &Stand) -> Outcome {
     let begin = Instant::now();
     let body = alone(DVec3::new(1.0, 2.0, 3.0));
@@ -155,11 +155,11 @@ pub fn spin(stand: &Stand) -> Outcome {
     ])
 }
 
-/// Periods of the swinging cube.
+/// Periods of the vibrating cube.
 const PERIODS: usize = 50;
 
-/// A cube that swings in its volume: ω² = 12(3λ + 2μ)/(ρa²), which a central difference shortens by (ωΔt)²/24. The period
-/// at three steps, and its order.
+/// A cube that vibrates in its volume: ω² = 12(3λ + 2μ)/(ρa²); the central difference shortens the period by (ωΔt)²/24. Measures
+/// the period at three time steps, and its order.
 pub fn vibration(_: &Stand) -> Outcome {
     let a = 2.0;
     let [lambda, mu] = ROCK.lame();
@@ -169,7 +169,7 @@ pub fn vibration(_: &Stand) -> Outcome {
         let begin = Instant::now();
         let body = alone(DVec3::splat(a));
         let dt = product / omega;
-        // So small that the law is linear to the digits that are judged.
+        // Small enough that the law is linear to the digits that are checked.
         let (mut f, mut rate) = (DMat3::IDENTITY * (1.0 + 1e-8), DMat3::ZERO);
         let mut crossings = Vec::new();
         let mut before = body.strain(f).x_axis.x;
@@ -202,8 +202,8 @@ pub fn vibration(_: &Stand) -> Outcome {
 /// Length of the bar, m.
 const LENGTH: f64 = 10.0;
 
-/// A bar that hangs by a point of its upper face: V P = mg ⊗ X, which is the mean stress ρgL/2 and the elongation
-/// ρgL²/2E of the exact solution. Stress, elongation, thinning by Poisson's ratio, support and energies at rest.
+/// A bar that hangs by a point of its upper face: V P = mg ⊗ X, which gives the mean stress ρgL/2 and the elongation ρgL²/2E of
+/// the exact solution. Checks stress, elongation, thinning by Poisson's ratio, support force and energies at rest.
 pub fn bar(_: &Stand) -> Outcome {
     let top = DVec3::Z * (0.5 * LENGTH);
     let mut bar = Block::new("bar", cuboid(1.0, 0.8, LENGTH)?, DVec3::ZERO);
@@ -215,7 +215,7 @@ pub fn bar(_: &Stand) -> Outcome {
         ..Deformable::default()
     });
     let mut setup = elastic(vec![bar], joint(1e9, 30.0), ROCK);
-    // Critical for the axial mode of a bar held at one end, ω = ½√(12E/ρ)/L.
+    // Critical damping for the axial mode of a bar held at one end, ω = ½√(12E/ρ)/L.
     setup.damping = (12.0 * ROCK.youngs_modulus / DENSITY).sqrt() / LENGTH;
     let mut rock = Rock::new(setup, format!("{LENGTH} m, E = 1 GPa"))?;
     rock.run(0.3)?;
@@ -228,7 +228,7 @@ pub fn bar(_: &Stand) -> Outcome {
     let strain = rock.blocks.ledger().strain;
     let error = rock.energy_error() / rock.blocks.ledger().taken();
     let trial = rock.trial();
-    // Strains of 1.2e-4 set the stresses by area and by length apart.
+    // At strains of 1.2e-4, stresses by area and by length differ by as much.
     Ok(vec![
         trial.relative("mean stress, Pa", rock.vertical_stress(0), mean, 5e-4),
         trial.relative(
@@ -260,7 +260,7 @@ pub fn bar(_: &Stand) -> Outcome {
     ])
 }
 
-/// Cubes on a rigid floor, of which the second one is rigid: each bears half of itself and what stands on it.
+/// Cubes on a rigid floor, the second of them rigid: each bears half its own weight and the cubes above it.
 pub fn stack(_: &Stand) -> Outcome {
     let mut list = vec![floor(9.0)?];
     for n in 0..4 {
@@ -269,7 +269,7 @@ pub fn stack(_: &Stand) -> Outcome {
         list.push(if n == 1 { block } else { block.deformable() });
     }
     let mut setup = elastic(list, joint(1e9, 30.0), ROCK);
-    // Near critical for the swinging of the whole stack.
+    // Near critical for the vibration of the whole stack.
     setup.damping = 300.0;
     let mut rock = Rock::new(setup, "four cubes, the second one rigid, E = 1 GPa")?;
     rock.run(0.4)?;
@@ -293,7 +293,7 @@ pub fn stack(_: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Two bars that meet end to end without damping.
+/// Two bars that collide end to end without damping.
 pub fn collision(_: &Stand) -> Outcome {
     let bar = |name: &str, x: f64, v: f64| -> anyhow::Result<Block> {
         let block = Block::new(name, cuboid(2.0, 0.5, 0.5)?, DVec3::X * x).deformable();
@@ -334,7 +334,7 @@ pub fn collision(_: &Stand) -> Outcome {
     ])
 }
 
-/// Centroid and rotation 0.2 s after the throw; rigid without a modulus.
+/// Centroid and rotation 0.2 s after the throw; the block is rigid if `young` is `None`.
 fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {
     let turn = DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, 0.1));
     let mut block = Block::new("thrown", cuboid(1.0, 0.8, 0.6)?, DVec3::Z * 0.55).turned(turn);
@@ -348,7 +348,7 @@ fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {
     };
     let mut setup = elastic(vec![floor(9.0)?, block], joint(1e8, 30.0), rock);
     (setup.corner_area, setup.largest_overlap) = (0.25, 0.3);
-    // What the stiffest needs, so that the step is no part of the difference.
+    // The step that the stiffest block needs, so that all runs share it.
     setup.time_step = Some(4e-6);
     let what = young.map_or("rigid".into(), |young| format!("E = {young:.0e} Pa"));
     let mut rock = Rock::new(setup, what)?;
@@ -357,8 +357,8 @@ fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {
     Ok((centre, rock.blocks.rotation(1), rock.trial()))
 }
 
-/// A block thrown onto a floor moves as a rigid one the more the stiffer it is: how far off at three moduli, the
-/// difference falls with 1/E.
+/// A block thrown onto a floor approaches the motion of a rigid one as it gets stiffer: the difference at three moduli falls
+/// with 1/E.
 pub fn rigid_limit(_: &Stand) -> Outcome {
     let (centre, rotation, _) = thrown(None)?;
     let mut records = Vec::new();
@@ -368,7 +368,7 @@ pub fn rigid_limit(_: &Stand) -> Outcome {
         let off = (at - centre).length() + turned.angle_between(rotation);
         records.push(trial.report("way and angle from the rigid one, m + rad", off));
         if let Some(before) = before {
-            // A tenth by theory; contacts that begin a step earlier or later leave their share.
+            // A tenth by theory; contacts that begin a step earlier or later add to it.
             records.push(trial.at_most("that / at a tenth of the modulus", off / before, 0.2));
         }
         before = Some(off);

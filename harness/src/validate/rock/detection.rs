@@ -1,5 +1,5 @@
-//! Pairs of both broadphases against all pairs tried, and contact or not against parry's GJK and EPA, which share
-//! nothing with linear programs.
+//! Pairs of both broadphases against all pairs tried, and contact decisions against parry's GJK and EPA, which share nothing with
+//! linear programs.
 
 use crate::validate::{Outcome, Stand, Trial};
 use cpu_time::ProcessTime;
@@ -13,16 +13,15 @@ use riprap::rock::{
 };
 use std::time::Instant;
 
-/// Gaps and overlaps from here on have a sign, in diameters of the smaller block.
+/// Smallest gap or overlap with a known sign, in diameters of the smaller block.
 const LEAST: f64 = 1e-9;
 /// Largest ratio of the sizes of a pair.
 const RATIO: f64 = 100.0;
 
 /// 10⁴ random pairs of cubes, tetrahedra and hulls of 20 faces, ten times as many with `--full`.
 ///
-/// parry knows a gap from afar, where its distance is well conditioned. It knows an overlap where its
-/// depth is no more than what the blocks were moved by: below some 1e-8 its EPA at times returns
-/// another face's depth.
+/// parry's answer is reliable for a gap, where its distance is well conditioned. For an overlap it is reliable if its depth does
+/// not exceed the distance by which the blocks were moved: below some 1e-8 its EPA at times returns the depth of another face.
 pub fn sign(stand: &Stand) -> Outcome {
     let wanted = if stand.full { 100_000 } else { 10_000 };
     let mut random = Random(2018);
@@ -68,7 +67,7 @@ pub fn sign(stand: &Stand) -> Outcome {
     ])
 }
 
-/// Boxes of sizes 1:100 in a cube, of which each meets a few others.
+/// Boxes of sizes 1:100 in a cube, each of which overlaps a few others.
 fn items(count: u32) -> Vec<Aabb> {
     let mut state = 0x9e37_79b9_7f4a_7c15u64 ^ u64::from(count);
     let mut random = move || {
@@ -78,8 +77,8 @@ fn items(count: u32) -> Vec<Aabb> {
         state ^= state << 17;
         (state >> 11) as f64 / (1u64 << 53) as f64
     };
-    // Sizes 0.01 to 1 with equal numbers in each octave have a mean volume of 0.07 and meet each other
-    // over some 0.6 volumes of 1: with a cube of N/4 each meets about one.
+    // Sizes 0.01 to 1 with equal numbers in each octave have a mean volume of 0.07 and overlap each other over some 0.6 volumes
+    // of 1: in a cube of N/4 each overlaps about one.
     let side = (0.25 * f64::from(count)).cbrt();
     let item = |group: u32| {
         let size = 100f64.powf(random() - 1.0);
@@ -93,7 +92,7 @@ fn items(count: u32) -> Vec<Aabb> {
     (0..count).map(item).collect()
 }
 
-/// Pairs of either of two sorted lists that the other lacks.
+/// Number of pairs that only one of two sorted lists contains.
 fn differences(a: &[[u32; 2]], b: &[[u32; 2]]) -> f64 {
     let lacking = |a: &[[u32; 2]], b: &[[u32; 2]]| {
         let missing = a.iter().filter(|pair| b.binary_search(pair).is_err());
@@ -113,7 +112,7 @@ pub fn broadphase(stand: &Stand) -> Outcome {
         let mut finder = HostBroadphase;
         let mut found = Vec::new();
         let repeats = 10u32.pow(6 - exponent).min(1000);
-        // The shortest of many: whatever else runs only adds.
+        // The shortest of many: other load on the machine only adds to it.
         let mut seconds = f64::INFINITY;
         let mut total = 0.0;
         for _ in 0..repeats {
@@ -142,7 +141,7 @@ pub fn broadphase(stand: &Stand) -> Outcome {
             records.push(trial.at_most("pairs that every pair tried finds otherwise", off, 0.0));
         }
         if exponent == 5 {
-            // Told, not judged: what else runs on the machine must not fail a validation.
+            // Reported, not judged: other load on the machine must not fail a validation.
             // `riprap bench --only rock` judges it.
             let order = (costs[3] / costs[0]).log10() / 3.0;
             records.push(trial.relative("exponent of the cost, 10² to 10⁵", order, 1.0, None));

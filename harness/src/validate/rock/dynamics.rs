@@ -1,4 +1,4 @@
-//! Motion that is known exactly: a rebound, and free rotation.
+//! Motions with exact solutions: a rebound, and free rotation.
 
 use super::{DENSITY, Rock, cuboid, joint, setup};
 use crate::validate::{Outcome, Stand, Trial};
@@ -19,8 +19,8 @@ fn exact(zeta: f64) -> f64 {
     (-zeta / root * (std::f64::consts::PI - phase)).exp()
 }
 
-/// A block hits a fixed one and leaves it: the contact damps, and does not pull. Rebound without damping and at four damping ratios, and the
-/// ledger.
+/// A block hits a fixed one and rebounds: the contact damps, but does not pull. Checks the rebound without damping and at four
+/// damping ratios, and the energy ledger.
 pub fn rebound(_: &Stand) -> Outcome {
     let omega = (STIFFNESS / DENSITY).sqrt();
     let mut records = Vec::new();
@@ -40,7 +40,7 @@ pub fn rebound(_: &Stand) -> Outcome {
         };
         let mut setup = setup(vec![plate, block], joint);
         setup.gravity = DVec3::ZERO;
-        // Where in a step the contact begins and ends moves e by up to ζωΔt of itself.
+        // The time within a step at which the contact begins and ends changes e by up to ζωΔt of itself.
         setup.time_step = Some(1e-3 / omega);
         let mut rock = Rock::new(setup, format!("ζ = {zeta}, ω Δt = 1e-3"))?;
         rock.run(0.08)?;
@@ -55,7 +55,7 @@ pub fn rebound(_: &Stand) -> Outcome {
 
 /// Angular velocity of an asymmetric body with I = (1, 2, 3) kg m² at the start, rad/s.
 const START: DVec3 = DVec3::new(0.1, 1.0, 0.05);
-/// ω(50 s) in the body's frame, from the elliptic functions.
+/// ω(50 s) in the body frame, from the elliptic functions.
 const END: DVec3 = DVec3::new(0.1032592, -0.99966871, 0.05216149);
 
 struct Spun {
@@ -106,7 +106,7 @@ pub fn free_body(_: &Stand) -> Outcome {
     let trial = &late.trial;
     records.push(trial.at_most("largest error of the energy / energy", late.energy, 2e-5));
     records.push(trial.absolute("that over 4e4 steps / over 1e3", growth, 1.0, 0.01));
-    // What turning a vector of length 2 to the body's axes and back rounds.
+    // Round-off of rotating a vector of length 2 to the body axes and back.
     records.push(trial.at_most("largest |ΔL|, kg m²/s", late.momentum, 1e-14));
     Ok(records)
 }

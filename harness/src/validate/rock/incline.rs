@@ -13,7 +13,7 @@ const ALPHA: f64 = 30.0;
 const STIFFNESS: f64 = 1e8;
 const HEIGHT: f64 = 0.4;
 
-/// The block, pressed in as it will be.
+/// The block on the incline, with the penetration of its equilibrium.
 fn on_incline(phi: f64) -> anyhow::Result<Setup> {
     let turn = slope(ALPHA);
     let pressed = DENSITY * HEIGHT * G * ALPHA.to_radians().cos() / STIFFNESS;
@@ -30,7 +30,7 @@ pub fn slides(_: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (phi, limit) in [(20.0f64, Some(1e-3)), (29.9, Some(1e-2)), (30.1, None)] {
         let what = format!("α = {ALPHA}°, φ = {phi}°, k = {STIFFNESS:.0e} Pa/m");
-        // Held by friction until it carries its weight: only then it gets its friction angle.
+        // Friction holds the block until the contact carries its weight; only then is its friction angle set.
         let mut rock = Rock::from_rest(on_incline(60.0)?, 100.0, 0.4, on_incline(phi)?, what)?;
         let start = rock.blocks.poses()[1].centre;
         rock.run(1.0)?;
@@ -46,8 +46,8 @@ pub fn slides(_: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// At 0.3° from the threshold a strip of 20 mm carries the column of 49 kN: it must not give way by more
-/// than a tenth of that angle, θ = 2W/(k s²).
+/// At 0.3° from the threshold a strip of 20 mm carries the column of 49 kN: it must not yield by more than a tenth of that angle,
+/// θ = 2W/(k s²).
 const COLUMN_STIFFNESS: f64 = 4e11;
 
 /// A column topples if tan α > b/h: one of 1 m × 1 m × 2 m, 0.3° below and above.
@@ -66,7 +66,7 @@ pub fn toppling(_: &Stand) -> Outcome {
         rock.run(1.0)?;
         let tilt = rock.blocks.rotation(1).angle_between(turn);
         let trial = rock.trial();
-        // It falls by ½ · 0.034 rad/s² · t² and more; it stands at 1 mrad.
+        // It falls by ½ · 0.034 rad/s² · t² and more; if it stands, it stands at 1 mrad.
         records.push(if off < 0.0 {
             trial.at_most("tilt after 1 s, stands, rad", tilt, 3e-3)
         } else {
@@ -125,7 +125,7 @@ impl Wedge {
         (self.forces[0] * t1 + self.forces[1] * t2) / -self.line.z
     }
 
-    /// A prism along the line on two slabs, pressed in as it will be.
+    /// A prism along the line on two slabs, with the penetration of its equilibrium.
     fn setup(&self, tan_phi: [f64; 2]) -> anyhow::Result<Setup> {
         let face = |normal: DVec3, distance: f64| HalfSpace { normal, distance };
         let [n1, n2] = self.normals;
@@ -139,7 +139,7 @@ impl Wedge {
         let weight = DENSITY * G * prism.volume();
         let pressed = [0, 1]
             .map(|k| weight * self.forces[k] / (WEDGE_STIFFNESS * area(&prism, self.normals[k])));
-        // The way d with n₁·d = −u₁, n₂·d = −u₂.
+        // The displacement d with n₁·d = −u₁, n₂·d = −u₂.
         let [a, b] = solve(self.normals, pressed);
         let sink = -(n1 * a + n2 * b);
         let mut list = Vec::new();
@@ -168,14 +168,14 @@ impl Wedge {
     }
 }
 
-/// a, b of (a n₁ + b n₂)·n_k = c_k.
+/// Solves (a n₁ + b n₂)·n_k = c_k for a, b.
 fn solve([n1, n2]: [DVec3; 2], [c1, c2]: [f64; 2]) -> [f64; 2] {
     let cos = n1.dot(n2);
     let det = 1.0 - cos * cos;
     [(c1 - cos * c2) / det, (c2 - cos * c1) / det]
 }
 
-/// Area of the face that looks against `normal`, m².
+/// Area of the face whose normal is opposite to `normal`, m².
 fn area(shape: &Polyhedron, normal: DVec3) -> f64 {
     let faces = shape.faces().iter().zip(shape.loops());
     let on_plane = faces.filter(|(face, _)| face.normal.dot(normal) < -1.0 + 1e-9);
@@ -210,7 +210,7 @@ pub fn wedge(_: &Stand) -> Outcome {
                 trial.at_most("way after 1 s, holds, m", way.abs(), 1e-5)
             });
         }
-        // What the literature prints, to its last digit; nothing runs.
+        // The value in the literature, to its last digit; nothing is run.
         let trial = Trial {
             setup: format!("planes {:?}", wedge.planes),
             ..Trial::default()

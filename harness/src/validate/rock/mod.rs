@@ -19,7 +19,7 @@ pub const G: f64 = 9.81;
 /// Density of all blocks, kg/m³.
 pub const DENSITY: f64 = 2500.0;
 
-/// Blocks that run, with the time that it took.
+/// Running blocks, with the wall time spent on them.
 #[derive(Debug)]
 pub struct Rock {
     /// The blocks.
@@ -31,7 +31,7 @@ pub struct Rock {
 }
 
 impl Rock {
-    /// Blocks at the start, and what they are, in a line.
+    /// Blocks at the start, with a one-line description.
     pub fn new(setup: Setup, what: impl Into<String>) -> anyhow::Result<Self> {
         let blocks = Blocks::new(setup)?;
         Ok(Self {
@@ -42,8 +42,8 @@ impl Rock {
         })
     }
 
-    /// Blocks that go on from where others of the same shapes settled under the mass damping `damping`
-    /// (1/s) in `time` (s): what a slow hand leaves.
+    /// Blocks that start from the state in which `held`, blocks of the same shapes, settled under the mass damping `damping`
+    /// (1/s) in `time` (s), as if set down slowly.
     pub fn from_rest(
         held: Setup,
         damping: f64,
@@ -69,7 +69,7 @@ impl Rock {
         Ok(())
     }
 
-    /// What the ledger of the energies has lost or gained, J.
+    /// Error of the energy balance since the start, J.
     pub fn energy_error(&self) -> f64 {
         (self.blocks.ledger().balance() - self.start.balance()).abs()
     }
@@ -80,7 +80,7 @@ impl Rock {
         stress.map_or(f64::NAN, |stress| stress.z_axis.z)
     }
 
-    /// What has been run so far.
+    /// Setup and cost of the run so far.
     pub fn trial(&self) -> Trial {
         Trial {
             setup: self.what.clone(),
@@ -102,12 +102,12 @@ pub fn floor(width: f64) -> anyhow::Result<Block> {
     Ok(Block::new("floor", cuboid(width, width, 1.0)?, DVec3::Z * -0.5).fixed())
 }
 
-/// A rotation about y that turns x downwards by `degrees`.
+/// A rotation about y that tilts x downwards by `degrees`.
 pub fn slope(degrees: f64) -> DQuat {
     DQuat::from_rotation_y(degrees.to_radians())
 }
 
-/// A joint of one stiffness in both directions, Pa/m, and the friction angle in degrees.
+/// A joint with the same stiffness in both directions, Pa/m, and the friction angle in degrees.
 pub fn joint(stiffness: f64, degrees: f64) -> Joint {
     Joint {
         normal_stiffness: stiffness,

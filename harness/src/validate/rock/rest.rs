@@ -1,4 +1,4 @@
-//! What stands, stands still: a stack of ten, a pyramid of 55, a masonry arch.
+//! Stable structures at rest: a stack of ten, a pyramid of 55, a masonry arch.
 
 use super::{G, Rock, cuboid, floor, joint, setup};
 use crate::validate::{Outcome, Stand};
@@ -13,8 +13,8 @@ const STIFFNESS: f64 = 1e9;
 /// Largest speed after settling, m/s.
 const STILL: f64 = 1e-6;
 
-/// Lets the blocks settle for `time` s under the mass damping `damping` (1/s), that of their slowest mode.
-/// `even` is the limit of the elastic energy where the pressure in the joints is even.
+/// Lets the blocks settle for `time` s under the mass damping `damping` (1/s), chosen for their slowest mode. `even` is the limit
+/// on the error of the elastic energy if the pressure in the joints is uniform.
 fn settle(list: Vec<Block>, what: &str, (damping, time): (f64, f64), even: Option<f64>) -> Outcome {
     let mut setup = setup(list, joint(STIFFNESS, 35.0));
     setup.damping = damping;
@@ -30,8 +30,8 @@ fn settle(list: Vec<Block>, what: &str, (damping, time): (f64, f64), even: Optio
     let free = forces.filter(|(block, _)| rock.blocks.moves(*block));
     let unbalanced = free.map(off).fold(0.0, f64::max);
     let error = rock.energy_error() / end.taken();
-    // ½f_n u_n + f_s²/2k_s A, which knows nothing of the way that the ledger has followed. It is the
-    // same where the pressure is even; in the joints of an arch it is not.
+    // ½f_n u_n + f_s²/2k_s A, independent of the path that the ledger has followed. Both agree if the pressure is uniform; in the
+    // joints of an arch it is not.
     let held = |contact: ContactPoint| {
         let pressing = contact.force.dot(contact.normal);
         let shear = contact.force - pressing * contact.normal;
@@ -48,7 +48,7 @@ fn settle(list: Vec<Block>, what: &str, (damping, time): (f64, f64), even: Optio
     ])
 }
 
-/// Ten cubes, laid crookedly.
+/// Ten cubes in a crooked stack.
 pub fn stack(_: &Stand) -> Outcome {
     let mut list = vec![floor(15.0)?];
     for i in 0..10 {

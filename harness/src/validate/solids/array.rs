@@ -1,5 +1,5 @@
-//! Drag of a simple cubic array of spheres (Zick & Homsy 1982): F = 6πμaKU, F the whole force on a sphere and U
-//! the mean velocity over fluid and spheres.
+//! Drag of a simple cubic array of spheres (Zick & Homsy 1982): F = 6πμaKU, where F is the total force on a sphere and U the mean
+//! velocity over fluid and spheres.
 
 use super::periodic_flow::{Body, Drag, PeriodicFlow, static_solids};
 use crate::picture::{Chart, Curve, Mark, Measure};
@@ -7,16 +7,16 @@ use crate::validate::{Method, Outcome, Record, Stand};
 use riprap::scene::{BlockShape, Rotation, Solid, SolidSurface};
 use std::f64::consts::PI;
 
-/// Concentrations and K of their table 2.
+/// Concentrations and K from their table 2.
 const K: [(f64, f64); 4] = [
     (0.027, 2.008),
     (0.125, 4.292),
     (0.216, 7.442),
     (0.343, 15.4),
 ];
-/// The concentration for which there are limits.
+/// The concentration with limits.
 pub const USUAL: f64 = 0.125;
-/// Part of a cell by which spheres are off its corner.
+/// Offsets of the spheres from the corner of a cell, in cells.
 const OFFSETS: [[f64; 3]; 3] = [[0.25, 0.0, 0.0], [0.5, 0.5, 0.5], [0.3, 0.1, 0.7]];
 
 /// An array to be computed.
@@ -28,12 +28,12 @@ pub struct Array {
     tau: f64,
     method: Method,
     offset: [f64; 3],
-    /// The surface of spheres that are static solids; none: they are blocks.
+    /// Surface of spheres that are static solids; `None` for blocks.
     surface: Option<SolidSurface>,
 }
 
 impl Array {
-    /// By the default method, each sphere in the middle of its cube.
+    /// An array computed by the default method, each sphere in the middle of its cube.
     pub fn new(concentration: f64, edge: u32, tau: f64) -> Self {
         Self {
             concentration,
@@ -45,7 +45,7 @@ impl Array {
         }
     }
 
-    /// By another method.
+    /// The same array by another method.
     pub fn by(self, method: Method) -> Self {
         Self { method, ..self }
     }
@@ -55,18 +55,18 @@ impl Array {
         f64::from(self.edge) * (6.0 * self.concentration / PI).cbrt()
     }
 
-    /// K of the table.
+    /// K from the table.
     fn published(&self) -> f64 {
         let found = K.iter().find(|(c, _)| *c == self.concentration);
         found.map_or(f64::NAN, |(_, k)| *k)
     }
 
-    /// [`Drag::resistance`] by the table.
+    /// [`Drag::resistance`] from the table.
     pub fn resistance(&self) -> f64 {
         3.0 * PI * self.diameter() * self.published()
     }
 
-    /// The flow through it.
+    /// Computes the flow through the array.
     ///
     /// # Errors
     /// If the flow does not become steady, or leaves the range of the method.
@@ -97,11 +97,11 @@ impl Array {
     }
 }
 
-/// What an array shows.
+/// Result for an array.
 pub struct Measured {
-    /// K over that of the table.
+    /// K over that from the table.
     pub ratio: f64,
-    /// What was run.
+    /// The flow and its cost.
     pub drag: Drag,
 }
 
@@ -115,8 +115,8 @@ impl Measured {
 
 /// Spheres of 5 and 10 cells; with `--full` finer ones and other concentrations.
 pub fn drag(stand: &Stand) -> Outcome {
-    // Concentration, edge of the cube, limit: of the usual one 8, 16, 24 and 32 cells give D = 5.0, 9.9, 14.9 and 19.9, of the
-    // others D = 9.3 and 11.9.
+    // Concentration, edge of the cube, limit. For the usual concentration, 8, 16, 24 and 32 cells give D = 5.0, 9.9, 14.9 and
+    // 19.9; for the others D = 9.3 and 11.9.
     let mut arrays = vec![(USUAL, 8, 3e-2), (USUAL, 16, 1e-2)];
     if stand.full {
         arrays.extend([(USUAL, 24, 1e-2), (USUAL, 32, 1e-2)]);
@@ -155,7 +155,7 @@ fn static_sphere(edge: u32, radius: f64, surface: SolidSurface) -> anyhow::Resul
     )
 }
 
-/// Spheres that are static solids, of 10 cells: exact ones as blocks, and staircases.
+/// Spheres of 10 cells as static solids: exact surfaces, judged like blocks, and staircases.
 pub fn at_rest(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for tau in [0.6, 1.0, 1.5] {
@@ -177,7 +177,7 @@ pub fn at_rest(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Where the centre of a sphere is in its cell must not matter.
+/// The position of the centre of a sphere within its cell must not matter.
 pub fn offset(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for tau in [0.6, 1.0] {
@@ -216,13 +216,13 @@ pub fn comparison(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Relaxation time from which on large spheres do not take long: the flow is steady after some 330/ν steps at D = 20,
-/// and 1300/ν at D = 40.
+/// Relaxation time from which large spheres run in reasonable time: the flow is steady after some 330/ν steps at D = 20, and
+/// 1300/ν at D = 40.
 const QUICK: f64 = 0.8;
 
 /// The error over resolution and relaxation time, as a table and a picture.
 pub fn map(stand: &Stand) -> Outcome {
-    // D = 5, 9.9, 19.9, 39.7, and the least relaxation time of each.
+    // D = 5, 9.9, 19.9, 39.7, and the smallest relaxation time for each.
     let slow = if stand.software { QUICK } else { 0.0 };
     let grids: &[(u32, f64)] = match stand.full {
         true => &[(8, 0.0), (16, 0.0), (32, 0.0), (64, slow)],

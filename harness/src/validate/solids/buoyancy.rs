@@ -1,4 +1,4 @@
-//! A block at rest in a closed tank: it feels ρVg and nothing else.
+//! A block at rest in a closed tank: the load on it is ρVg and nothing else.
 
 use crate::validate::{
     Outcome, Stand,
@@ -10,10 +10,10 @@ use riprap::scene::{BlockShape, Motion, Scene};
 const TANK: u32 = 32;
 const CUBE: f64 = 16.0;
 const GRAVITY: f64 = 1e-5;
-/// The sound of the start has died down to 1e-3.
+/// By then the initial sound has decayed to 1e-3.
 const STEPS: u64 = 240;
 
-/// A cube near the middle of the tank, turned against the grid, under gravity.
+/// A cube near the middle of the tank, under gravity, optionally rotated against the grid.
 fn cube(tau: f64, turned: bool, motion: Motion) -> anyhow::Result<Scene> {
     let mut scene = tank::scene([TANK; 3], tau)?;
     tank::close(&mut scene);
@@ -27,7 +27,7 @@ fn cube(tau: f64, turned: bool, motion: Motion) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
-/// Buoyancy is ρVg at any viscosity, with the weight of the water in the fluid or only in the rock.
+/// Buoyancy is ρVg at any viscosity, with gravity acting on fluid and rock or on the rock only.
 pub fn archimedes(stand: &Stand) -> Outcome {
     let runs = [
         (0.55, true, true),
@@ -76,7 +76,7 @@ pub fn neutral(stand: &Stand) -> Outcome {
         tank.advance(STEPS)?;
         let end = tank.pose(0);
         let trial = tank.trial("neutral cube");
-        // The way that it would fall without water.
+        // The distance that it would fall without water.
         let fall = 0.5 * GRAVITY * (STEPS as f64).powi(2);
         let way = (end.centre - start.centre).length() / fall;
         records.push(trial.at_most(format!("drift / (gt²/2), τ = {tau}"), way, 1e-2));

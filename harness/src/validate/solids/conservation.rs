@@ -1,4 +1,4 @@
-//! What blocks in a fluid conserve: momentum, mass, and their volume.
+//! Conservation with blocks in a fluid: momentum, mass, and volume.
 
 use crate::validate::{
     Outcome, Stand,
@@ -10,8 +10,8 @@ use riprap::scene::{BlockShape, Motion};
 const DENSITY: f64 = 2.5;
 const STEPS: u64 = 300;
 
-/// Momentum of fluid and blocks in a periodic box, and the mass of the fluid: a sphere, a cube and a tetrahedron that a
-/// stream takes along.
+/// Momentum of fluid and blocks in a periodic box, and mass of the fluid: a stream carries along a sphere, a cube and a
+/// tetrahedron.
 pub fn momentum(stand: &Stand) -> Outcome {
     let shapes = [
         (BlockShape::Sphere { radius: 4.0 }, [8.3, 8.0, 7.6]),
@@ -36,7 +36,7 @@ pub fn momentum(stand: &Stand) -> Outcome {
         let after = Ledger::of(&mut tank)?;
         tank.advance(1)?;
         let last = Ledger::of(&mut tank)?;
-        // What cells inside blocks reflect swings with a period of two steps.
+        // The populations reflected by cells inside blocks alternate with a period of two steps.
         let lost = 0.5 * (before.less(&after) + before.less(&last));
         let exchanged: f64 = (0..shapes.len())
             .map(|k| (after.blocks[k] - before.blocks[k]).length())
@@ -53,7 +53,7 @@ pub fn momentum(stand: &Stand) -> Outcome {
 struct Ledger {
     mass: f64,
     fluid: DVec3,
-    /// Without the water inside: it goes where the block goes and is no load on it, so it counts once, in the fluid.
+    /// Without the water inside: it moves with the block and is no load on it, so it counts once, in the fluid.
     blocks: Vec<DVec3>,
 }
 
@@ -71,7 +71,7 @@ impl Ledger {
         })
     }
 
-    /// All momentum, less that of another one.
+    /// Total momentum minus that of `other`.
     fn less(&self, other: &Self) -> DVec3 {
         let all = |ledger: &Self| ledger.fluid + ledger.blocks.iter().sum::<DVec3>();
         all(self) - all(other)
@@ -80,16 +80,17 @@ impl Ledger {
 
 /// Largest extent of each block, cells.
 const ACROSS: f64 = 16.0;
-/// From a block to the next one: the diagonal of the cube and a cell on each side.
+/// Distance between blocks: the diagonal of the cube and a cell on each side.
 const SPACING: u32 = 30;
-/// Turns of each shape.
+/// Orientations of each shape.
 const TURNS: u32 = 4;
 const FULL_TURNS: u32 = 16;
 
-/// The solid fractions of the cells of a block add up to its volume: cubes, tetrahedra and icosahedra, turned and shifted against the grid.
+/// The solid fractions of the cells of a block add up to its volume: cubes, tetrahedra and icosahedra, rotated and shifted
+/// against the grid.
 pub fn volume(stand: &Stand) -> Outcome {
     let tetrahedron = ACROSS;
-    // Twice the radius of the sphere around it.
+    // ACROSS is twice the radius of the circumscribed sphere.
     let icosahedron = ACROSS / (10.0 + 2.0 * 5f64.sqrt()).sqrt() * 2.0;
     let shapes = [
         (
@@ -140,7 +141,7 @@ pub fn volume(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// The larger one; what is not a number stays.
+/// The larger value; NaN propagates.
 fn largest(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }

@@ -1,4 +1,4 @@
-//! A cube that crosses the grid: fluid that moves with it must not notice, and the drag in fluid at rest swings.
+//! A cube that crosses the grid: co-moving fluid must not be disturbed; in fluid at rest the drag fluctuates.
 
 use crate::{
     picture::{Chart, Curve, Mark, Measure},
@@ -14,9 +14,9 @@ use riprap::{
 };
 
 const CUBE: f64 = 8.0;
-/// Off all axes, so that edges and corners cross the cells too.
+/// Oblique to all axes, so that edges and corners cross the cells too.
 const VELOCITY: [f64; 3] = [0.05, 0.03, 0.02];
-/// The fastest side crosses five cells.
+/// The fastest face crosses five cells.
 const STEPS: u64 = 100;
 
 fn cube(cells: [u32; 3], tau: f64, velocity: [f64; 3], turned: bool) -> anyhow::Result<Scene> {
@@ -28,12 +28,12 @@ fn cube(cells: [u32; 3], tau: f64, velocity: [f64; 3], turned: bool) -> anyhow::
         cube.rotation = turn(1);
     }
     scene.blocks.push(cube);
-    // Each step by itself.
+    // Forces of single steps, not averaged.
     scene.coupling.average = false;
     Ok(scene)
 }
 
-/// Forces of each step.
+/// Force at each step.
 fn forces(tank: &mut Tank<'_>, steps: u64) -> anyhow::Result<Vec<DVec3>> {
     let mut all = Vec::new();
     for _ in 0..steps {
@@ -43,7 +43,7 @@ fn forces(tank: &mut Tank<'_>, steps: u64) -> anyhow::Result<Vec<DVec3>> {
     Ok(all)
 }
 
-/// In fluid that moves as the cube does, and in fluid at rest.
+/// Runs the cube in fluid that moves with it, and in fluid at rest.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let scale = DVec3::from(VELOCITY).length_squared() * CUBE * CUBE;
@@ -61,7 +61,7 @@ pub fn run(stand: &Stand) -> Outcome {
         records.push(trial.at_most("largest force of a step / ρU²D²", most / scale, 1e-3));
     }
     for turned in [false, true] {
-        // 8 cells on the way, the last four of which count.
+        // A path of 8 cells, the last four of which count.
         let scene = cube([48, 24, 24], 0.6, [0.04, 0.0, 0.0], turned)?;
         let mut tank = Tank::fill(stand, &scene)?;
         tank.advance(STEPS)?;
@@ -77,19 +77,18 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Of the cube, cells a step: a cell in 25 steps.
+/// Speed of the cube, cells per step: a cell in 25 steps.
 const SPEED: f64 = 0.04;
 /// Steps in which a face crosses a cell.
 const CROSSING: usize = 25;
-/// Time in which it gets there, over the length of the tank in cells: in which sound goes along it four times.
+/// Duration of the acceleration over the length of the tank in cells: sound travels along the tank four times.
 const RAMP: f64 = 7.0;
-/// Cells on the way before it counts, and those that count.
+/// Cells crossed before the measurement, and cells measured.
 const BEFORE: u64 = 4;
 const COUNTED: usize = 4;
 
-/// How the drag of a cube swings as its faces cross cells, over resolution and relaxation time. It goes along the grid
-/// through fluid at rest: its front covers whole layers of cells at once, which is the worst way
-/// to go.
+/// Fluctuation of the drag of a cube as its faces cross cells, over resolution and relaxation time. The cube moves along the grid
+/// through fluid at rest: its front covers whole layers of cells at once, which is the worst case.
 pub fn swing(stand: &Stand) -> Outcome {
     let sizes: &[u32] = match (stand.full, stand.software) {
         (true, false) => &[5, 10, 20, 40],
@@ -106,12 +105,12 @@ pub fn swing(stand: &Stand) -> Outcome {
             let shape = BlockShape::Box { size: [edge; 3] };
             let middle = 1.5 * edge + 0.2;
             let mut cube = block(shape, [edge + 0.3, middle, middle + 0.1], Motion::Driven);
-            // A sudden start would send a sound round the tank that swings more than all else.
+            // A sudden start would send a sound wave round the tank that outweighs all else.
             let ramp = (RAMP * f64::from(4 * size + 12)).ceil();
             let speed = format!("{SPEED}*0.5*(1 - cos(pi*min(t/{ramp}, 1)))");
             cube.velocity = [speed.parse()?, Formula::number(0.0), Formula::number(0.0)];
             scene.blocks.push(cube);
-            // Each step by itself: what a block feels is the mean of two.
+            // Forces of single steps: the load on a block is the mean of two.
             scene.coupling.average = false;
             method.choose(&mut scene);
             let mut tank = Tank::fill(stand, &scene)?;
@@ -125,7 +124,7 @@ pub fn swing(stand: &Stand) -> Outcome {
             let mean = load.iter().sum::<f64>() / load.len() as f64;
             let jump = drag.windows(2).map(|two| (two[1] - two[0]).abs());
             let jump = jump.fold(0.0, f64::max) / mean;
-            // Of each crossing, so that a drag that changes slowly does not count.
+            // Per crossing, so that slow changes of the drag do not count.
             let swing = load.chunks_exact(CROSSING).map(|one| {
                 let low = one.iter().copied().fold(f64::INFINITY, f64::min);
                 let high = one.iter().copied().fold(f64::NEG_INFINITY, f64::max);

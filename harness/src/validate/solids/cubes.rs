@@ -1,4 +1,4 @@
-//! Drag of simple cubic arrays of bodies with edges: cubes along the grid and turned, and a polyhedron of 80 faces.
+//! Drag of simple cubic arrays of bodies with edges: cubes aligned with the grid and rotated, and a polyhedron of 80 faces.
 
 use super::{
     array::{Array, USUAL},
@@ -11,17 +11,17 @@ use riprap::{
     scene::{BlockShape, Rotation, Solid},
 };
 
-/// Places of the middle of a cube, from the corner of a cell, cells.
+/// Offsets of the middle of a cube from the corner of a cell, cells.
 const OFFSETS: [[f64; 3]; 4] = [
     [0.0; 3],
     [0.25, 0.25, 0.25],
     [0.5, 0.5, 0.5],
     [0.3, 0.1, 0.7],
 ];
-/// F/μUD of cubes along the grid whose edge is half of the array's: by bounce-back on 32, 48 and 64 cells at τ = 1, 58.25, 59.17
-/// and 59.61, extrapolated by the power 1.1 of the cell.
+/// F/μUD of cubes along the grid with half the edge of the array's cell: by bounce-back on 32, 48 and 64 cells at τ = 1, 58.25,
+/// 59.17 and 59.61, extrapolated by the power 1.1 of the cell.
 const CUBES: f64 = 60.8;
-/// Turns of [`tank::turn`].
+/// Orientations, by [`tank::turn`].
 const TURNS: [u32; 3] = [1, 2, 3];
 
 /// Cubes of 8 cells and a polyhedron of 10, with either weight; with `--full` also of 16 and 20.
@@ -95,7 +95,7 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
     Ok(records)
 }
 
-/// Solid cells where a cube is whose edge is half of `edge`.
+/// Solid cells in the shape of a cube whose edge is half of `edge`.
 fn cells(edge: u32) -> anyhow::Result<Vec<Solid>> {
     let [low, high] = [0.25, 0.75].map(|part| part * f64::from(edge));
     static_solids(

@@ -10,7 +10,7 @@ use riprap::{
 };
 use std::f64::consts::TAU;
 
-/// Drag, of the mean speed and the diameter: the bounds of the reference are 5.57 and 5.59.
+/// Drag coefficient with the mean speed and the diameter: the bounds of the reference are 5.57 and 5.59.
 const DRAG: f64 = 5.58;
 /// Largest speed at the inlet; the mean is two thirds of it.
 const SPEED: f64 = 0.06;
@@ -19,14 +19,14 @@ const REYNOLDS: f64 = 20.0;
 const LENGTH: f64 = 22.0;
 const AXIS: f64 = 2.0;
 const HEIGHT: f64 = 4.1;
-/// Sides of the prism that stands for the cylinder.
+/// Sides of the prism that represents the cylinder.
 const SIDES: u32 = 96;
 /// Layers of cells, along which nothing varies.
 const LAYERS: u32 = 4;
-/// Until the drag is steady, in diameters over the mean speed.
+/// Time until the drag is steady, in diameters over the mean speed.
 const SETTLE: f64 = 16.0;
 
-/// Drag on a grid of 10 cells a diameter, in the full form also of 20: their error falls to first order at best.
+/// Drag on a grid of 10 cells per diameter, in the full form also of 20: the error falls to first order at best.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let grids: &[(u32, f64)] = match stand.full {

@@ -1,8 +1,9 @@
-//! A cube held on a bed of 30° in water that starts to run (Gardner & Sitar 2018, section 6.3): the drag until it is
-//! let go, on three grids, and the momentum of the water. The bed is a block here, whose load is measured too. Both have the wall model of
-//! the scene, but not at edges and corners: there, at a cell Reynolds number of 10⁵, a layer of cells that starts along a wall loses what 0.3 of
-//! a cell gains, whatever its viscosity, while the boundary layer of water is a thirtieth of a cell thick. The cube is larger by as much,
-//! so that its drag is too large in proportion to the cell, from the first step on.
+//! A cube held on a bed of 30° in water that starts to flow (Gardner & Sitar 2018, section 6.3): the drag until the cube is
+//! released, on three grids, and the momentum of the water. The bed is a block here, whose load is measured too. Both have the
+//! wall model of the scene, but not at edges and corners: there, at a cell Reynolds number of 10⁵, a layer of cells that starts
+//! along a wall loses the momentum that 0.3 of a cell gains, whatever its viscosity, while the physical boundary layer is a
+//! thirtieth of a cell thick. The cube is effectively larger by as much, so that its drag is too large in proportion to the cell
+//! size, from the first step on.
 //!
 //! ```text
 //!  u  │    __ ______   bounce-back at τ → ½: the first cell goes at 0.63 of the
@@ -11,8 +12,8 @@
 //!     └───┴───┴───┴──   cells from the wall
 //! ```
 //!
-//! Without cells it would be the added mass of the cube between bed and surface, times the pull of the slope, until the
-//! flow leaves its edges.
+//! In the limit of zero cell size the drag would be the added mass of the cube between bed and surface times the acceleration
+//! along the slope, until the flow separates at its edges.
 
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{
@@ -24,25 +25,25 @@ use riprap::scene::{
 };
 use std::path::Path;
 
-/// The scene that ships, with 12 cells an edge.
+/// The bundled scene, with 12 cells per edge.
 const SCENE: &str = include_str!("../../../scenes/incline_flow.toml");
-/// Cells of the grids over the scene's; the histories of the last two should agree.
+/// Cell sizes of the grids over that of the scene; the histories of the last two should agree.
 const GRIDS: [f64; 3] = [1.5, 1.0, 0.5];
-/// Added mass of the cube over that of the water in its place, from Laplace's equation in the scene's box with 8 to 40
-/// cells an edge: 0.8898, 0.8647, 0.8535, 0.8435, 0.8390, 0.8366, of the order 4/3 that its edges leave.
+/// Added mass of the cube over the mass of the water in its place, from Laplace's equation in the scene's box with 8 to 40 cells
+/// per edge: 0.8898, 0.8647, 0.8535, 0.8435, 0.8390, 0.8366, extrapolated with the order 4/3 that its edges leave.
 const ADDED_MASS: f64 = 0.829;
-/// Over this time the water has hardly left the edges of the cube, s: it has gone 6 mm.
+/// Time before the flow has separated noticeably at the edges of the cube, s: the water has moved 6 mm.
 const START: f64 = 0.05;
-/// Over this time loads are averaged, s: sound crosses the cube in a fifth of it.
+/// Averaging time of the loads, s: sound crosses the cube in a fifth of it.
 const WINDOW: f64 = 0.025;
-/// Way of the block that counts as its first motion, in edges.
+/// Displacement of the block that counts as its first motion, in edges.
 const MOVED: f64 = 1e-3;
 const EDGE: f64 = 0.2;
-/// Thickness of the bed, cells, and how far it reaches beyond the period, m.
+/// Thickness of the bed, cells, and its overhang beyond the period, m.
 const BED: f64 = 2.0;
 const BEYOND: f64 = 1.0;
 
-/// What a grid gives.
+/// Results on one grid.
 struct History {
     /// End of each window, s, and the mean drag in it, N.
     drag: Vec<[f64; 2]>,
@@ -51,7 +52,7 @@ struct History {
     start: [f64; 2],
 }
 
-/// On all grids, how they differ, and what is left without cells.
+/// Runs all grids, compares them, and extrapolates to zero cell size.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let mut curves: Vec<Curve> = Vec::new();
@@ -87,7 +88,7 @@ pub fn run(stand: &Stand) -> Outcome {
         };
         let quantity = "difference of the drag histories, r.m.s.";
         records.push(trial.at_most(quantity, difference, 5e-2));
-        // Where the line of least squares through the grids meets no cells.
+        // Value at zero cell size of the least-squares line through the grids.
         let [x, y] = [0, 1].map(|axis| {
             let sum: f64 = starts.iter().map(|start: &[f64; 2]| start[axis]).sum();
             sum / starts.len() as f64
@@ -108,7 +109,7 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// What bed and cube receive without the wall model, on the grid of the scene.
+/// Loads on bed and cube without the wall model, on the grid of the scene.
 fn without_wall_model(stand: &Stand) -> Outcome {
     let mut scene = Scene::from_toml(SCENE, Path::new("."), "incline_flow.toml")?;
     scene.numerics.wall_model = WallModel::None;
@@ -121,8 +122,8 @@ fn without_wall_model(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// A block under the water, followed by a probe so that its loads are summed. What is below it must not rub on what its
-/// cells hold.
+/// Adds the bed as a block under the water, with a probe so that its loads are summed. The face below it slips, so
+/// that it exerts no friction on the fluid in the cells of the bed.
 fn lay_bed(scene: &mut Scene) {
     let thick = BED * scene.domain.cell;
     let [x, y, _] = scene.domain.size;
@@ -149,7 +150,7 @@ fn lay_bed(scene: &mut Scene) {
     });
 }
 
-/// Of water so deep (m).
+/// Runs the scene, with water of depth `depth` (m).
 fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> {
     let mut tank = Tank::fill(stand, scene)?;
     let units = *tank.units();
@@ -177,7 +178,7 @@ fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> 
         }
     }
     let time = tank.simulation.time();
-    // What the slope pulls at is the water beside the block.
+    // The pull of the slope acts on the water outside the cube.
     let [x, y, _] = scene.domain.size;
     let water = scene.fluid.density * (x * y * depth - EDGE.powi(3));
     let pull = water * slope * time;

@@ -1,4 +1,4 @@
-//! Blocks that come near a wall: what the grid feels of the fluid between them, and what lubrication adds to it.
+//! Blocks that approach a wall: the force that the grid resolves in the gap, and the lubrication force added to it.
 
 use crate::validate::{
     Outcome, Stand, Trial,
@@ -15,23 +15,23 @@ use riprap::{
 };
 use std::f64::consts::PI;
 
-/// Relaxation time: ν = 1/6, so that the flow follows the gap at once.
+/// Relaxation time: ν = 1/6, so that the flow adjusts to the gap at once.
 const TAU: f64 = 1.0;
 const NU: f64 = (TAU - 0.5) / 3.0;
 /// Velocity of the approach: a Reynolds number of a few hundredths.
 const SPEED: f64 = 1e-3;
-/// Gaps at which the force is looked at, cells.
+/// Gaps at which the force is measured, cells.
 const GAPS: [f64; 6] = [2.0, 1.5, 1.0, 0.5, 0.25, 0.12];
 /// Steps over which a force is averaged.
 const WINDOW: u64 = 20;
-/// How far the force may be off: the grid takes over between half a cell and a whole one, wherever the gap is among
-/// its cells.
+/// Limit on the relative error of the force: the grid takes over between a gap of half a cell and one of a whole cell, wherever
+/// the gap lies among the cells.
 const LIMIT: f64 = 0.2;
 /// Radius of the sphere, and half an edge of the cube, cells.
 const RADIUS: f64 = 5.0;
 const HALF: f64 = 6.0;
 
-/// What comes near the floor.
+/// The body that approaches the floor.
 #[derive(Clone, Copy, PartialEq)]
 enum Body {
     Sphere,
@@ -55,8 +55,8 @@ impl Body {
         }
     }
 
-    /// A tank, in which it is over a floor by `gap`: over the wall, or over a fixed block whose face is `within` a
-    /// cell.
+    /// A tank with the body above a floor by `gap`: above the wall, or above a fixed block whose face lies in a cell at the
+    /// height `within`.
     fn scene(self, gap: f64, motion: Motion, within: Option<f64>) -> anyhow::Result<Scene> {
         let edge = 40;
         let mut scene = tank::scene([edge; 3], TAU)?;
@@ -89,7 +89,7 @@ impl Body {
         }
     }
 
-    /// What the films of the library add at a gap.
+    /// Resistance that the films of the library add at a gap.
     fn film(self, gap: f64) -> anyhow::Result<f64> {
         let film = Film {
             viscosity: NU,
@@ -141,7 +141,7 @@ fn brenner(gap: f64) -> f64 {
     4.0 / 3.0 * alpha.sinh() * terms.sum::<f64>()
 }
 
-/// The force on a driven block at some gaps, of the grid alone and with the film, over theory.
+/// Force on a driven block at several gaps over that of theory, from the grid alone and with the film.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let mut runs = vec![
@@ -174,7 +174,7 @@ pub fn run(stand: &Stand) -> Outcome {
                 1.0,
                 None,
             ));
-            // Wider ones have no film, and theory knows nothing of the sides of a cube.
+            // Wider gaps have no film, and theory does not cover the sides of a cube.
             if gap < 1.0 {
                 let quantity = format!("{name}, gap {gap}: with lubrication / theory");
                 records.push(trial.relative(quantity, whole / theory, 1.0, LIMIT));
@@ -184,13 +184,12 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// The time in which a free block sinks from a gap of a cell to a fifth of it, with lubrication and without, over
-/// that of the theory.
+/// Time in which a free block sinks from a gap of a cell to a fifth of it, with lubrication and without, over that of theory.
 pub fn landing(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (body, name) in [(Body::Sphere, "sphere D 10"), (Body::Cube, "cube of 12")] {
         let (from, to) = (1.0, 0.2);
-        // Sinks at a hundredth of a cell a step where the gap is a cell.
+        // Sinks at a hundredth of a cell per step at a gap of one cell.
         let weight = 1e-2 * body.theory(from);
         for lubrication in [true, false] {
             let mut scene = body.scene(1.5, Motion::Free, None)?;
@@ -227,7 +226,7 @@ pub fn landing(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// ∫ c dh / W.
+/// Sinking time of theory, ∫ c dh / W with the resistance c and the weight W.
 fn sinking(body: Body, weight: f64, from: f64, to: f64) -> f64 {
     const PARTS: u32 = 200;
     let ratio = (from / to).powf(1.0 / f64::from(PARTS));

@@ -1,7 +1,7 @@
 //! Drag of a sphere and of a cube in a stream.
 //!
-//! A quarter of each is computed, between planes of symmetry; the other sides slip, ten sizes apart where values of an
-//! unbounded stream are the reference, so that the body takes up less than 1 % of the section.
+//! A quarter of each body is computed, between planes of symmetry; the other sides slip. They are ten sizes apart if the
+//! reference is an unbounded stream, so that the body takes up less than 1 % of the section.
 
 use crate::validate::{
     Method, Outcome, Stand, Trial,
@@ -11,10 +11,10 @@ use riprap::scene::{BlockShape, Boundary, Motion};
 use std::f64::consts::PI;
 
 const SPEED: f64 = 0.05;
-/// Time over which the drag is averaged, in sizes over speed.
+/// Time over which the drag is averaged, in body sizes over speed.
 const MEAN: f64 = 4.0;
 
-/// Against body-fitted computations of a sphere in an unbounded stream.
+/// Sphere, against body-fitted computations in an unbounded stream.
 pub fn sphere(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (size, limit) in grids(stand) {
@@ -31,9 +31,9 @@ pub fn sphere(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Against the correlation of Hölzer & Sommerfeld (2008), eq. 9, for a face across the stream.
+/// Cube with a face across the stream, against the correlation of Hölzer & Sommerfeld (2008), eq. 9.
 pub fn cube(stand: &Stand) -> Outcome {
-    // Of the sphere of the same volume: its diameter, its section and its surface over those of the cube.
+    // Diameter, section and surface of the sphere of the same volume, over those of the cube.
     let diameter = (6.0 / PI).cbrt();
     let across = 0.25 * PI * diameter * diameter;
     let sphericity: f64 = PI * diameter * diameter / 6.0;
@@ -59,7 +59,7 @@ pub fn cube(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Cells across the body, and how far off the drag may be. The finer one takes half an hour a stream on two cores.
+/// Cells across the body, and the limit on the error of the drag. The finer grid takes half an hour per stream on two cores.
 fn grids(stand: &Stand) -> Vec<(u32, f64)> {
     match stand.software && !stand.full {
         true => vec![(12, 0.12)],
@@ -67,20 +67,20 @@ fn grids(stand: &Stand) -> Vec<(u32, f64)> {
     }
 }
 
-/// Room around a body, in sizes of it, and times, in sizes over speed.
+/// Domain around a body, in body sizes, and times, in body sizes over speed.
 #[derive(Clone, Copy)]
 struct Stream {
-    /// Length before the body.
+    /// Length before its middle.
     before: u32,
     /// Length behind its middle.
     behind: u32,
     /// Half the width.
     half_width: u32,
-    /// Until the drag is steady.
+    /// Time until the drag is steady.
     settle: f64,
 }
 
-/// Far enough for the values of an unbounded stream.
+/// Wide enough for the values of an unbounded stream.
 const WIDE: Stream = Stream {
     before: 4,
     behind: 8,
@@ -95,19 +95,19 @@ const NARROW: Stream = Stream {
     settle: 12.0,
 };
 
-/// What a body in a stream feels.
+/// Drag on a body in a stream.
 pub struct Drag {
-    /// Coefficient, of ρU²/2 and the section.
+    /// Drag coefficient with ρU²/2 and the section.
     pub coefficient: f64,
     /// Relaxation time.
     pub tau: f64,
     /// Largest y⁺ half a cell from the body.
     pub y_plus: Option<f64>,
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
 }
 
-/// A cube of `size` cells, face on, in the narrow stream; its Reynolds number is that of its edge.
+/// Drag on a cube of `size` cells, face on, in the narrow stream; the Reynolds number is that of its edge.
 ///
 /// # Errors
 /// If the flow leaves the range of the method, or the device is lost or silent.
@@ -120,7 +120,7 @@ pub fn cube_on(stand: &Stand, size: u32, reynolds: f64, method: Method) -> anyho
 }
 
 impl Stream {
-    /// Drag of the whole body with the viscosity `SPEED` × `scale`, for a section of one cell.
+    /// Drag on the whole body with the viscosity `SPEED` × `scale`; the coefficient is for a section of one cell.
     fn drag(
         &self,
         stand: &Stand,

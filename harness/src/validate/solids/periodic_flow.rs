@@ -1,4 +1,4 @@
-//! Slow steady flow through a simple cubic array of one body.
+//! Slow steady flow through a simple cubic array of a body.
 
 use crate::validate::{
     Method, Stand, Trial,
@@ -7,19 +7,18 @@ use crate::validate::{
 use riprap::scene::{BlockShape, Motion, Rotation, Scene, Solid};
 use std::{f64::consts::TAU, path::Path};
 
-/// U D/ν: the drag of inertia grows with its square and is below 1e-4 of the whole.
+/// U D/ν: the inertial part of the drag grows with its square and is below 1e-4 of the whole.
 const REYNOLDS: f64 = 0.05;
-/// Change of the mean velocity, as a part of it, over the longer of its diffusive time (edge/2π)²/ν and the time in which
-/// the drag stops it, below which the flow is steady: what is left then is of this size, a tenth of the limit on the
-/// balance of forces.
+/// Relative change of the mean velocity below which the flow is steady, over the longer of its diffusive time (edge/2π)²/ν and
+/// the time in which the drag stops it: the remaining error is of this size, a tenth of the limit on the balance of forces.
 const STEADY: f64 = 1e-4;
-/// Such times after which a flow that is to become steady should be: 8 are usual.
+/// Largest number of such times until the flow is steady: 8 are usual.
 const MOST_TIMES: u32 = 64;
 
 /// The body of the array.
 #[derive(Clone, Debug)]
 pub enum Body {
-    /// A block in the middle, off it by a part of a cell, and turned.
+    /// A block: its shape, its offset from the middle in cells, and its rotation.
     Block(BlockShape, [f64; 3], Rotation),
     /// Solid cells, with walls by bounce-back.
     Cells(Vec<Solid>),
@@ -29,23 +28,23 @@ pub enum Body {
 #[derive(Clone, Debug)]
 pub struct PeriodicFlow {
     pub body: Body,
-    /// Its size across, cells.
+    /// Size across the body, cells.
     pub size: f64,
     /// Edge of the periodic cube of one body, cells.
     pub edge: u32,
     pub tau: f64,
     pub method: Method,
-    /// About what [`Drag::resistance`] is.
+    /// Estimate of [`Drag::resistance`].
     pub expected: f64,
 }
 
-/// What an array shows.
+/// Result for an array.
 pub struct Drag {
     /// Force on a body over μU, U the mean velocity over fluid and bodies, cells.
     pub resistance: f64,
-    /// How far the force on the body is from what pushes the fluid; no number for solid cells.
+    /// Relative difference between the force on the body and the force that drives the fluid; zero for solid cells.
     pub balance: f64,
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
 }
 
@@ -59,7 +58,7 @@ pub fn static_solids(edge: u32, keys: &str) -> anyhow::Result<Vec<Solid>> {
 }
 
 impl PeriodicFlow {
-    /// The steady flow along x.
+    /// Computes the steady flow along x.
     ///
     /// # Errors
     /// If the flow does not become steady, or leaves the range of the method.
@@ -75,14 +74,14 @@ impl PeriodicFlow {
         match &self.body {
             Body::Block(shape, offset, rotation) => {
                 let centre = offset.map(|part| 0.5 * f64::from(self.edge) + part);
-                // Its loads are wanted, and it is at rest.
+                // Driven, so that its loads are measured; it is at rest.
                 let mut body = block(shape.clone(), centre, Motion::Driven);
                 body.rotation = *rotation;
                 scene.blocks.push(body);
             }
             Body::Cells(solids) => scene.solids = solids.clone(),
         }
-        // A mean velocity that is off returns at the first rate, its profile at least at the second.
+        // An error of the mean velocity decays at the first rate, one of the profile at least at the second.
         let edge = f64::from(self.edge);
         let rates = [nu * self.expected / volume, nu * (TAU / edge).powi(2)];
         let time = (1.0 / rates[0].min(rates[1])).ceil();
@@ -91,7 +90,7 @@ impl PeriodicFlow {
         let mut tank = Tank::fill(stand, &scene)?;
         let mut flux = f64::NAN;
         for times in 1.. {
-            // What cells inside a body reflect swings with a period of two steps. Without the half force: in
+            // The populations reflected by cells inside a body alternate with a period of two steps. Without the half force: in
             // partially saturated cells it is no part of the flux.
             tank.advance(time as u64 - 1)?;
             let before = tank.totals()?.momentum[0];

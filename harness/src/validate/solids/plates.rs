@@ -1,4 +1,4 @@
-//! Flow between plates that are blocks, Poiseuille's and Couette's: where their surfaces lie.
+//! Poiseuille and Couette flow between plates that are blocks: positions of their surfaces.
 
 use crate::validate::{
     Method, Outcome, Record, Stand, Trial,
@@ -8,22 +8,22 @@ use anyhow::Context;
 use glam::DVec3;
 use riprap::scene::{BlockShape, Field, Motion, Rotation};
 
-/// Thickness of the plate, cells: the one between two gaps of a box that repeats.
+/// Thickness of the plate, cells; one plate separates the gaps of the periodic box.
 const THICK: u32 = 8;
-/// Where its middle is, from a side of a cell, cells.
+/// Offset of its middle from a face between cells, cells.
 const OFFSETS: [f64; 3] = [0.0, 0.3, 0.5];
 /// Cells along the plate.
 const WIDE: u32 = 4;
-/// Steps after which swings of the start are gone from narrow gaps.
+/// Steps after which initial oscillations have decayed in narrow gaps.
 const LEAST: f64 = 1000.0;
-/// Largest velocity aimed at, and that of plates that move.
+/// Target of the largest velocity, and velocity of moving plates.
 const SPEED: f64 = 0.01;
 
-/// How far surfaces lie outside, and what joints of few cells carry.
+/// Outward offset of the surfaces, and flow through joints of a few cells.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (gap, limit) in [(8, 0.03), (32, 0.01)] {
-        // It is steady after a time that grows as the square of the gap.
+        // The time to steady flow grows as the square of the gap.
         let taus: &[f64] = match gap > 8 && stand.software {
             true => &[0.6, 1.0],
             false => &[0.52, 0.6, 1.0, 1.5],
@@ -50,15 +50,15 @@ pub fn run(stand: &Stand) -> Outcome {
 
 /// A steady flow between plates.
 struct Flow {
-    /// How far their surfaces lie outside of where they should by the velocity in the middle, cells.
+    /// Outward offset of the surfaces from their nominal positions, by the velocity in the middle, cells.
     outside: f64,
-    /// What flows through, over what should.
+    /// Flow rate over that of Poiseuille flow.
     carried: f64,
     trial: Trial,
 }
 
 impl Flow {
-    /// Through a gap of so many cells, with the plate's middle off the grid by `offset`.
+    /// Measures the flow through a gap of `gap` cells, with the plate's middle off the grid by `offset`.
     fn measure(stand: &Stand, gap: u32, tau: f64, offset: f64) -> anyhow::Result<Self> {
         let height = gap + THICK;
         let nu = (tau - 0.5) / 3.0;
@@ -72,7 +72,8 @@ impl Flow {
         scene.blocks.push(block(plate, middle, Motion::Fixed));
         Method::DEFAULT.choose(&mut scene);
         let mut tank = Tank::fill(stand, &scene)?;
-        // Eight times in which the slowest profile falls to a third; what cells reflect swings with two and four steps.
+        // Eight times in which the slowest mode falls to a third; reflected populations alternate with periods of two and four
+        // steps.
         let time = (8.0 * width * width / (nu * 9.87)).max(LEAST);
         tank.advance(time as u64)?;
         let column: Vec<u32> = (0..height).map(|z| WIDE * WIDE * z).collect();
@@ -101,7 +102,7 @@ impl Flow {
     }
 }
 
-/// Where the surfaces of plates lie by the friction on them along the grid, and by the flux between them across it.
+/// Positions of the surfaces of plates: along the grid by the friction on them, across the grid by the flux between them.
 pub fn places(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     let taus: &[f64] = match stand.full {
@@ -127,7 +128,7 @@ pub fn places(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Couette flow between plates along the grid, one at rest and one that moves along itself.
+/// Couette flow between plates along the grid, one at rest and one moving in its plane.
 fn shear(stand: &Stand, tau: f64, offset: f64) -> anyhow::Result<Record> {
     const GAP: u32 = 12;
     let nu = (tau - 0.5) / 3.0;
@@ -143,7 +144,7 @@ fn shear(stand: &Stand, tau: f64, offset: f64) -> anyhow::Result<Record> {
             .push(block(plate, [0.5 * wide, 0.5 * wide, height], motion));
     }
     scene.blocks[1].velocity = numbers([SPEED, 0.0, 0.0]);
-    // The slowest part of the start falls to 1e-4; then the load is a mean.
+    // The slowest initial mode falls to 1e-4; then the load is averaged.
     let tenth = (gap * gap / (nu * 9.87)).max(0.1 * LEAST) as u64;
     scene.coupling.interval = tenth as u32;
     let mut tank = Tank::fill(stand, &scene)?;
@@ -161,7 +162,7 @@ const PERIOD: u32 = 32;
 
 /// Poiseuille flow between plates parallel to z and to no other axis.
 struct Slope {
-    /// Normal of the plates in the plane of x and y, whole numbers without a common divisor.
+    /// Normal of the plates in the plane of x and y, coprime integers.
     normal: [u32; 2],
     thick: f64,
     tau: f64,
@@ -185,7 +186,7 @@ impl Slope {
         let plate = BlockShape::Box {
             size: [self.thick, 4.0 * period, 4.0 * period],
         };
-        // A plate is so long that it has no images: each of those that repeat in the box is a block.
+        // The plates are so long that they have no periodic images: each repetition in the box is a block.
         for n in 0..=self.normal.iter().sum::<u32>() {
             let at = spacing * f64::from(n) * across + middle;
             let mut plate = block(plate.clone(), at.to_array(), Motion::Fixed);

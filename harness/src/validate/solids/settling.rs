@@ -1,9 +1,9 @@
-//! A sphere that settles in a tank of oil (ten Cate, Nieuwstad, Derksen & Van den Akker 2002): 15 mm, 1120 kg/m³, let
-//! go 0.12 m above the floor of a tank of 0.1 × 0.1 × 0.16 m.
+//! A sphere that settles in a tank of oil (ten Cate, Nieuwstad, Derksen & Van den Akker 2002): 15 mm, 1120 kg/m³, released 0.12 m
+//! above the floor of a tank of 0.1 × 0.1 × 0.16 m.
 //!
-//! The slow one of their experiments fell faster than a sphere without inertia would between these walls: 0.0360 m/s, where
-//! Stokes' law and the walls of a square duct (Happel & Brenner 1983) allow 0.0355. The same tank with a twentieth of the
-//! weight, where inertia hardly matters, is a second reference for it.
+//! In the slow experiment the sphere fell faster than a sphere without inertia would between these walls: 0.0360 m/s, while
+//! Stokes' law and the walls of a square duct (Happel & Brenner 1983) allow 0.0355. The same tank with a twentieth of the weight,
+//! where inertia hardly matters, is a second reference for it.
 
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{Method, Outcome, Record, Stand, Trial, tank::Tank};
@@ -17,7 +17,7 @@ pub const EDGE: f64 = 0.1;
 pub const SPEED: f64 = 0.03;
 /// kg/m³.
 const NYLON: f64 = 1120.0;
-/// Gravity of scenes that name none, m/s².
+/// Default gravity of scenes, m/s².
 const GRAVITY: f64 = 9.81;
 /// Samples of a trajectory.
 const SAMPLES: f64 = 100.0;
@@ -29,17 +29,17 @@ pub struct Oil {
     density: f64,
     /// Pa s.
     viscosity: f64,
-    /// Largest velocity found, m/s: of the velocity in an infinite tank the given part.
+    /// Largest measured velocity, m/s: the given part of the velocity in an infinite tank.
     pub fastest: f64,
-    /// Height of its centre above the floor when it is let go, m.
+    /// Initial height of its centre above the floor, m.
     height: f64,
-    /// Until the sphere is near the floor, s.
+    /// Time until the sphere is near the floor, s.
     time: f64,
     /// Density of the sphere, kg/m³.
     sphere: f64,
 }
 
-/// The slow one.
+/// The slow experiment.
 pub const E1: Oil = Oil {
     name: "E1",
     density: 970.0,
@@ -49,7 +49,7 @@ pub const E1: Oil = Oil {
     time: 3.2,
     sphere: NYLON,
 };
-/// The fast one.
+/// The fast experiment.
 const E4: Oil = Oil {
     name: "E4",
     density: 960.0,
@@ -60,18 +60,18 @@ const E4: Oil = Oil {
     sphere: NYLON,
 };
 
-/// The slow one with a twentieth of its weight: its Reynolds number is 0.07, and inertia takes less than 0.2 % of its
+/// The slow experiment with a twentieth of the weight: the Reynolds number is 0.07, and inertia takes less than 0.2 % of the
 /// velocity.
 const CREEPING: Oil = Oil {
     name: "E1 creeping",
-    // Half way up, where the ends are as far away as they can be.
+    // Half way up, as far from both ends as possible.
     height: 0.08,
     time: 2.4,
     sphere: E1.density + 0.05 * (NYLON - E1.density),
     ..E1
 };
 
-/// What a fall shows.
+/// Result of a fall.
 pub struct Fall {
     /// Time, s, and height of the gap below the sphere, m.
     gap: Vec<[f64; 2]>,
@@ -81,12 +81,13 @@ pub struct Fall {
     pub tau: f64,
     /// Largest y⁺ half a cell from the sphere at the end.
     pub y_plus: Option<f64>,
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
 }
 
 impl Oil {
-    /// With `cells` along the edge of the floor and the largest velocity `speed` in lattice units, until `time` (s).
+    /// Runs the fall until `time` (s), with `cells` along the edge of the floor and the largest velocity `speed` in lattice
+    /// units.
     ///
     /// # Errors
     /// If the flow leaves the range of the method, or the device is lost or silent.
@@ -101,7 +102,7 @@ impl Oil {
         let time_step = speed * cell / self.fastest;
         let (density, nu) = (self.density, self.viscosity / self.density);
         let (sphere, height) = (self.sphere, self.height);
-        // The water is weightless and gravity in the rock: it drives no flow, and its weight would compress it.
+        // Gravity acts on the rock only: it drives no flow, and the weight of the fluid would compress it.
         let text = format!(
             r#"
             domain = {{ size = [0.1, 0.1, 0.16], cell = {cell:e} }}
@@ -148,10 +149,10 @@ impl Oil {
     }
 }
 
-/// From then on the velocity of the slow one changes by less than 0.5 % until the floor is near, s.
+/// Time from which the velocity of [`E1`] changes by less than 0.5 % until the floor is near, s.
 pub const E1_FASTEST: f64 = 1.4;
 
-/// The velocity without inertia, on a floor of so many cells.
+/// Velocity without inertia, with `cells` along the edge of the floor.
 fn creeping(stand: &Stand, cells: u32) -> anyhow::Result<Record> {
     let fall = CREEPING.fall(stand, (cells, SPEED), CREEPING.time, Method::DEFAULT)?;
     let ratio = fall.fastest / creeping_velocity();
@@ -160,7 +161,7 @@ fn creeping(stand: &Stand, cells: u32) -> anyhow::Result<Record> {
     Ok(fall.trial.relative(quantity, ratio, 1.0, 2e-2))
 }
 
-/// The slow one, until it is fastest, with 6 cells across the sphere.
+/// The slow experiment until its largest velocity, with 6 cells across the sphere.
 pub fn short(stand: &Stand) -> Outcome {
     let fall = E1.fall(stand, (40, SPEED), E1_FASTEST, Method::DEFAULT)?;
     let ratio = fall.fastest / E1.fastest;
@@ -168,9 +169,9 @@ pub fn short(stand: &Stand) -> Outcome {
     Ok(vec![fall.trial.relative(quantity, ratio, 1.0, 2e-2)])
 }
 
-/// Velocity of the creeping one by Stokes' law, between walls: those of a square duct whose half width is l slow a sphere
-/// by 1.9033 r/l if it is small, those of a cylinder by 2.105 r/l (Happel & Brenner 1983, chapter 7). The further
-/// terms are those of the cylinder that slows it as much; they are 0.5 % of it.
+/// Velocity of [`CREEPING`] by Stokes' law between walls: a square duct of half width l slows a small sphere by 1.9033 r/l, a
+/// cylinder by 2.105 r/l (Happel & Brenner 1983, chapter 7). The further terms are those of the cylinder that slows it as much;
+/// they are 0.5 % of the velocity.
 fn creeping_velocity() -> f64 {
     let oil = CREEPING;
     let stokes = 2.0 / 9.0 * (oil.sphere - oil.density) * GRAVITY * RADIUS * RADIUS / oil.viscosity;
@@ -179,7 +180,7 @@ fn creeping_velocity() -> f64 {
     stokes * above / (1.0 - 0.75857 * ratio.powi(5))
 }
 
-/// Both, on three grids: 9, 12 and 18 cells across the sphere, and the slow one without inertia.
+/// Both experiments on three grids, with 9, 12 and 18 cells across the sphere, and the slow one without inertia.
 pub fn whole(stand: &Stand) -> Outcome {
     let grids = [60, 80, 120];
     let (mut records, mut curves) = (Vec::new(), Vec::new());
@@ -218,7 +219,7 @@ pub fn whole(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// A value between two points of a curve.
+/// Linear interpolation between the points of a curve.
 fn at(curve: &[[f64; 2]], x: f64) -> f64 {
     let after = curve.partition_point(|point| point[0] < x).max(1);
     let Some([[x0, y0], [x1, y1]]) = curve.get(after - 1..=after).and_then(|p| p.first_chunk())

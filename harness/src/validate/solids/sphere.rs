@@ -1,4 +1,4 @@
-//! A sphere in fluid at rest: let go, and turning.
+//! A sphere in fluid at rest: released, and rotating.
 
 use crate::validate::{
     Outcome, Stand,
@@ -7,20 +7,20 @@ use crate::validate::{
 use riprap::scene::{BlockShape, Motion};
 use std::f64::consts::{PI, TAU};
 
-/// Small enough for Stokes: ρ U D/μ is 0.05 at the end.
+/// Gravity, small enough for Stokes flow: ρ U D/μ is 0.05 at the end.
 const GRAVITY: f64 = 1e-6;
-/// Edge of the tank in radii: an echo returns after 6 radii there and 6 back, and walls add 1 % of added mass.
+/// Edge of the tank in radii: an echo returns after 3 radii to the wall and 3 back, and walls add 1 % of added mass.
 const EDGE: f64 = 8.0;
-/// Times at which the velocity is measured, radii at the speed of sound: the sound has left, no echo is back.
+/// Times at which the velocity is measured, radii at the speed of sound: the initial sound has left, no echo has returned.
 const BETWEEN: [f64; 2] = [3.0, 4.5];
 
-/// A sphere that is let go in a fluid at rest: its acceleration is (ρₛ−ρ)g/(ρₛ+ρ/2) once the sound of its start has
-/// left, less what viscosity has built up by then.
+/// A sphere released in fluid at rest: its acceleration is (ρₛ−ρ)g/(ρₛ+ρ/2) once the sound of its release has left, less the
+/// viscous forces that have built up by then.
 ///
-/// On the lattice both take time. Before sound has crossed the sphere only its own mass resists: the first step has
-/// (ρₛ−ρ)g/ρₛ, a third more at ρₛ = 1.5 ρ. After it viscosity adds the force of Basset, which grows with √(νt): for
-/// less than 1 % when sound has left a sphere of 16 cells, ν would have to be 2e-5, where cells are solid or not. So
-/// the reference is the solution with both, which is exact for a small sphere in a wide tank.
+/// On the lattice both take time. Before sound has crossed the sphere only its own mass resists: the acceleration of the first
+/// step is (ρₛ−ρ)g/ρₛ, a third more at ρₛ = 1.5 ρ. Afterwards viscosity adds the Basset force, which grows with √(νt): for less
+/// than 1 % when sound has left a sphere of 16 cells, ν would have to be 2e-5, where cells act as either solid or fluid. So the
+/// reference is the solution with both effects, which is exact for a small sphere in a wide tank.
 ///
 /// Spheres of ρₛ/ρ = 1.5 and 2.65.
 pub fn release(stand: &Stand) -> Outcome {
@@ -74,7 +74,7 @@ struct Release {
 }
 
 impl Release {
-    /// Acceleration with added mass and nothing else.
+    /// Acceleration with added mass only.
     fn inviscid(&self) -> f64 {
         (self.density - 1.0) * GRAVITY / (self.density + 0.5)
     }
@@ -108,10 +108,11 @@ impl Release {
     }
 }
 
-/// ω r²/ν: the torque of inertia grows with its square and is 1e-4 of the whole.
+/// ω r²/ν: the inertial part of the torque grows with its square and is 1e-4 of the whole.
 const REYNOLDS: f64 = 0.3;
 
-/// Torque on a sphere that turns in a viscous fluid: 8πμr³ω/(1 − c) in a dilute periodic array. Spheres of 8 cells in 24³, and with `--full` of 16 in 48³.
+/// Torque on a sphere that rotates in a viscous fluid: 8πμr³ω/(1 − c) in a dilute periodic array. Spheres of 8 cells in 24³, and
+/// with `--full` of 16 in 48³.
 pub fn rotation(stand: &Stand) -> Outcome {
     let mut runs = vec![(4.0, 24, 0.6, 3e-2), (4.0, 24, 1.0, 3e-2)];
     if stand.full {
@@ -127,7 +128,7 @@ pub fn rotation(stand: &Stand) -> Outcome {
         let mut sphere = block(shape, [0.5 * length + 0.2; 3], Motion::Driven);
         sphere.spin = numbers([0.0, 0.0, omega]);
         scene.blocks.push(sphere);
-        // The slowest wave of the box, of which the torque feels little, has died down to 0.2 %.
+        // The slowest mode of the box, which hardly affects the torque, has decayed to 0.2 %.
         let steps = (6.0 / (nu * (TAU / length).powi(2))) as u64;
         scene.coupling.interval = (steps / 8) as u32;
         let mut tank = Tank::fill(stand, &scene)?;

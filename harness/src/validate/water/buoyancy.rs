@@ -1,4 +1,4 @@
-//! Boxes in still water: Archimedes.
+//! Buoyancy of boxes in still water.
 
 use crate::validate::{
     Outcome, Stand, Trial,
@@ -9,14 +9,14 @@ use riprap::scene::Scheme;
 const SPACING: f64 = 0.05;
 const DEPTH: f64 = 1.0;
 const LENGTH: f64 = 2.4;
-/// Times over which the last of the motion is averaged out, s.
+/// Readings, 0.05 s apart, that average out the residual motion.
 const LOOKS: u32 = 40;
 /// Edge of the box, m.
 const EDGE: f64 = 8.0 * SPACING;
 /// Middle of the tank, m.
 pub const MIDDLE: f64 = 0.5 * DEPTH;
 
-/// The push (ρVg) on a box that is held under water at the height `z` (m), turned by `angle` (degrees), and across.
+/// Buoyancy and horizontal force, over ρVg, on a box held under water at the height `z` (m) and rotated by `angle` (degrees).
 pub fn held(
     stand: &Stand,
     (z, angle): (f64, f64),
@@ -54,8 +54,8 @@ pub fn held(
     ))
 }
 
-/// Archimedes' law for a box under water, along the lattice and across it, and on the floor, where it holds for the
-/// pressure that closed joints carry.
+/// Archimedes' law for a box under water, along the lattice and oblique to it, and on the floor, where it holds for the pressure
+/// that closed joints transmit.
 pub fn submerged(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for angle in [0.0, 30.0] {
@@ -72,9 +72,9 @@ pub fn submerged(stand: &Stand) -> Outcome {
 /// Gaps between two boxes, spacings.
 const GAPS: [f64; 4] = [0.0, 0.75, 1.4, 2.0];
 
-/// Archimedes' law for a box over another one with flush sides, at gaps that water fills and pushes in with a part of its
-/// pressure only: the error is told of what the whole pressure on the base is, which with no joint would be missing at
-/// the first gap, and pressed twice at the third with a joint that knew nothing of the water in it.
+/// Archimedes' law for a box above another one with flush sides, at gaps in which the water exerts only a part of its pressure.
+/// The error is relative to the full pressure on the base: without a joint model all of it would be missing at the first gap;
+/// with a joint model that ignored the water in the gap it would count twice at the third.
 pub fn stacked(stand: &Stand) -> Outcome {
     let (under, mut records) = (6.0 * SPACING, Vec::new());
     for gap in GAPS {
@@ -116,8 +116,8 @@ pub fn stacked(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Drafts of boxes that float, a spacing too high at the start, over what Archimedes' law has; the smaller one, of
-/// four spacings, only tells how the error grows.
+/// Drafts of floating boxes, released a spacing too high, over the draft by Archimedes' law; the smaller box, of four spacings,
+/// only shows how the error grows.
 pub fn floating(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for layers in [12, 8] {
@@ -130,7 +130,7 @@ pub fn floating(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// Draft, of the exact one, and tilt (rad) of a box of the height `height` (m), half as heavy as water.
+/// Draft over the exact one, and tilt (rad), of a box of the height `height` (m), half as heavy as water.
 fn float(stand: &Stand, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
     let (width, density) = (16.0 * SPACING, 500.0);
     let exact = density / 1000.0 * height;
@@ -165,10 +165,9 @@ fn float(stand: &Stand, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
     Ok((pool.trial("floating box"), draft / exact, tilt))
 }
 
-/// The level of the water between the box and the walls: half a spacing above its highest particles, whose
-/// mean over columns a spacing wide is taken.
+/// Water level between the box and the walls: half a spacing above the highest particles, averaged over columns a spacing wide.
 fn level(positions: &[glam::DVec3], width: f64) -> f64 {
-    // Beside solids the surface is bent by the layers in them.
+    // Next to solids the boundary layers in them bend the surface.
     let margin = 4.0 * SPACING;
     let side = 0.5 * (LENGTH - width);
     let columns = ((side - 2.0 * margin) / SPACING).round() as usize;
@@ -182,7 +181,7 @@ fn level(positions: &[glam::DVec3], width: f64) -> f64 {
             }
         }
     }
-    // A column that is empty for a moment says nothing.
+    // Columns that are momentarily empty are skipped.
     let tops: Vec<f64> = tops.into_iter().filter(|top| top.is_finite()).collect();
     tops.iter().sum::<f64>() / tops.len() as f64 + 0.5 * SPACING
 }

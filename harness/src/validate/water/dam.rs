@@ -1,4 +1,4 @@
-//! A dam that breaks (Martin & Moyce 1952): how fast the front runs over the dry floor.
+//! Dam break (Martin & Moyce 1952): speed of the front over the dry floor.
 
 use crate::validate::{
     Outcome, Stand, Trial,
@@ -12,7 +12,7 @@ const WIDTH: f64 = 0.05715;
 pub const SPEED: f64 = 1.37;
 const STRETCH: [f64; 2] = [1.8, 3.6];
 
-/// Speed dZ/dT of the front with Z = x/a and T = t √(2g/a), and the share of particles that are still there.
+/// Speed dZ/dT of the front with Z = x/a and T = t √(2g/a), and the share of particles kept.
 pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Trial, [f64; 2])> {
     let spacing = WIDTH / f64::from(columns);
     let size = [5.0 * WIDTH, 3.0 * WIDTH];
@@ -24,7 +24,7 @@ pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Tri
     while front[front.len() - 1] < 3.9 && time[time.len() - 1] < 6.0 {
         pool.advance_to(pool.simulation.time() + 0.02 * unit)?;
         let water = pool.water()?;
-        // On the floor: spray ahead of it is not the front.
+        // Particles on the floor only: spray ahead of them is not the front.
         let floor = water.positions.iter().filter(|x| x.z < 2.0 * spacing);
         let farthest = floor.fold(0.0, |most: f64, x| most.max(x.x)) + 0.5 * spacing;
         front.push(farthest / WIDTH);
@@ -51,7 +51,7 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// When the front passes `z`.
+/// Time at which the front passes `z`.
 fn passes(front: &[f64], time: &[f64], z: f64) -> f64 {
     let Some(n) = front
         .iter()

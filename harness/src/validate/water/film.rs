@@ -7,12 +7,12 @@ use std::path::Path;
 
 /// Depth, m.
 const DEPTH: f64 = 1.0;
-/// Along the incline and across it, m/s².
+/// Gravity along the incline and normal to it, m/s².
 const DOWN: f64 = 0.12;
 const ACROSS: f64 = 1.0;
-/// m²/s.
+/// Kinematic viscosity, m²/s.
 const VISCOSITY: f64 = 0.2;
-/// Times in which the slowest part of the start fades to 1/e, 4H²/π²ν, until the flow is called steady.
+/// Duration of the run until the flow is steady, in times 4H²/π²ν in which the slowest initial mode falls to 1/e.
 const FADINGS: f64 = 7.0;
 
 fn exact(z: f64) -> f64 {
@@ -38,7 +38,7 @@ pub fn run(stand: &Stand) -> Outcome {
             size = [{0}, 1, {DEPTH}]
             position = [{}, 0.5, {}]
             "#,
-            // As short as the neighbours of a particle allow.
+            // As short as the neighbourhood of a particle allows.
             20.0 * spacing,
             10.0 * spacing,
             0.5 * DEPTH,

@@ -1,4 +1,4 @@
-//! Waves that a piston and a falling box make.
+//! Waves made by a piston and by a falling box.
 
 use crate::validate::{
     Outcome, Stand,
@@ -9,10 +9,10 @@ use std::f64::consts::PI;
 const DEPTH: f64 = 1.0;
 const STROKE: f64 = 0.1;
 const PERIOD: f64 = 2.0;
-/// From the mean place of the piston to the gauge, depths.
+/// Distance from the mean position of the piston to the gauge, depths.
 const GAUGE: f64 = 3.0;
-/// Periods after which the wave at the gauge is whole, and those over which it is measured; the wave that the far
-/// wall sends back has not come by then.
+/// Periods after which the wave at the gauge is fully developed, and those over which it is measured, before the reflection from
+/// the far wall arrives.
 const BEFORE: f64 = 3.0;
 const MEASURED: f64 = 2.0;
 
@@ -27,15 +27,14 @@ fn wave_number(period: f64, depth: f64) -> f64 {
     x / depth
 }
 
-/// A piston that makes waves: H/S = 2 (cosh 2kh − 1)/(sinh 2kh + 2kh) (Dean & Dalrymple 1991). Height of the waves over
-/// the stroke.
+/// Height of the waves made by a piston, over its stroke: H/S = 2 (cosh 2kh − 1)/(sinh 2kh + 2kh) (Dean & Dalrymple 1991).
 pub fn piston(stand: &Stand) -> Outcome {
     let layers = 20;
     let spacing = DEPTH / f64::from(layers);
     // The fastest waves run at √(gH): from the piston to the far wall and back to the gauge.
     let way = (BEFORE + MEASURED) * PERIOD * (GRAVITY * DEPTH).sqrt();
     let length = (0.5 * (way + GAUGE * DEPTH) / spacing).ceil() * spacing;
-    // The piston starts at one end of its stroke, with its face half a spacing before water at the lattice.
+    // The piston starts at one end of its stroke, with its face half a spacing in front of the particle lattice of the water.
     let thick = 10.0 * spacing;
     let speed = STROKE * PI / PERIOD;
     let more = format!(
@@ -56,7 +55,7 @@ pub fn piston(stand: &Stand) -> Outcome {
     let size = [length + thick, 1.6 * DEPTH];
     let mut scene = tank::pool(size, spacing, [length + thick, DEPTH], &more)?;
     if let Some(particles) = &mut scene.particles {
-        // Waves of a tenth of the depth move far slower than a fall through it.
+        // Waves of a tenth of the depth are far slower than a fall through the depth.
         particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
     }
     let mut pool = Tank::fill(stand, &scene)?;
@@ -85,7 +84,7 @@ pub fn piston(stand: &Stand) -> Outcome {
 
 /// The level of the water at x: the area of the particles in a column four spacings wide, over its width.
 fn level(positions: &[glam::DVec3], x: f64, spacing: f64) -> f64 {
-    // Each particle is a square of water: its share of the column is exact, so that the level is not one of layers.
+    // Each particle is a square of water: its share of the column is exact, so that layers do not quantize the level.
     let half = 2.0 * spacing;
     let share = |place: f64| {
         let (low, high) = (place - 0.5 * spacing, place + 0.5 * spacing);
@@ -97,19 +96,19 @@ fn level(positions: &[glam::DVec3], x: f64, spacing: f64) -> f64 {
 
 /// Depth D of the channel, m.
 const CHANNEL_DEPTH: f64 = 0.21;
-/// Width and height of the box, and how deep it is in the water at the start, m.
+/// Width and height of the box, and its initial depth in the water, m.
 const BOX: [f64; 2] = [0.3, 0.4];
 const DIPPED: f64 = 0.005;
 const LENGTH: f64 = 5.7;
-/// Where the crest is looked for, m: 10 and 19 depths from the box.
+/// Positions of the gauges, m: 10 and 19 depths from the box.
 const GAUGES: [f64; 2] = [2.4, 4.2];
-/// Of 38.2 kg that are 0.39 m wide, kg/m³: it sinks to the floor.
+/// Density of a box of 38.2 kg that is 0.39 m wide, kg/m³: it sinks to the floor.
 const DENSITY: f64 = 816.0;
 const END: f64 = 2.9;
 
-/// A box that falls at the end of a channel (Scott Russell 1844, Monaghan & Kos 2000): the wave that leaves it is
-/// solitary, and runs at c² = g (D + H) (Rayleigh 1876; waves half as high as the water is deep are 0.5 % slower). Speed
-/// and height of the wave between two gauges.
+/// A box that falls at the end of a channel (Scott Russell 1844, Monaghan & Kos 2000): the wave that leaves it is solitary and
+/// travels at c² = g (D + H) (Rayleigh 1876; waves half as high as the water is deep are 0.5 % slower). Checks speed and height
+/// of the wave between two gauges.
 pub fn solitary(stand: &Stand) -> Outcome {
     let spacing = 0.015;
     let [width, height] = BOX;

@@ -1,7 +1,7 @@
-//! A tank of water that is pushed along at once: what presses on its end walls, by sensors. In the first moment that is the
-//! load of an earthquake on a dam (Westergaard 1933), later the tank sloshes; waves of small amplitude tell all of it:
-//! p = ρ a (L/2 − Σ 4 L/(n π)² cosh k z / cosh k H cos ω t), n odd, k = n π/L, ω² = g k tanh k H, more on one wall and less on
-//! the other.
+//! A tank of water that is suddenly accelerated: pressure on its end walls, from sensors. At first it is the load of an
+//! earthquake on a dam (Westergaard 1933), later the tank sloshes; the theory of waves of small amplitude covers both:
+//! p = ρ a (L/2 − Σ 4 L/(n π)² cosh k z / cosh k H cos ω t), n odd, k = n π/L, ω² = g k tanh k H, added on one wall and
+//! subtracted on the other.
 
 use crate::validate::{
     Outcome, Record, Stand,
@@ -11,23 +11,23 @@ use riprap::scene::Scene;
 use std::f64::consts::PI;
 
 const DEPTH: f64 = 1.0;
-/// Lengths of the tanks, m: the longer one is as good as endless at first.
+/// Lengths of the tanks, m: the longer one is practically infinite at first.
 const LENGTHS: [f64; 2] = [2.0, 5.0];
-/// Acceleration of the tank, of gravity.
+/// Acceleration of the tank over gravity.
 const PUSH: f64 = 0.05;
-/// Heights between which sensors lie: at the foot of the walls, and over most of them.
+/// Height ranges of the sensors: at the foot of the walls, and over most of them.
 const PATCHES: [(&str, [f64; 2]); 2] = [("foot", [0.0, 0.2]), ("wall", [0.0, 0.8])];
-/// A tenth of the speed of sound, of that of long waves: its echoes, which the theory does not have, are over soon.
+/// A tenth of the speed of sound, over that of long waves: sound echoes, which the theory lacks, are over soon.
 const SOUND: f64 = 4.0;
-/// Error that may be, in spacings of the depth; chosen when the results were known.
+/// Limit on the relative error, in spacings over the depth; chosen when the results were known.
 const MOST: f64 = 2.0;
-/// The end walls, and where their water is.
+/// The end walls, and their normals into the water.
 const SIDES: [[&str; 2]; 2] = [["left", "+x"], ["right", "-x"]];
-/// Ends of the times over which pressures are averaged, passages of a long wave through the depth. Sound goes through the
-/// depth three times in the first one.
+/// Ends of the times over which pressures are averaged, in passages of a long wave through the depth. Sound crosses the depth
+/// forty times in the first one.
 const ENDS: [f64; 2] = [1.0, 4.0];
 
-/// The mean of the pressure over heights and over the time up to `end`, of ρ a H.
+/// Mean pressure over a range of heights and over the time up to `end`, over ρ a H.
 fn exact(length: f64, [low, high]: [f64; 2], end: f64) -> f64 {
     let mode = |n: u32| {
         let k = PI * f64::from(n) / length;
@@ -44,7 +44,7 @@ fn exact(length: f64, [low, high]: [f64; 2], end: f64) -> f64 {
     (0.5 * length - modes) / DEPTH
 }
 
-/// Mean pressures on the end walls, half of what one has more than the other.
+/// Mean pressures on the end walls: half the difference between the two.
 pub fn run(stand: &Stand) -> Outcome {
     let layers: &[u32] = if stand.full { &[25, 50] } else { &[25] };
     let mut records = Vec::new();
@@ -58,7 +58,7 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// A tank of `size` (m) with sensors on both of its ends, and water as far as `reach`, in which sound is fast.
+/// A tank of `size` (m) with sensors on both ends, water up to x = `reach`, and a high speed of sound.
 fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
     let sensors: String = PATCHES
         .iter()
@@ -79,7 +79,7 @@ fn tank(size: [f64; 2], spacing: f64, reach: f64) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
-/// Impulse since the start on one of them, Pa s.
+/// Impulse since the start on one of the sensors, Pa s.
 fn impulse(pool: &Tank<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
     let sensor = pool.simulation.sensor(&format!("{name}_{side}"));
     sensor.map_or(f64::NAN, |sensor| sensor.impulse)
@@ -108,17 +108,17 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
     Ok(records)
 }
 
-/// A block of water, four times as long as high, strikes a wall with all of its front: what that gives it at once, of the
-/// impulse of incompressible water that a wall can hold (Cooker & Peregrine 1995, J. Fluid Mech. 297:193), which is that
-/// of a sudden push. Here walls only push, and the water bounces off: not the theory's, and without a limit.
+/// A block of water, four times as long as high, strikes a wall with its whole front. Reports the immediate impulse over that of
+/// incompressible water that the wall can hold back (Cooker & Peregrine 1995, J. Fluid Mech. 297:193), which equals that of a
+/// sudden push. Here walls only push, and the water bounces off: unlike the theory, and without a limit.
 fn strike(stand: &Stand) -> anyhow::Result<Vec<Record>> {
     let (size, speed) = ([6.0 * DEPTH, 4.0 * DEPTH], 1.0);
     let mut scene = tank(size, DEPTH / 25.0, 4.0 * DEPTH)?;
-    // Hardly any weight: the start wants some.
+    // Hardly any gravity: the start needs some.
     scene.fluid.acceleration[2] = (-1e-3).into();
     scene.water[0].velocity = [-speed, 0.0, 0.0];
     let mut pool = Tank::fill(stand, &scene)?;
-    // Sound goes through the depth six times; jets have hardly begun.
+    // Sound crosses the depth six times; jets have hardly begun.
     pool.advance_to(0.05 * DEPTH / speed)?;
     let trial = pool.trial("struck");
     let record = |(name, heights)| {

@@ -1,10 +1,10 @@
-//! The scheme of Geraili Mikola & Sitar (2014) beside the default: the same tanks, errors and run times.
+//! The scheme of Geraili Mikola & Sitar (2014) compared with the default: the same tanks, errors and run times.
 
 use super::{buoyancy, dam, still};
 use crate::validate::{Outcome, Stand};
 use riprap::scene::Scheme;
 
-/// Still tank, box under water and dam break with both. Nothing is judged: the default is by its own cases.
+/// Still tank, box under water and dam break with both schemes. Nothing is judged here: the default has its own cases.
 pub fn run(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (name, scheme) in [("delta", Scheme::Delta), ("mueller", Scheme::Mueller)] {

@@ -8,24 +8,24 @@ use riprap::scene::Scheme;
 
 /// Depth and length of the tank, m.
 const DEPTH: f64 = 1.0;
-/// Passages of a long wave through the depth: what the start had wrong is damped away.
+/// Passages of a long wave through the depth: by then initial errors are damped out.
 const PASSAGES: f64 = 20.0;
-/// Of them those over which what is left is averaged.
+/// The last of them, over which the residual motion is averaged.
 const LOOKS: u32 = 10;
 
-/// What a still tank is like after a while.
+/// State of a still tank after a while.
 pub struct Still {
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
     /// Mean pressure at the bottom, Pa.
     pub bottom: f64,
-    /// Error of the pressure, of its norm.
+    /// L2 error of the pressure over its norm.
     pub miss: f64,
-    /// Speed that is left, of that of long waves.
+    /// Residual speed over that of long waves.
     pub speed: f64,
 }
 
-/// A tank as deep as `layers` spacings.
+/// Runs a tank `layers` spacings deep.
 pub fn measure(stand: &Stand, layers: u32, scheme: Scheme) -> anyhow::Result<Still> {
     let spacing = DEPTH / f64::from(layers);
     let mut scene = tank::pool([DEPTH, 1.5 * DEPTH], spacing, [DEPTH; 2], "")?;
@@ -65,7 +65,7 @@ pub fn measure(stand: &Stand, layers: u32, scheme: Scheme) -> anyhow::Result<Sti
     })
 }
 
-/// Pressure at rest.
+/// Pressure at the bottom at rest, Pa.
 pub const BOTTOM: f64 = 1000.0 * GRAVITY * DEPTH;
 
 /// Hydrostatic pressure, and how still the water is.

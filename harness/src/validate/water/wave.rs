@@ -19,13 +19,13 @@ use std::{f64::consts::PI, time::Instant};
 const DEPTH: f64 = 1.0;
 /// Lengths of the tank, which is half a wave long, m.
 pub const LENGTHS: [f64; 2] = [2.0, 1.0];
-/// Amplitude of the surface, of the depth.
+/// Amplitude of the surface over the depth.
 const STEEPNESS: f64 = 0.02;
-/// Looks a period.
+/// Readings per period.
 const LOOKS: f64 = 40.0;
 const PERIODS: f64 = 4.0;
 
-/// The flow under the wave at the moment when the surface is flat, of the amplitude 1 m, m/s.
+/// Velocity under the wave at the moment when the surface is flat, for an amplitude of 1 m, m/s.
 fn flow(x: DVec3, k: f64, omega: f64) -> DVec3 {
     let scale = omega / (k * DEPTH).sinh();
     let [across, along] = [(k * x.z).sinh(), (k * x.z).cosh()];
@@ -53,17 +53,17 @@ pub fn run(stand: &Stand) -> Outcome {
     Ok(records)
 }
 
-/// What a standing wave shows.
+/// Result for a standing wave.
 pub struct Wave {
-    /// What was run.
+    /// Setup and cost of the run.
     pub trial: Trial,
-    /// Period, of the exact one.
+    /// Period over the exact one.
     pub period: f64,
     /// Part of the amplitude that is lost in a period.
     pub loss: f64,
 }
 
-/// A tank `layers` spacings deep and `length` (m) long.
+/// Runs a tank `layers` spacings deep and `length` (m) long.
 ///
 /// # Errors
 /// If the water leaves the range of the method or has no wave, or the device is lost or silent.
@@ -103,7 +103,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
         .collect();
     let begin = Instant::now();
     let mut stepping = Spent::default();
-    // How much of the wave's flow is in the velocities, over time.
+    // Share of the wave's flow in the velocities, over time.
     let mut shares = vec![1.0];
     let (mut steps, mut timed) = (0, 0);
     for look in 0..(PERIODS * LOOKS) as usize {
@@ -111,7 +111,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
         let done = water.advance(device, queue, &poses, period / LOOKS);
         stand.drive("a wave", done)??;
         let now = stand.drive("reading particles", water.water(device, queue))??;
-        // Drivers compile at the first look.
+        // Drivers compile during the first part.
         if look > 0 {
             stepping += watch.spent();
             timed += water.steps() - steps;
@@ -156,7 +156,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     })
 }
 
-/// Where a row of numbers passes zero, between them.
+/// Zero crossings of a sequence, interpolated between its values.
 fn crossings(values: &[f64]) -> Vec<f64> {
     let pairs = values.windows(2).enumerate();
     pairs

@@ -25,7 +25,7 @@ pub enum BlockShape {
         /// The points, m, at least four.
         vertices: Vec<[f64; 3]>,
     },
-    /// What all half-spaces have in common.
+    /// The intersection of half-spaces.
     HalfSpaces {
         /// The faces, at least four.
         faces: Vec<PlaneFace>,
@@ -62,11 +62,11 @@ pub enum BlockShape {
         /// Length of the file's unit, m. Default 1.
         #[serde(default = "metre")]
         scale: f64,
-        /// Whether the convex hull of the mesh stands for it. Default false.
+        /// Whether the convex hull replaces the mesh. Default false.
         #[serde(default)]
         hull: bool,
     },
-    /// Parts that move as one. They may touch but not overlap.
+    /// Parts that move as one body. They may touch but not overlap.
     Compound {
         /// The parts.
         parts: Vec<Part>,

@@ -1,4 +1,4 @@
-//! Blocks that stand alone or in rows.
+//! Single blocks and rows of blocks.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ use super::{BlockShape, Scene, block_shape};
 use crate::error::Result;
 use crate::formula::Formula;
 
-/// A block, or a row of equal ones.
+/// A block, or rows of equal blocks.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
@@ -26,20 +26,20 @@ pub struct Block {
     #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: BlockShape,
-    /// Where the origin of the block's own frame is, m. Default (0, 0, 0).
+    /// Position of the origin of the block's own frame, m. Default (0, 0, 0).
     #[serde(default)]
     pub position: [f64; 3],
-    /// How the block is turned about the origin of its own frame. Default not at all.
+    /// Rotation of the block about the origin of its own frame. Default none.
     #[serde(default)]
     pub rotation: Rotation,
-    /// What may move it. Default `free`.
+    /// How the block moves. Default `free`.
     #[serde(default)]
     pub motion: Motion,
-    /// Velocity of the centroid, m/s: of a free block at the time 0, three numbers; of a driven one
+    /// Velocity of the centroid, m/s: for a free block at the time 0, three numbers; for a driven block
     /// three numbers or formulas of t. Default at rest.
     #[serde(default)]
     pub velocity: [Formula; 3],
-    /// Spin about the axes of the world, rad/s: as the velocity. Default none.
+    /// Angular velocity about the axes of the world, rad/s, given like the velocity. Default none.
     #[serde(default)]
     pub spin: [Formula; 3],
     /// Name of its material. Default the first one.
@@ -50,11 +50,11 @@ pub struct Block {
     /// their elasticity limits the step. Default false: it is rigid.
     #[serde(default)]
     pub deformable: bool,
-    /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
-    /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
+    /// Stress of deformable blocks at zero strain, such as the in-situ stress of
+    /// the rock: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
     #[serde(default)]
     pub initial_stress: [f64; 6],
-    /// Points of a deformable block that stay where they are. Default none.
+    /// Points of a deformable block that are held in place. Default none.
     #[serde(default)]
     pub fixed_points: Vec<FixedPoint>,
     /// Forces on points of a free block, deformable or rigid; it never sleeps. Default none.
@@ -64,12 +64,12 @@ pub struct Block {
     /// Default none.
     #[serde(default)]
     pub acceleration: Option<[Formula; 3]>,
-    /// Axis of a rail without friction on which a free rigid block slides, of any length: along it forces move the block, across
-    /// it nothing does, and it does not turn. Copies have the same. Default none.
+    /// Axis of a frictionless rail on which a free rigid block slides, of any length. Forces move the block along the axis only,
+    /// and it does not rotate. Copies have the same axis. Default none.
     #[serde(default)]
     pub guide: Option<[f64; 3]>,
-    /// Rows of copies, each of all that those before it made: one for a stack, two for a wall, with
-    /// turns for an arch. One table or a list of them. Default only the block itself.
+    /// Rows of copies; each row copies all blocks that the rows before it made: one row for a stack, two for a wall, with
+    /// rotations for an arch. One table or a list of tables. Default only the block itself.
     #[serde(default, deserialize_with = "rows")]
     #[schemars(schema_with = "rows_schema")]
     pub repeat: Vec<Repeat>,
@@ -83,19 +83,19 @@ pub struct Part {
     #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: BlockShape,
-    /// Where the origin of the part's own frame is in the block's, m. Default (0, 0, 0).
+    /// Position of the origin of the part's own frame in the frame of the block, m. Default (0, 0, 0).
     #[serde(default)]
     pub position: [f64; 3],
-    /// How the part is turned about that origin. Default not at all.
+    /// Rotation of the part about that origin. Default none.
     #[serde(default)]
     pub rotation: Rotation,
 }
 
-/// A turn.
+/// A rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
-    /// Axis, of any length; the turn is counter-clockwise when it points at the viewer.
+    /// Axis, of any length; the rotation is counter-clockwise if the axis points at the viewer.
     pub axis: [f64; 3],
     /// Angle, degrees.
     pub angle: f64,
@@ -111,23 +111,23 @@ impl Default for Rotation {
 }
 
 impl Rotation {
-    /// The numbers of the turn at `key`.
+    /// Checks the numbers of the rotation at `key`.
     pub(super) fn check(&self, key: &str) -> Result<()> {
         direction(format!("{key}.axis"), &self.axis)?;
         finite(format!("{key}.angle"), &[self.angle])
     }
 }
 
-/// What may move a block.
+/// How a block moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Motion {
-    /// Forces do.
+    /// Forces move it.
     #[default]
     Free,
-    /// Nothing does.
+    /// It does not move.
     Fixed,
-    /// It moves as `velocity` and `spin` say, whatever stands in its way.
+    /// It moves with the given `velocity` and `spin`, whatever the forces on it.
     Driven,
 }
 
@@ -137,18 +137,18 @@ pub enum Motion {
 pub struct Repeat {
     /// Number of blocks in the row, the first one included, at least 1.
     pub count: u32,
-    /// From a block to the next one, m. Default (0, 0, 0).
+    /// Displacement from one block to the next, m. Default (0, 0, 0).
     #[serde(default)]
     pub step: [f64; 3],
-    /// How each block is turned against the one before, before the step. Default not at all.
+    /// Rotation of each block relative to the previous one, applied before the displacement. Default none.
     #[serde(default)]
     pub turn: Rotation,
-    /// A point of the axis of that turn, m. Default (0, 0, 0).
+    /// A point on the axis of that rotation, m. Default (0, 0, 0).
     #[serde(default)]
     pub about: [f64; 3],
 }
 
-/// A list of rows, or its only one. Read by hand, since serde's untagged enums lose the place of an error.
+/// A list of rows, or a single row. Read by hand, because serde's untagged enums lose the location of an error.
 fn rows<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Repeat>, D::Error> {
     struct Rows;
     impl<'de> Visitor<'de> for Rows {
@@ -176,7 +176,7 @@ fn rows_schema(generator: &mut SchemaGenerator) -> Schema {
     })
 }
 
-/// A part has the keys that say where it is, and no parts.
+/// A part has only the keys of its placement, and no parts of its own.
 pub(super) fn check_part(part: &DeTable<'_>, kind: &str) -> Result<(), String> {
     const OF_BLOCKS: [&str; 12] = [
         "name",
@@ -203,7 +203,7 @@ pub(super) fn check_part(part: &DeTable<'_>, kind: &str) -> Result<(), String> {
     }
 }
 
-/// Most blocks of a table: far beyond what runs in a day, so a slip of the pen.
+/// Largest number of blocks of a table: far more than runs in a day, so a typing error.
 const MOST: f64 = 1e7;
 
 impl Scene {

@@ -1,4 +1,4 @@
-//! What happens on the faces of the domain.
+//! Boundary conditions on the faces of the domain.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de::Error as _};
@@ -52,7 +52,7 @@ impl Boundaries {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[schemars(tag = "kind")]
 pub enum Boundary {
-    /// What leaves here enters at the opposite face, which must be periodic too.
+    /// Periodic; the opposite face must be periodic too.
     #[default]
     Periodic,
     /// No slip; particles without viscosity slide along it.
@@ -66,39 +66,39 @@ pub enum Boundary {
     },
     /// No flow through the face and no friction on it.
     FreeSlip,
-    /// The velocity is given.
+    /// Inlet or outlet with a given velocity.
     Velocity {
         /// Velocity, m/s: three numbers or formulas of x, y, z, t.
         velocity: [Formula; 3],
-        /// Turbulence that is added to it. Default none.
+        /// Synthetic turbulence added to the velocity. Default none.
         #[serde(default)]
         turbulence: Option<Turbulence>,
     },
-    /// The pressure is given.
+    /// Outlet or inlet with a given pressure.
     Pressure {
         /// Pressure above the reference pressure, Pa: a number, or a formula of t, such as that of a level. Default 0. A constant
-        /// `fluid.acceleration` along the face adds the hydrostatic pressure to it; the middle of the face has the pressure given.
+        /// `fluid.acceleration` along the face adds the hydrostatic pressure; the middle of the face has the given pressure.
         #[serde(default)]
         pressure: Formula,
-        /// Whether the pressure is held firmly. Default false: it is held on average, and waves
+        /// Whether the pressure is held exactly, so that waves are reflected. Default false: it is held on average, and waves
         /// and vortices leave.
         #[serde(default)]
         reflecting: bool,
     },
-    /// Particles that get here are lost, and counted. A lattice has no such face.
+    /// Particles that reach this face are removed and counted. Not for a lattice.
     Open,
 }
 
-/// Isotropic turbulence that flows in through a face: von Kármán's spectrum, carried in by the mean normal velocity of the face, without a
-/// net flow through it. For a fluid on a lattice.
+/// Isotropic turbulence at an inlet: von Kármán's spectrum, advected by the mean normal velocity of the face, without a
+/// net flow. For a fluid on a lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turbulence {
-    /// RMS of each component of its velocity over the mean normal velocity of the face, up to 1.
+    /// RMS of each velocity component over the mean normal velocity of the face, up to 1.
     pub intensity: f64,
     /// Integral length of its eddies, m, at least a cell.
     pub length: f64,
-    /// Another seed gives other eddies of the same kind; each face has eddies of its own. Default 0.
+    /// Seed of the eddies; each face has eddies of its own. Default 0.
     #[serde(default)]
     pub seed: u64,
 }
@@ -249,7 +249,7 @@ impl Scene {
         Ok(())
     }
 
-    /// A scene whose only openings are velocity faces must let out what it lets in.
+    /// If all openings of a scene are velocity faces, inflow and outflow must be equal.
     pub(super) fn check_balance(&self) -> Result<()> {
         let is_pressure = |boundary: &Boundary| matches!(boundary, Boundary::Pressure { .. });
         let given: Vec<Face> = self

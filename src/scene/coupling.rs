@@ -1,4 +1,4 @@
-//! How fluid and blocks meet.
+//! Coupling of fluid and blocks.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -12,26 +12,24 @@ use crate::error::Result;
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
 pub struct Coupling {
-    /// Time steps of the fluid, of particles acoustic ones, from one exchange to the next, at least 1: meanwhile the blocks stand still for
-    /// the fluid, and then they move under the mean of the loads since the last one. Default 1.
+    /// Time steps of the fluid (acoustic steps for particles) from one exchange to the next, at least 1. In between the blocks are at rest for
+    /// the fluid; then they move under the mean of the loads since the last exchange. Default 1.
     pub interval: u32,
-    /// Whether blocks feel the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
-    /// Cells that a block fills reflect what is in them from step to step, so that single loads swing with
-    /// a period of two steps, which the mean takes out. Without it free blocks need another solid operator
-    /// than `holdych`. Default true.
+    /// Whether blocks move under the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
+    /// Cells inside a block reflect their populations in every step, so that single loads oscillate with
+    /// a period of two steps, which the mean removes. Without it free blocks need a solid operator
+    /// other than `holdych`. Default true.
     pub average: bool,
-    /// Time for which all blocks are held where they start, s, while the flow settles around them and their
-    /// loads are recorded; driven ones too. Default 0.
+    /// Time for which all blocks, driven ones too, are held in their initial positions, s, while the flow develops and
+    /// their loads are recorded. Default 0.
     pub hold: f64,
-    /// Whether rigid blocks less than a cell from each other, from solids and from walls feel what the grid does not
-    /// resolve of the fluid between them: the resistance of a film that is squeezed out, by lubrication theory with
-    /// the viscosity of the fluid, down to gaps of a tenth of a cell; and what loads that come late lack between faces. Only on the
-    /// lattice: particles have none.
-    /// Default true.
+    /// Whether forces of unresolved fluid act on rigid blocks less than a cell from each other, from solids and from walls:
+    /// the resistance of a film that is squeezed out, by lubrication theory with the viscosity of the fluid, down to gaps of a
+    /// tenth of a cell, and a correction of the delay of loads between faces. Only on the lattice. Default true.
     pub lubrication: bool,
-    /// Hydraulic aperture of the closed joints of rigid blocks, m: they let through as much water as a slot so wide does (cubic law, with the
-    /// viscosity of the fluid). It depends on cell and viscosity what is possible: `riprap check` says what joints have without this key, and the
-    /// error of one that is too narrow or too wide names the range. A wider joint is an opening between the blocks. Only on the lattice, and
+    /// Hydraulic aperture of the closed joints of rigid blocks, m: the width of a slot with the same conductivity (cubic law, with the
+    /// viscosity of the fluid). The possible range depends on cell and viscosity: `riprap check` reports the default, and the error of a value
+    /// out of range gives the range. A wider joint must be a gap between the blocks. Only on the lattice, and
     /// with `numerics.solid_operator = "holdych"`.
     /// Default: as wide as possible.
     pub joint_aperture: Option<f64>,

@@ -1,4 +1,4 @@
-//! Blocks that deform, and forces on single blocks.
+//! Deformable blocks, and forces on single blocks.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -8,7 +8,7 @@ use super::{Axis, Block, BlockShape, Motion, Scene};
 use crate::error::Result;
 use crate::formula::Formula;
 
-/// A point of a deformable block that stays where it is at the start.
+/// A point of a deformable block that is held in its initial position.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FixedPoint {
@@ -36,7 +36,7 @@ pub struct PointLoad {
 }
 
 impl Scene {
-    /// The keys of the block at `key` that say how it deforms and what acts on it.
+    /// Checks the keys of the block at `key` for deformation and point loads.
     pub(super) fn check_deformable(&self, key: &str, block: &Block) -> Result<()> {
         if block.deformable {
             self.check_elastic(key, block.material.as_deref())?;

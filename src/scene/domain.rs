@@ -1,4 +1,4 @@
-//! The box that is computed, and its cells.
+//! The computed domain and its cells.
 
 use glam::DVec3;
 use schemars::JsonSchema;
@@ -8,11 +8,11 @@ use super::rules::{finite, positive, refuse};
 use super::{Axis, Face, Scene};
 use crate::{error::Result, geometry::HalfSpace};
 
-/// Part of the largest coordinate of a domain by which points may lie outside: some thousand times the rounding of f64.
+/// Tolerance of points outside the domain, relative to its largest coordinate: some thousand times the rounding of f64.
 const ROUNDING: f64 = 1e-12;
 
-/// The box of space that is computed, cut into cubic cells where there is a fluid. The default has no
-/// extent: there is none.
+/// The computed box of space, divided into cubic cells if there is a fluid. The default has no
+/// extent: no domain.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -20,9 +20,9 @@ pub struct Domain {
     /// Lower corner, m. Default (0, 0, 0).
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Edges, m. Where there is a fluid, each is a whole number of cells.
+    /// Edges, m. With a fluid, each is a whole number of cells.
     pub size: [f64; 3],
-    /// Edge of a cell, m. Needed where there is a fluid.
+    /// Edge of a cell, m. Required with a fluid.
     #[serde(default)]
     pub cell: f64,
 }
@@ -126,10 +126,10 @@ impl Domain {
     }
 }
 
-/// How far from whole the number of cells may be: far above the rounding of a division, far
-/// below anything that a user could mean.
+/// Tolerance of the number of cells from an integer: far above the rounding of a division, far
+/// below any intended fraction.
 const WHOLE: f64 = 1e-6;
-/// Most cells: kernels index them, and what folding a dispatch adds, with 32 bits.
+/// Largest number of cells: kernels index them, and the padding of a folded dispatch, with 32 bits.
 const MOST_CELLS: f64 = 4_290_773_055.0;
 
 impl Scene {
@@ -202,7 +202,7 @@ impl Scene {
     }
 }
 
-/// `value` without the noise of binary fractions, to be typed back.
+/// `value` rounded to the digits that a user would type.
 fn tidy(value: f64) -> f64 {
     format!("{value:.12e}").parse().unwrap_or(value)
 }

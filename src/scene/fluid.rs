@@ -1,4 +1,4 @@
-//! What flows.
+//! The fluid.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,20 +19,20 @@ pub struct Fluid {
     /// Density, kg/m³. Default 1000.
     #[serde(default = "water")]
     pub density: f64,
-    /// Kinematic viscosity, m²/s. Particles can do without, and then slide along walls and blocks; default 0.
+    /// Kinematic viscosity, m²/s. Optional for particles, which otherwise slide along walls and blocks; default 0.
     #[serde(default)]
     pub viscosity: f64,
     /// Body force per mass, m/s²: three numbers or formulas of x, y, z; for particles three
     /// numbers: their gravity. Default none.
     #[serde(default)]
     pub acceleration: [Formula; 3],
-    /// Mean velocity along a periodic axis, m/s, three numbers of which one is not 0: a body force along that axis, beyond
-    /// `acceleration`, follows the friction and keeps it. The force per mass is the history `driving_acceleration`.
+    /// Mean velocity along a periodic axis, m/s, three numbers of which one is not 0. A controlled body force along that axis, in
+    /// addition to `acceleration`, maintains it. The force per mass is the history `driving_acceleration`.
     pub bulk_velocity: Option<[f64; 3]>,
 }
 
 impl Fluid {
-    /// Axis and value, m/s, of the bulk velocity that is kept.
+    /// Axis and value, m/s, of the prescribed bulk velocity.
     pub fn kept_velocity(&self) -> Option<(usize, f64)> {
         let velocity = self.bulk_velocity?;
         let axis = velocity.iter().position(|u| *u != 0.0)?;
@@ -124,7 +124,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What a scene without fluid must not have.
+    /// Refuses keys that a scene without fluid must not have.
     pub(super) fn check_dry(&self) -> Result<()> {
         let of_fluid = [
             ("numerics", self.numerics != Numerics::default()),

@@ -10,7 +10,7 @@ use super::Scene;
 use super::rules::{finite_constants, no_time};
 use crate::formula::Formula;
 
-/// Word for the pressure of a fluid at rest under the acceleration.
+/// Keyword for the pressure of a fluid at rest under the acceleration.
 const HYDROSTATIC: &str = "hydrostatic";
 
 /// Velocity and pressure at the time 0.
@@ -33,7 +33,7 @@ pub enum InitialPressure {
     /// first pressure face.
     #[default]
     Hydrostatic,
-    /// As given, Pa.
+    /// The given value, Pa.
     Given(Formula),
 }
 

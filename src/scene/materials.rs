@@ -1,4 +1,4 @@
-//! What blocks are made of.
+//! Materials of blocks.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -7,7 +7,7 @@ use super::Scene;
 use super::rules::{finite, names, not_negative, positive, refuse};
 use crate::error::Result;
 
-/// A rock, and how its joints push, slide and break.
+/// A rock and its contact properties.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -26,10 +26,10 @@ pub struct Material {
     #[serde(default)]
     pub cohesion: f64,
     /// Tensile strength σ_t, Pa, of faces that touch at the start, parallel to 5° and with no gap between them (nor an
-    /// overlap beyond 1 % of the block). Such a bond pulls over the area that it begins with, bends as an elastic bed,
-    /// and breaks for good where its tension reaches σ_t at an edge, or where it has slipped by σ_t/k_s; cohesion and
-    /// friction stay. Under tension its shear strength is the cohesion alone. A weight that comes on at once, as that of
-    /// a block that hangs from the start, swings to as much as twice itself: damping takes from that. Edges, corners and
+    /// overlap beyond 1 % of the block). Such a bond carries tension over its initial area, bends as an elastic bed,
+    /// and breaks permanently if its tension reaches σ_t at an edge, or if it has slipped by σ_t/k_s; cohesion and
+    /// friction remain. Under tension its shear strength is the cohesion alone. A weight applied suddenly, such as that of
+    /// a block that hangs from the start, causes up to twice the static force; damping reduces it. Edges, corners and
     /// spheres have no bonds, and no bond resists a twist about its normal by a spring. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
@@ -37,8 +37,8 @@ pub struct Material {
     /// which a block rebounds with 0.74 of its speed.
     #[serde(default = "Material::usual_damping")]
     pub damping: f64,
-    /// Young's modulus E of the rock itself, Pa, which its deformable blocks need; the stiffer and the smaller
-    /// they are, the shorter the step. Default none.
+    /// Young's modulus E of the rock itself, Pa, required for deformable blocks; the stiffer and smaller
+    /// they are, the shorter the time step. Default none.
     pub youngs_modulus: Option<f64>,
     /// Poisson's ratio ν of the rock itself, no unit, between -1 and 0.5. Default 0.25.
     #[serde(default = "Material::usual_ratio")]
@@ -46,7 +46,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Shear stiffness where none is given, of the normal stiffness.
+    /// Default shear stiffness over the normal stiffness.
     pub const SHEAR_RATIO: f64 = 0.8;
 
     fn usual_damping() -> f64 {
@@ -64,7 +64,7 @@ impl Material {
     }
 }
 
-/// How two materials meet, where that does not follow from each of them.
+/// Contact properties of two materials, if they do not follow from each of them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

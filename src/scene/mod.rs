@@ -1,4 +1,4 @@
-//! What the user wrote, in SI, checked.
+//! Scenes: the input of a run, in SI units, checked.
 //!
 //! A scene is a TOML file. Every table is a type of this module, every key a public field;
 //! [`Scene::schema`] is the same as a JSON schema.

@@ -1,4 +1,4 @@
-//! How the flow is computed.
+//! Numerical settings of the flow.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,12 +20,12 @@ pub struct Numerics {
     pub eddy_viscosity: EddyViscosity,
     /// C_w of Nicoud & Ducros (1999), no unit; 0.325 to 0.6 in the literature. Default 0.5.
     pub wale_constant: f64,
-    /// Friction of walls and solids at rest, and of faces of blocks along the grid, where the grid does not resolve it. It
+    /// Law of the wall for the friction of walls and solids at rest, and of grid-aligned faces of blocks. It
     /// needs `eddy_viscosity = "wale"`. Default `none`.
     pub wall_model: WallModel,
     /// Precision of the stored populations. Default `f32`.
     pub storage: Storage,
-    /// Cells an invocation of a kernel treats at once: 1, 2 (`f16` only) or 4. Default: chosen
+    /// Cells per invocation of a kernel: 1, 2 (`f16` only) or 4. Default: chosen
     /// for the adapter.
     pub lanes: Option<u32>,
     /// Time step, s. Default: from `mach`.
@@ -33,7 +33,7 @@ pub struct Numerics {
     /// Mach number of the lattice at the velocity scale, from which the time step follows:
     /// errors of compressibility grow with its square. Default 0.1, unless `time_step` is given.
     pub mach: Option<f64>,
-    /// Largest speed that is expected, m/s. Default: the largest one in the boundaries and in the
+    /// Largest expected speed, m/s. Default: the largest one in the boundaries and in the
     /// initial state at the time 0.
     pub velocity_scale: Option<f64>,
     /// Magic parameter Λ next to bounce-back walls, no unit. Default 3/16, with which a wall of a
@@ -44,9 +44,9 @@ pub struct Numerics {
     /// Smallest relaxation rate that Λ may give to the odd moments, for stability at low
     /// viscosity; not applied to `lambda`. No unit, default 0.8.
     pub odd_rate_floor: f64,
-    /// How partially saturated cells are drawn to the block in them. Default `holdych`.
+    /// Collision operator of the solid in partially saturated cells. Default `holdych`.
     pub solid_operator: SolidOperator,
-    /// Weight of this operator where blocks fill a part of a cell. Default: `exact` with `holdych`, otherwise `standard`.
+    /// Weight of this operator in cells that blocks fill in part. Default: `exact` with `holdych`, otherwise `standard`.
     pub solid_weight: Option<SolidWeight>,
     /// Magic parameter Λ in cells with a block and next to them, no unit. Default 1/10, with which the
     /// drag depends least on the viscosity.
@@ -77,7 +77,7 @@ impl Default for Numerics {
 }
 
 impl Numerics {
-    /// Mach number where none is given: errors of compressibility stay near 1 %.
+    /// Default Mach number: errors of compressibility stay near 1 %.
     pub const DEFAULT_MACH: f64 = 0.1;
 }
 
@@ -101,7 +101,7 @@ pub enum SolidOperator {
     /// Holdych (2003): the least error of the drag.
     #[default]
     Holdych,
-    /// Noble & Torczynski (1998), as Gardner & Sitar (2018) print it.
+    /// Noble & Torczynski (1998), as printed in Gardner & Sitar (2018).
     Noble,
     /// The second form of Noble & Torczynski (1998).
     Superposition,
@@ -111,9 +111,9 @@ pub enum SolidOperator {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolidWeight {
-    /// Puts plane surfaces where they are at every viscosity; with `solid_operator = "holdych"`.
+    /// Plane surfaces act at their true position at every viscosity; with `solid_operator = "holdych"`.
     Exact,
-    /// B of Noble & Torczynski (1998), as Gardner & Sitar (2018) have it.
+    /// B of Noble & Torczynski (1998), as in Gardner & Sitar (2018).
     Standard,
 }
 
@@ -128,7 +128,7 @@ pub enum Equilibrium {
     SecondOrder,
 }
 
-/// Model of the turbulence below the grid.
+/// Subgrid-scale turbulence model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EddyViscosity {
@@ -139,7 +139,7 @@ pub enum EddyViscosity {
     Wale,
 }
 
-/// Law of the wall from which walls at rest take their friction.
+/// Law of the wall for the friction of walls at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WallModel {
@@ -156,10 +156,10 @@ pub enum WallModel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Storage {
-    /// 32 bits a population.
+    /// 32 bits per population.
     #[default]
     F32,
-    /// 16 bits a population: half the memory and traffic, relative rounding 5e-4.
+    /// 16 bits per population: half the memory and traffic, relative rounding 5e-4.
     F16,
 }
 

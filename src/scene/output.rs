@@ -1,4 +1,4 @@
-//! What is written while the scene runs.
+//! Output of a run.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -20,7 +20,7 @@ pub struct Output {
     pub fields: Vec<Field>,
     /// Pictures. Default none.
     pub slices: Vec<Slice>,
-    /// Integrals over the fluid and the blocks in time. Default none.
+    /// Integrals over the fluid and the blocks as time histories. Default none.
     pub histories: Vec<History>,
     /// Whether the contacts of the blocks are written too, as a cloud of points with force, normal
     /// and overlap. Default true.
@@ -55,7 +55,7 @@ pub enum Field {
     QCriterion,
     /// Vorticity, 1/s.
     Vorticity,
-    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid, and between where an exact surface of a solid cuts a cell.
+    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, in between in cells cut by an exact surface.
     Solid,
     /// Mean of the velocity over time, m/s; this and those below need `statistics`, and are NaN before its first sample.
     MeanVelocity,
@@ -112,7 +112,7 @@ impl Field {
         }
     }
 
-    /// Whether it is over time.
+    /// Whether it is a time statistic.
     pub fn is_statistical(self) -> bool {
         matches!(
             self,
@@ -139,7 +139,7 @@ pub enum SliceField {
     EddyViscosity,
     /// Q-criterion ½(|Ω|² − |S|²), 1/s².
     QCriterion,
-    /// 1 in solid cells and in those whose centres a block covers, 0 in the fluid, and between where an exact surface of a solid cuts a cell.
+    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, in between in cells cut by an exact surface.
     Solid,
     /// Magnitude of the mean velocity, m/s; this and those below need `statistics`.
     MeanSpeed,
@@ -191,7 +191,7 @@ pub struct Slice {
     pub every: Option<f64>,
 }
 
-/// Curves over time, as CSV and PNG.
+/// Time histories, as CSV and PNG.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct History {
@@ -201,7 +201,7 @@ pub struct History {
     pub every: Option<f64>,
 }
 
-/// A number that sums up the whole fluid, or all blocks.
+/// An integral over the whole fluid, or over all blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -211,8 +211,8 @@ pub enum Quantity {
     Enstrophy,
     /// ∫ ρ dV, kg.
     Mass,
-    /// ∫ ρu_x dV, kg m/s: of what is in the cells, those inside blocks too, where it swings from step to step; what flows
-    /// past blocks is told by a probe on a plane.
+    /// ∫ ρu_x dV, kg m/s, over all cells, including those inside blocks, where it oscillates from step to step. To measure the flow
+    /// past blocks, use a probe on a plane.
     MomentumX,
     /// ∫ ρu_y dV, kg m/s; as `momentum_x`.
     MomentumY,
@@ -222,30 +222,30 @@ pub enum Quantity {
     MaxSpeed,
     /// Mean velocity along the axis of `fluid.bulk_velocity`, of the fluid and of the blocks in it, m/s.
     BulkVelocity,
-    /// Body force per mass that keeps `fluid.bulk_velocity`, along its axis, beyond `fluid.acceleration`, m/s²: the slope of
+    /// Body force per mass that maintains `fluid.bulk_velocity`, along its axis, in addition to `fluid.acceleration`, m/s²: the slope of
     /// the energy line is this over g.
     DrivingAcceleration,
     /// Potential energy of particles in their gravity, against that at the time 0, J.
     PotentialEnergy,
     /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, against that at the time 0, J.
     CompressionEnergy,
-    /// Kinetic, potential and compression energy of the particles that have left, as they did, against the origin of the
+    /// Kinetic, potential and compression energy of the particles that have left, at the time they left, relative to the origin of the
     /// coordinates, J.
     EscapedEnergy,
     /// Work of free and driven blocks on particles, J.
     BodyWork,
-    /// Work on particles of what pushes them out of solids and blocks that do not move, J.
+    /// Work on particles of the forces that expel them from fixed solids and blocks, J.
     PushWork,
-    /// Work on particles of the dummy particles of walls and blocks beyond that of these: the error of this boundary condition,
+    /// Work on particles of the boundary particles, less the work of their walls and blocks: the error of this boundary condition,
     /// J.
     DummyWork,
-    /// What was done on particles, less what they hold and have taken along: taken by viscosity and diffusion, with the error
+    /// Work done on particles, less their energy and the energy of those that left: dissipated by viscosity and diffusion, with the error
     /// of the computation, J.
     DissipatedEnergy,
-    /// What blocks have given up in joints too narrow for particles, J.
+    /// Energy that blocks have lost in joints too narrow for particles, J.
     JointWork,
-    /// What free and driven blocks have given up to particles and in joints: `body_work` and `joint_work` but for the error
-    /// with which blocks and water go on by turns, J.
+    /// Energy that free and driven blocks have lost to particles and in joints: `body_work` plus `joint_work`, up to the error of the
+    /// alternating advance of blocks and water, J.
     LostToWater,
     /// Kinetic energy of the blocks, with that of their spin, J.
     BlockKineticEnergy,
@@ -256,22 +256,22 @@ pub enum Quantity {
     /// Energy in the springs of the present contacts of the blocks, J: the work done on them since they began. Negative where
     /// the area of a contact grew while it was pressed, so that its springs gave back more than they took: see `contact_loss`.
     ContactEnergy,
-    /// What friction has turned into heat, J.
+    /// Energy dissipated by friction, J.
     FrictionWork,
-    /// What damping, of contacts and of mass, and films of fluid have turned into heat, J.
+    /// Energy dissipated by damping, of contacts and of mass, and by films of fluid, J.
     DampingWork,
-    /// What the springs of contacts held when these ended, J: energy that contacts took out, or put in where it is negative. The
-    /// springs conserve energy only while the area of their contact stays the same; this is the error of the contact law.
+    /// Energy in the springs of contacts when these ended, J: energy lost in contacts, or gained if it is negative. The
+    /// springs conserve energy only while the area of their contact is constant; this is the error of the contact law.
     ContactLoss,
-    /// What driven blocks and loads have added, J.
+    /// Energy added by driven blocks and loads, J.
     OutsideWork,
-    /// Energy that the blocks have gained, as a part of what has been turned over, no unit: `block_kinetic_energy`,
+    /// Relative error of the energy balance of the blocks, no unit: `block_kinetic_energy`,
     /// `block_potential_energy`, `strain_energy`, `contact_energy`, `friction_work`, `damping_work` and `contact_loss`, less
     /// `outside_work`. It is the error of the time integration; that of the contact law is `contact_loss`.
     EnergyError,
     /// Number of contacts of blocks.
     Contacts,
-    /// Number of blocks that move or might: free ones that are not asleep, and driven ones.
+    /// Number of awake blocks: free ones that are not asleep, and driven ones.
     AwakeBlocks,
     /// Largest speed of a block's centroid, m/s.
     BlockMaxSpeed,
@@ -317,7 +317,7 @@ impl Quantity {
         }
     }
 
-    /// Whether it sums up the blocks, not the fluid.
+    /// Whether it belongs to the blocks, not the fluid.
     pub fn is_of_blocks(self) -> bool {
         use Quantity::*;
         !self.is_of_particles()

@@ -1,4 +1,4 @@
-//! A fluid of particles: how it is computed, its bodies of water at the start, and what else a scene of it may have.
+//! A fluid of particles: its numerical settings, its initial bodies of water, and checks of the other tables.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,15 +10,15 @@ use super::{
 };
 use crate::error::Result;
 
-/// How a fluid of particles is computed (weakly compressible SPH): its presence makes the fluid one with a
-/// free surface, whose bodies are those of `water`.
+/// Settings of a fluid of particles (weakly compressible SPH). This table makes the fluid one with a
+/// free surface, whose initial bodies are in `water`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Particles {
     /// Distance Δx of particles at the start, m. Edges of the domain along which it is periodic are whole
     /// numbers of it.
     pub spacing: f64,
-    /// Smoothing length h, of the spacing: 1.2 to 3. Particles feel those nearer than 2h. Default 2.
+    /// Smoothing length h, of the spacing: 1.2 to 3. Particles interact within 2h. Default 2.
     #[serde(default = "Particles::usual_smoothing")]
     pub smoothing: f64,
     /// The scheme. Default `delta`.
@@ -27,11 +27,11 @@ pub struct Particles {
     /// How pressure follows from density. Default `linear`.
     #[serde(default)]
     pub equation_of_state: EquationOfState,
-    /// Largest speed U that is expected, m/s: the speed of sound is 10 U. Default √(2 g D), the speed
+    /// Largest expected speed U, m/s: the speed of sound is 10 U. Default √(2 g D), the speed
     /// after a fall through the height D of all water at the start, or more: that of driven blocks in the run, or of
     /// water that moves at the start and of free blocks after a fall to the bottom of the water.
     pub largest_speed: Option<f64>,
-    /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. Its authors give
+    /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. The paper gives
     /// none. Default 5 U², at which water is denser at the bottom of a tank by a tenth: the stiffer, the more the
     /// surface pulls, where sums lack neighbours.
     pub stiffness: Option<f64>,
@@ -46,12 +46,12 @@ pub struct Particles {
     /// cases are those of shorter steps, and up to 1.4 water in tanks stays calm.
     #[serde(default = "Particles::usual_courant")]
     pub courant: f64,
-    /// How far from the points of their lattice particles of standing water start, of the spacing: along each axis up to so
-    /// much, 0 to 0.25, the same in each run. Under pressure a regular lattice resists shear, and long waves travel too fast
+    /// Largest initial displacement of particles of still water from the points of their lattice along each axis, in units of the
+    /// spacing, 0 to 0.25, the same in each run. Under pressure a regular lattice resists shear, and long waves travel too fast
     /// on it; disorder stirs still water. Default 0.04.
     #[serde(default = "Particles::usual_disorder")]
     pub disorder: f64,
-    /// Whether nothing varies along y: one row of particles in the middle stands for the whole width of the
+    /// Whether the flow is plane: nothing varies along y, and one row of particles represents the whole width of the
     /// domain. Default false.
     #[serde(default)]
     pub plane: bool,
@@ -111,12 +111,12 @@ impl Particles {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// δ-SPH: continuity with diffusion of density, Wendland's C2 kernel, dummy particles in solids.
+    /// δ-SPH: continuity with diffusion of density, Wendland's C2 kernel, boundary particles in solids.
     #[default]
     Delta,
-    /// That of Geraili Mikola & Sitar (2014), to compare with: density by a sum, p = k (ρ − ρ₀), the kernels of
+    /// The scheme of Mikola & Sitar (2014), for comparison: density by a sum, p = k (ρ − ρ₀), the kernels of
     /// Müller, Charypar & Gross (2003), walls and blocks as damped springs. Still water does not come to rest with it.
-    /// Viscous by `fluid.viscosity`, or where that is 0 by what `artificial_viscosity` amounts to.
+    /// Its viscosity is `fluid.viscosity`, or the equivalent of `artificial_viscosity` if that is 0.
     Mueller,
 }
 
@@ -140,10 +140,10 @@ pub struct Water {
     #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub shape: BlockShape,
-    /// Where the origin of that frame is, m. Default (0, 0, 0).
+    /// Position of the origin of that frame, m. Default (0, 0, 0).
     #[serde(default)]
     pub position: [f64; 3],
-    /// How it is turned about that origin. Default not at all.
+    /// Rotation about that origin. Default none.
     #[serde(default)]
     pub rotation: Rotation,
     /// Velocity, m/s. Default at rest.
@@ -151,20 +151,20 @@ pub struct Water {
     pub velocity: [f64; 3],
 }
 
-/// How far from whole the number of particles along a periodic edge may be: far above the rounding of a
-/// division, far below anything that a user could mean.
+/// Tolerance of the number of particles along a periodic edge from an integer: far above the rounding of a
+/// division, far below any intended fraction.
 const WHOLE: f64 = 1e-6;
-/// Range of the smoothing length, of the spacing: below it the sum over neighbours is no integral any more,
-/// above it a particle has a thousand of them.
+/// Range of the smoothing length in units of the spacing: below it the sum over neighbours does not approximate the integral,
+/// above it a particle has a thousand neighbours.
 const SMOOTHING: std::ops::RangeInclusive<f64> = 1.2..=3.0;
 /// Largest acoustic time step: water in tanks stays calm up to 1.4, whatever its smoothing, and blows up at 1.8.
 const MOST_COURANT: f64 = 1.0;
 
-/// Largest disorder: farther off, particles may start on each other.
+/// Largest disorder: with more, particles may start at the same point.
 const MOST_DISORDER: f64 = 0.25;
 
 impl Scene {
-    /// What the keys of particles say of themselves.
+    /// Checks the keys of this table.
     pub(super) fn check_particles(&self, particles: &Particles) -> Result<()> {
         if !SMOOTHING.contains(&particles.smoothing) {
             return refuse(
@@ -305,7 +305,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What says something about the cells of a lattice.
+    /// Refuses keys of the cells of a lattice.
     fn check_of_lattice(&self) -> Result<()> {
         let tables = [
             ("numerics", self.numerics != Numerics::default(), ""),
@@ -393,7 +393,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What only a fluid of particles has.
+    /// Refuses keys that only a fluid of particles has.
     pub(super) fn check_no_particles(&self) -> Result<()> {
         if !self.water.is_empty() {
             return refuse(
@@ -435,7 +435,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The faces that hold particles, let them go, or hand them on.
+    /// Checks the faces: wall, open or periodic.
     pub(super) fn check_particle_boundaries(&self) -> Result<()> {
         for (face, boundary) in self.boundaries.iter() {
             let key = format!("boundaries.{}", face.name());

@@ -1,4 +1,4 @@
-//! Rock that joints have cut into blocks.
+//! Rock masses that joints cut into blocks.
 
 use std::path::PathBuf;
 
@@ -26,11 +26,11 @@ pub struct RockMass {
     pub volume: Volume,
     /// The joint sets, in the order in which they cut.
     pub joints: Vec<JointSet>,
-    /// Seed of what is random in spacings and persistence. Default 0. The same seed gives the same
+    /// Seed of random spacings and persistence. Default 0. The same seed gives the same
     /// blocks on every machine.
     #[serde(default)]
     pub seed: u64,
-    /// The direction against which dips are measured. Default against gravity.
+    /// The upward direction, from which dips are measured. Default against gravity.
     #[serde(default)]
     pub up: Option<[f64; 3]>,
     /// The direction from which dip directions are measured, clockwise seen from above. Default
@@ -41,11 +41,11 @@ pub struct RockMass {
     /// Default 0: only pieces that are too thin for contact, below 1e-4 of their size, are left out.
     #[serde(default)]
     pub smallest_volume: f64,
-    /// Pieces with a face nearer to their centroid than this part of their extent are left out, no
+    /// Pieces with a face nearer to their centroid than this fraction of their extent are left out, no
     /// unit. Default 0: as above.
     #[serde(default)]
     pub smallest_thickness: f64,
-    /// Width of the open joints, m: every face of every block lies half of it inside of where the cuts are,
+    /// Width of the open joints, m: every face of every block is set back by half of it,
     /// outer faces too. A fluid flows in joints of a cell and more. Default 0.
     #[serde(default)]
     pub aperture: f64,
@@ -62,8 +62,8 @@ pub struct RockMass {
     /// false: they are rigid.
     #[serde(default)]
     pub deformable: bool,
-    /// Stress that deformable blocks bear at the start without strain, as what the rock around them has
-    /// pressed into them: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
+    /// Stress of deformable blocks at zero strain, such as the in-situ stress of
+    /// the rock: xx, yy, zz, xy, yz, xz along the axes of the world, Pa; tension is positive. Default 0.
     #[serde(default)]
     pub initial_stress: [f64; 6],
 }
@@ -85,7 +85,7 @@ pub enum Volume {
         /// The points, m, at least four.
         vertices: Vec<[f64; 3]>,
     },
-    /// What all half-spaces have in common.
+    /// The intersection of half-spaces.
     HalfSpaces {
         /// The faces, at least four; distances are from the origin of the scene.
         faces: Vec<PlaneFace>,
@@ -118,20 +118,20 @@ impl Volume {
 pub struct JointSet {
     /// Angle between the joints and the horizontal, degrees, from 0 to 90.
     pub dip: f64,
-    /// Compass direction in which the joints fall, degrees clockwise from north.
+    /// Compass direction in which the joints dip, degrees clockwise from north.
     pub dip_direction: f64,
     /// Mean distance from joint to joint along their normal, m.
     pub spacing: f64,
     /// How the distances vary. Default `none`.
     #[serde(default)]
     pub distribution: Distribution,
-    /// How far they vary, as a part of the spacing: for `uniform` half the width, below 1; for `normal`
+    /// Amount of variation, as a fraction of the spacing: for `uniform` half the width, below 1; for `normal`
     /// (at most 1) and `lognormal` (at most 10) the standard deviation. Default 0.25.
     pub scatter: Option<f64>,
     /// A point of one of the joints, m. Default (0, 0, 0).
     #[serde(default)]
     pub origin: [f64; 3],
-    /// How much of each joint is open. Default all of it.
+    /// Persistence: how much of each joint is open. Default all of it.
     pub persistence: Option<Persistence>,
 }
 
@@ -153,18 +153,18 @@ pub enum Distribution {
 }
 
 /// Joints that are not open everywhere: each is divided into squares, some of them open. A joint cuts
-/// a block that it meets through and through if it is open in the middle of the cut, else not at all.
+/// a block completely if it is open in the middle of the cut, else not at all.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Persistence {
-    /// Part of the squares that is open, from 0 to 1.
+    /// Fraction of the squares that is open, from 0 to 1.
     pub fraction: f64,
     /// Edge of the squares, m.
     pub length: f64,
 }
 
 impl JointSet {
-    /// Scatter where none is given.
+    /// Default amount of variation.
     pub const USUAL_SCATTER: f64 = 0.25;
 }
 

@@ -1,4 +1,4 @@
-//! How long to compute.
+//! Length of a run.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -17,23 +17,23 @@ pub struct Run {
     pub duration: Option<f64>,
     /// Number of time steps.
     pub steps: Option<u64>,
-    /// Time between checkpoints, s; each takes the place of the one before. Default a tenth of the run, in the
+    /// Time between checkpoints, s; each replaces the previous one. Default a tenth of the run, in the
     /// first tenth a hundredth, so that a run that diverges leaves a good state; more for states larger than 0.4 GB.
     pub checkpoint_every: Option<f64>,
-    /// What the kernels are made for. Default `auto`.
+    /// Kind of processor for which the kernels are built. Default `auto`.
     pub kernels: Kernels,
 }
 
-/// What the kernels are made for; results agree within the rounding of sums in another order.
+/// Kind of processor for which the kernels are built; results agree up to rounding by the order of sums.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kernels {
-    /// What the adapter computes on.
+    /// The kind of the adapter.
     #[default]
     Auto,
-    /// CPUs, as software adapters use them: several cells an invocation, rows as bricks, lists of neighbours.
+    /// CPUs, used by software adapters: several cells per invocation, rows as bricks, neighbour lists.
     Cpu,
-    /// GPUs: one cell an invocation, or two in 16 bits, and sums by workgroups.
+    /// GPUs: one cell per invocation, or two in 16 bits, and sums by workgroups.
     Gpu,
 }
 

@@ -1,4 +1,4 @@
-//! What stands still in the flow.
+//! Static solids.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ pub struct Solid {
     /// Name of the material that blocks touch. Default the first one.
     #[serde(default)]
     pub material: Option<String>,
-    /// How the fluid meets it. Default `exact` for a terrain and `staircase` for other shapes.
+    /// Surface for the fluid. Default `exact` for a terrain and `staircase` for other shapes.
     #[serde(default)]
     pub surface: Option<SolidSurface>,
     /// Equivalent sand roughness k_s, m, for `numerics.wall_model`. Default 0, smooth.
@@ -41,11 +41,11 @@ pub struct Solid {
     pub roughness: f64,
 }
 
-/// How the fluid meets a static solid.
+/// Surface of a static solid for the fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolidSurface {
-    /// Where it is: cells that it fills in part are partially saturated.
+    /// The true surface: cells that the solid fills in part are partially saturated.
     Exact,
     /// A cell is solid if its centre lies inside.
     Staircase,
@@ -88,7 +88,7 @@ pub enum Shape {
         #[serde(default)]
         translate: [f64; 3],
     },
-    /// What lies below heights along z, from a survey.
+    /// The volume below heights along z, from a survey.
     Terrain {
         /// XYZ file of a regular grid, ESRI ASCII grid (.asc) or GeoTIFF, relative to the scene's file.
         file: PathBuf,
@@ -111,7 +111,7 @@ impl Shape {
     ];
 }
 
-/// A region has the keys of a solid that say where it is.
+/// A region has only the keys of a solid for its shape and position.
 pub(super) fn check_region(region: &DeTable<'_>, _: &str) -> Result<(), String> {
     let mut others = ["name", "void", "material", "surface", "roughness"].iter();
     match others.find(|key| region.contains_key(**key)) {

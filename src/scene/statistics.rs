@@ -7,7 +7,7 @@ use super::rules::{interval, not_negative, refuse};
 use super::{Field, Probe, Scene};
 use crate::error::Result;
 
-/// Means and fluctuations over time, from when the flow has developed.
+/// Means and fluctuations over time, from the time at which the flow has developed.
 ///
 /// Each probe with `every` then has a table of its own, `NAME_statistics.csv`, with mean, RMS, skewness, extremes and the
 /// statistical error of the mean of each of its columns; a probe of one row a spectrum too, `NAME_spectrum.csv`, and a line
@@ -18,7 +18,7 @@ use crate::error::Result;
 pub struct Statistics {
     /// Time from which samples count, s.
     pub from: f64,
-    /// Time between samples of the fields, s, rounded to an odd number of steps: velocities beside walls may alternate from one
+    /// Time between samples of the fields, s, rounded to an odd number of steps: velocities next to walls may alternate from one
     /// step to the next. Default 21 steps.
     #[serde(default)]
     pub every: Option<f64>,
@@ -34,7 +34,7 @@ impl Statistics {
         self.every.map_or(Self::STRIDE, nearest_odd)
     }
 
-    /// The first step of `time_step` (s) that counts.
+    /// The first step, of `time_step` (s), with samples.
     pub fn first_step(&self, time_step: f64) -> u64 {
         (self.from / time_step).round() as u64
     }
@@ -59,7 +59,7 @@ impl Scene {
         }
     }
 
-    /// Fields over time can be written only where there are statistics, on a lattice.
+    /// Field statistics need the table `statistics` and a fluid on a lattice.
     pub(super) fn check_statistical(&self, key: &str, fields: &[Field]) -> Result<()> {
         match fields.iter().find(|field| field.is_statistical()) {
             Some(field) if self.statistics.is_none() => refuse(

@@ -1,4 +1,4 @@
-//! Pictures in space: of the blocks, and of the fluid around them.
+//! Perspective pictures of the blocks and the fluid around them.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -14,7 +14,7 @@ use crate::error::Result;
 pub struct View {
     /// Name of the files.
     pub name: String,
-    /// Where the camera stands, m. Default, without `to` too: as near as all blocks that move are in
+    /// Position of the camera, m. Default, without `to` too: as near as all blocks that move are in
     /// the first picture, with all of the `slices`, and of the domain where there are `traces`, seen
     /// along `direction`.
     pub from: Option<[f64; 3]>,
@@ -64,7 +64,7 @@ pub struct ViewSlice {
     pub axis: Axis,
     /// Where the plane cuts the axis, m. Default the middle of the domain.
     pub position: Option<f64>,
-    /// What is shown, but for `solid`.
+    /// Field of the plane; not `solid`.
     pub field: SliceField,
     /// Smallest and largest value of the colours, in the field's unit. Default those in the picture,
     /// which keeps no colour over an animation; slices of one field share them.
@@ -72,7 +72,7 @@ pub struct ViewSlice {
 }
 
 impl View {
-    /// Most lines along the flow: more would hide each other.
+    /// Largest number of streamlines: more would hide each other.
     pub const MOST_TRACES: u32 = 1000;
 
     /// Whether it shows the fluid.
@@ -80,7 +80,7 @@ impl View {
         !self.slices.is_empty() || self.traces > 0
     }
 
-    /// The direction in which a camera looks that is not told where it stands.
+    /// Default direction of a camera without `from`.
     pub const USUAL_DIRECTION: [f64; 3] = [-0.45, 0.8, -0.4];
 
     fn usual_field() -> f64 {
@@ -100,7 +100,7 @@ impl View {
     }
 }
 
-/// Largest edge of a picture: what every adapter can draw on.
+/// Largest edge of a picture: a texture size that every adapter supports.
 const LARGEST: u32 = 8192;
 /// Smallest edge: anything less shows nothing.
 const SMALLEST: u32 = 64;
@@ -196,7 +196,7 @@ impl Scene {
         interval(format!("{key}.every"), view.every)
     }
 
-    /// There is something to be seen.
+    /// Checks that the view shows something.
     fn check_shown(&self, key: &str, view: &View) -> Result<()> {
         if !self.has_blocks() && !self.has_particles() && !view.shows_fluid() {
             return refuse(

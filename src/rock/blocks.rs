@@ -59,14 +59,14 @@ pub struct Blocks {
     pub(super) joints: Joints,
     pub(super) gravity: DVec3,
     pub(super) damping: f64,
-    /// Whether the step was given, and stays.
+    /// Whether the setup prescribes the time step.
     pub(super) given_step: bool,
     pub(super) skin: f64,
     pub(super) sleep: Option<Sleep>,
     pub(super) start_overlap: f64,
     pub(super) largest_overlap: f64,
     pub(super) corner_area: f64,
-    /// Where space repeats.
+    /// Periodic axes of the domain.
     pub(super) periods: Option<Periods>,
     /// Fluid in thin gaps.
     pub(super) film: Option<law::Film>,
@@ -78,18 +78,18 @@ pub struct Blocks {
     pub(super) started: bool,
     pub(super) states: Vec<State>,
     pub(super) deforming: DeformingBlocks,
-    /// Poses when the pairs were found; empty: never.
+    /// Poses when the pairs were found; empty before the first search.
     pub(super) skin_references: Vec<SkinReference>,
     pub(super) pairs: Vec<CandidatePair>,
     pub(super) contacts: ContactList,
     pub(super) work_sums: WorkSums,
 
-    // What a step writes before it is known to be good; then `next_…` change places with what they follow.
+    // Results of a step until it is known to be valid; then each `next_…` is swapped with the present state.
     pub(super) parts: PlacedParts,
     pub(super) mid_steps: Vec<MidStep>,
     pub(super) contact_sums: Vec<ContactSum>,
     pub(super) films: Films,
-    /// What they have taken in this step, J.
+    /// Energy taken by the films in this step, J.
     pub(super) film_work: f64,
     pub(super) next_states: Vec<State>,
     pub(super) next_pairs: Vec<CandidatePair>,
@@ -99,19 +99,19 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// Blocks at t = 0.
+    /// Creates the blocks at t = 0.
     ///
     /// # Errors
     /// [`Error::Argument`] naming a block without mass, a pose that is not finite, a material that does not
-    /// exist or cannot be.
+    /// exist or is invalid.
     pub fn new(setup: Setup) -> Result<Self> {
         Self::with_options(setup, Options::default())
     }
 
-    /// The same with contacts resolved by `options`.
+    /// Like [`Blocks::new`], with contacts resolved by `options`.
     ///
     /// # Errors
-    /// Those of [`Blocks::new`].
+    /// The errors of [`Blocks::new`].
     pub fn with_options(setup: Setup, options: Options) -> Result<Self> {
         check::check(&setup)?;
         let joints = check::joints(&setup);
@@ -170,12 +170,12 @@ impl Blocks {
         self.bodies.is_empty()
     }
 
-    /// s.
+    /// Time, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Steps done.
+    /// Number of steps done.
     pub fn steps(&self) -> u64 {
         self.steps
     }
@@ -190,7 +190,7 @@ impl Blocks {
         self.skin
     }
 
-    /// Where the blocks are and how they move.
+    /// Poses of all blocks, with their velocities.
     pub fn poses(&self) -> Vec<Pose> {
         let all = self.bodies.iter().zip(&self.states);
         let strains = &self.deforming.strains;
@@ -212,12 +212,12 @@ impl Blocks {
         self.bodies.get(block).map_or("", |body| &body.name)
     }
 
-    /// Mass of a block, kg; not a number if there is no such block.
+    /// Mass of a block, kg; NaN if there is no such block.
     pub fn mass(&self, block: usize) -> f64 {
         self.bodies.get(block).map_or(f64::NAN, |body| body.mass)
     }
 
-    /// Rotation of a block; not a number if there is no such block.
+    /// Rotation of a block; NaN if there is no such block.
     pub fn rotation(&self, block: usize) -> DQuat {
         let state = self.states.get(block);
         state.map_or(DQuat::NAN, |state| state.rotation)
@@ -228,7 +228,7 @@ impl Blocks {
         self.states.iter().map(|state| state.spin)
     }
 
-    /// Angular momentum of a free block about its centroid, world, kg m²/s; not a number if there is no such block.
+    /// Angular momentum of a free block about its centroid, world, kg m²/s; NaN if there is no such block.
     pub fn angular_momentum(&self, block: usize) -> DVec3 {
         let state = self.states.get(block);
         state.map_or(DVec3::NAN, |state| state.momentum)
@@ -264,12 +264,12 @@ impl Blocks {
         self.states.iter().map(|state| state.asleep)
     }
 
-    /// Whether a block can move: it is there, and free or driven.
+    /// Whether a block exists and can move, being free or driven.
     pub fn moves(&self, block: usize) -> bool {
         self.bodies.get(block).is_some_and(|body| !body.is_fixed())
     }
 
-    /// Whether each block that moves sleeps or may have fallen asleep after the next `time` (s).
+    /// Whether each movable block sleeps, or may fall asleep within the next `time` (s).
     pub fn may_all_sleep_within(&self, time: f64) -> bool {
         let Some(sleep) = &self.sleep else {
             return false;
@@ -309,8 +309,8 @@ impl Blocks {
         self.gravity
     }
 
-    /// Force, N, and torque about its centroid, N m, of what acts on a block alone now: its point loads, and its mass
-    /// times its acceleration.
+    /// Force, N, and torque about the centroid, N m, of the loads that act on a single block at present: its point loads, and its
+    /// mass times its acceleration.
     pub(crate) fn applied_load(&self, block: usize) -> [DVec3; 2] {
         let body = &self.bodies[block];
         let Some(applied_forces) = body.applied_forces() else {
@@ -327,7 +327,7 @@ impl Blocks {
             .ledger(self.all(), &self.contacts, self.gravity)
     }
 
-    /// What the resolvers have done so far.
+    /// Counters of the contact resolvers so far.
     pub fn counts(&self) -> Counts {
         self.resolver_pool.counts()
     }
@@ -337,10 +337,10 @@ impl Blocks {
         self.pairs.len()
     }
 
-    /// External loads of all blocks, which act until they are set anew.
+    /// Sets the external loads of all blocks, which act until they are set again.
     ///
     /// # Errors
-    /// [`Error::Argument`] if there is not one for each block, or one is not finite.
+    /// [`Error::Argument`] if their number differs from that of the blocks, or one is not finite.
     pub fn load(&mut self, loads: &[Load]) -> Result<()> {
         if loads.len() != self.len() {
             let message = format!("{} loads for {} blocks", loads.len(), self.len());
@@ -370,10 +370,10 @@ impl Blocks {
     }
 
     /// Steps until the time is `until` (s), in equal steps of at most the time step, with pairs from
-    /// `broadphase` when they are wanted.
+    /// `broadphase` when needed.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and of the broadphase, and [`Error::Argument`] if that time is not finite.
+    /// The errors of [`Blocks::step`] and of the broadphase, and [`Error::Argument`] if that time is not finite.
     pub async fn advance(&mut self, broadphase: &mut impl Broadphase, until: f64) -> Result<()> {
         is_time(until)?;
         while self.time < until {
@@ -400,7 +400,7 @@ impl Blocks {
         self.step_times
     }
 
-    /// Lets time pass in which nothing moves, until `until` (s) if that is still to come.
+    /// Sets the time to `until` (s), if that is later, without motion.
     ///
     /// # Errors
     /// [`Error::Argument`] if that time is not finite.
@@ -410,7 +410,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// All of them, with their state.
+    /// All blocks with their state.
     fn all(&self) -> BodyStates<'_> {
         BodyStates {
             bodies: &self.bodies,
@@ -419,7 +419,7 @@ impl Blocks {
         }
     }
 
-    /// A block in a message.
+    /// The name of a block for a message.
     pub(super) fn label(&self, block: usize) -> String {
         super::narrowphase::label(block, &self.bodies[block].name)
     }

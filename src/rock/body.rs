@@ -1,4 +1,4 @@
-//! One block: its constants ([`Body`]), its state ([`State`]), the forces applied to it, and its motion in a step.
+//! One block: its constants ([`Body`]), its state ([`State`]), the forces applied to it, and its motion over a step.
 
 use super::{
     Block, Motion, PointLoad, Setup, Sleep,
@@ -20,28 +20,28 @@ pub(super) struct Body {
     pub name: String,
     pub shape: Arc<Shape>,
     pub material: u32,
-    /// Its number among those that deform, or [`RIGID`].
+    /// Index among the deformable blocks, or [`RIGID`].
     pub deforming: u32,
     pub drive: Drive,
-    /// Unit vector along which alone it moves, without turning, if it is guided.
+    /// Unit vector of the guide, along which the block moves without rotation; `None` without a guide.
     pub guide: Option<Box<DVec3>>,
     /// kg.
     pub mass: f64,
     /// kg m².
     pub inertia: Principal,
-    /// Of the ball about its centroid that holds it, m.
+    /// Radius of the bounding ball about the centroid, m.
     pub radius: f64,
-    /// Its parts among all parts.
+    /// Indices of its parts among all parts.
     pub parts: Range<usize>,
 }
 
-/// What moves it. Formulas are rare and elsewhere, so that a body is small: all are read in each step.
+/// Kind of motion. Formulas are rare and stored elsewhere to keep a body small, because all bodies are read in each step.
 #[derive(Clone, Debug)]
 pub(super) enum Drive {
-    /// Those of contacts and loads, and maybe more of its own.
+    /// Free: moved by contacts and loads, and possibly by forces of its own.
     Forces(Option<Box<AppliedForces>>),
     Nothing,
-    /// Velocity and spin.
+    /// Driven: prescribed velocity and spin.
     Formulas(Box<[[Formula; 3]; 2]>),
 }
 
@@ -74,7 +74,7 @@ impl Body {
         formulas.each_ref().map(|v| formula_values(v, t))
     }
 
-    /// The formula of a driven block that is not finite at the time `t` (s), if one is.
+    /// The first formula of a driven block that is not finite at the time `t` (s), if any.
     pub fn undriven_at(&self, t: f64) -> Option<&str> {
         let Drive::Formulas(formulas) = &self.drive else {
             return None;
@@ -84,7 +84,7 @@ impl Body {
         lost.map(Formula::text)
     }
 
-    /// What acts on it alone.
+    /// Loads on this block alone.
     pub fn applied_forces(&self) -> Option<&AppliedForces> {
         match &self.drive {
             Drive::Forces(applied_forces) => applied_forces.as_deref(),
@@ -92,12 +92,12 @@ impl Body {
         }
     }
 
-    /// Whether it may sleep: deformable blocks keep oscillating, and formulas of time wake no block.
+    /// Whether the block may sleep. Deformable blocks keep oscillating, and formulas of time cannot wake a block.
     pub fn may_sleep(&self) -> bool {
         matches!(self.drive, Drive::Forces(None)) && self.deforming == RIGID
     }
 
-    /// Force over mass, gravity included, m/s², and torque, N m, on a free rigid block at the time `t` (s).
+    /// Force over mass including gravity, m/s², and torque, N m, on a free rigid block at the time `t` (s).
     fn pulls(&self, state: &State, gravity: DVec3, t: f64) -> [DVec3; 2] {
         let mut force = state.force + state.load;
         let mut torque = state.torque + state.load_torque;
@@ -113,7 +113,7 @@ impl Body {
         }
     }
 
-    /// 1/kg; 0 if forces do not move it.
+    /// Inverse mass, 1/kg; 0 if forces do not move the block.
     pub fn inverse_mass(&self) -> f64 {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
     }
@@ -140,12 +140,12 @@ pub(super) struct State {
     pub load: DVec3,
     /// External torque, N m.
     pub load_torque: DVec3,
-    /// Mean velocity and spin over the time that [`LoadDelay`](super::law::LoadDelay) says; else as at the start.
+    /// Mean velocity and spin over the memory of [`LoadDelay`](super::law::LoadDelay); unused without it.
     pub mean: [DVec3; 2],
-    /// Time for which it has been slow, s.
+    /// Time for which the block has been slow, s.
     pub slow: f64,
     pub asleep: bool,
-    /// Force and torque when it fell asleep, loads included.
+    /// Force and torque at the time the block fell asleep, loads included.
     pub slept: [DVec3; 2],
 }
 
@@ -159,7 +159,7 @@ impl State {
         Pose::rigid(self.centre, self.rotation, self.velocity, self.spin)
     }
 
-    /// Whether it can be computed with: distances and energies are squares.
+    /// Whether the state is finite, squares included, as distances and energies need them.
     pub fn is_finite(&self) -> bool {
         let squares = [self.centre, self.velocity, self.momentum, self.spin];
         self.rotation.is_finite() && squares.iter().all(|v| v.length_squared().is_finite())
@@ -179,8 +179,8 @@ impl State {
         [self.force + self.load, self.torque + self.load_torque]
     }
 
-    /// Wakes a sleeper whose forces have changed. It has been at rest up to now, so that the rest of the
-    /// step moves it as it would have moved a block that was awake.
+    /// Wakes a sleeping block whose forces have changed. It has been at rest so far, so that the rest of the
+    /// step moves it like a block that was awake.
     pub fn wake(&mut self, body: &Body, sleep: &Sleep, gravity: DVec3) {
         let [force, torque] = self.pulls();
         let [slept, slept_torque] = self.slept;
@@ -202,7 +202,7 @@ impl State {
         }
     }
 
-    /// Falls asleep at the end of a step of `dt` (s), if it has been slow for long enough.
+    /// Puts the block to sleep at the end of a step of `dt` (s), if it has been slow for long enough.
     pub fn update_sleep(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
         if self.asleep {
             return;
@@ -222,8 +222,8 @@ impl State {
     }
 }
 
-/// Motion of a block within a step, and the constants that its contacts need: together, since each contact
-/// reads two blocks that may be anywhere in the lists.
+/// Motion of a block within a step, and the constants that its contacts need. They are stored together, because each contact
+/// reads two blocks at arbitrary places of the lists.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct MidStep {
     /// At the end of the step, m.
@@ -238,7 +238,7 @@ pub(super) struct MidStep {
     pub end_velocity: DVec3,
     /// Spin expected at the end, rad/s.
     pub end_spin: DVec3,
-    /// 1/kg; 0 if forces do not move it.
+    /// Inverse mass, 1/kg; 0 if forces do not move the block.
     pub inverse_mass: f64,
     pub material: u32,
     /// Whether it is fixed or sleeps.
@@ -246,7 +246,7 @@ pub(super) struct MidStep {
 }
 
 impl MidStep {
-    /// Of a block that stays where `state` is.
+    /// The motion of a block at rest in `state`.
     pub fn at_rest(body: &Body, state: &State) -> Self {
         Self {
             centre: state.centre,
@@ -258,7 +258,7 @@ impl MidStep {
         }
     }
 
-    /// Of a block before its first step.
+    /// The motion of a block before its first step.
     pub fn at_start(body: &Body, state: &State) -> Self {
         Self {
             end_velocity: state.velocity,
@@ -283,8 +283,8 @@ pub(super) fn first_half(body: &Body, state: &State, params: StepParams) -> (DVe
     )
 }
 
-/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed one stays, and one that deforms
-/// goes with its like. `push`: impulse of films of fluid in the first half of the step.
+/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed block does not move, and deformable
+/// blocks are moved elsewhere. `push`: impulse of films of fluid in the first half of the step.
 pub(super) fn kick_drift(
     body: &Body,
     state: &mut State,
@@ -300,7 +300,7 @@ pub(super) fn kick_drift(
         Drive::Forces(_) => {
             let (velocity, momentum) = first_half(body, state, params);
             let (velocity, momentum) = (velocity + push.velocity, momentum + push.momentum);
-            // The dashpots want the velocity at the end of the step, which the force there is part of:
+            // The dashpots need the velocity at the end of the step, which depends on the force there:
             // the last acceleration gives it to second order.
             let end_velocity = 2.0 * velocity - state.velocity;
             let end_momentum = 2.0 * momentum - state.momentum;
@@ -348,7 +348,7 @@ pub(super) fn second_kick(body: &Body, state: &mut State, params: StepParams) {
     state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
 }
 
-/// The blocks of a setup that has been checked.
+/// Creates the blocks of a checked setup.
 pub(super) fn make(setup: &Setup) -> (Vec<Body>, Vec<State>, DeformingBlocks) {
     let mut bodies: Vec<Body> = Vec::with_capacity(setup.blocks.len());
     let mut states = Vec::with_capacity(setup.blocks.len());
@@ -399,7 +399,7 @@ fn start(body: &Body, block: &Block) -> State {
     state
 }
 
-/// Point loads and the acceleration of one block, in addition to gravity, contacts and loads.
+/// Point loads and the acceleration of one block, in addition to gravity, contacts and external loads.
 #[derive(Clone, Debug)]
 pub(super) struct AppliedForces {
     point_loads: Vec<PointLoad>,
@@ -407,7 +407,7 @@ pub(super) struct AppliedForces {
 }
 
 impl AppliedForces {
-    /// Of a block, if there is something.
+    /// The applied loads of a block, if there are any.
     pub fn of(block: &Block) -> Option<Box<Self>> {
         let some = !block.point_loads.is_empty() || block.acceleration.is_some();
         some.then(|| {
@@ -418,7 +418,7 @@ impl AppliedForces {
         })
     }
 
-    /// Force and moment about the centroid at the time `t` (s) on the block of `mass` (kg) and
+    /// Force and moment about the centroid at the time `t` (s), for a block of the given `mass` (kg) and
     /// `deformation`.
     pub fn wrench(&self, deformation: DMat3, mass: f64, t: f64) -> Wrench {
         let mut wrench = Wrench {
@@ -437,7 +437,7 @@ impl AppliedForces {
     }
 }
 
-/// The value of three formulas of t (s).
+/// Values of three formulas at the time `t` (s).
 pub(crate) fn formula_values(formulas: &[Formula; 3], t: f64) -> DVec3 {
     DVec3::from_array(formulas.each_ref().map(|f| f.eval_at([0.0; 3], t)))
 }

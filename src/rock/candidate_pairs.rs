@@ -29,7 +29,7 @@ pub(super) struct CandidatePair {
     pub parts: [u32; 2],
     /// Number of periods by which the second part is shifted to its image near the first.
     pub offset: [i32; 3],
-    /// What the resolver remembers.
+    /// Cache of the resolver.
     pub cache: Cache,
     /// Its contact among all contacts, or [`NO_CONTACT`].
     pub contact: u32,
@@ -53,18 +53,18 @@ impl CandidatePair {
     }
 }
 
-/// Pose of a block when the list was made, and how far it may move from there.
+/// Pose of a block when the list was made, and the displacement that the list allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SkinReference {
     pub centre: DVec3,
     pub rotation: DQuat,
-    /// By how much its boxes were grown, m.
+    /// Margin of its boxes, m.
     pub skin_margin: f64,
 }
 
 impl SkinReference {
-    /// No point of the block has moved farther than this, m.
+    /// Upper bound of the displacement of all points of the block, m.
     fn moved(&self, body: &Body, state: &State, deforming: &DeformingBlocks) -> f64 {
         let travel = (state.centre - self.centre).length();
         if let Some(moved_by_strain) = deforming.moved_by_strain(body) {
@@ -76,7 +76,7 @@ impl SkinReference {
     }
 }
 
-/// By how much the boxes of a block are grown: half the skin, or what a fast one travels in two steps, m.
+/// Margin of the boxes of a block: half the skin, or the distance that a fast block travels in two steps, m.
 fn skin_margin(body: &Body, state: &State, deforming: &DeformingBlocks, skin: f64, dt: f64) -> f64 {
     (0.5 * skin).max(2.0 * step_travel(body, state, deforming, dt))
 }
@@ -107,7 +107,7 @@ fn skin_exceeded(
 }
 
 /// A new list that keeps the caches and contacts of the pairs of the old one. A pair in contact that is not in `new` is
-/// kept all the same: its history ends only where the resolver says so.
+/// kept: its history ends only when the resolver finds no contact.
 ///
 /// `lasting`: the components of the periodic offset that identify a pair, see [`Periods::lasting`].
 fn merged(
@@ -142,8 +142,8 @@ struct PartPair {
     pub offset: [i32; 3],
 }
 
-/// From pairs of boxes to pairs of parts, without those that are never computed: pairs of one block, and of two that forces
-/// do not move. `images`: the part of each box; without them each is its own.
+/// Converts pairs of boxes to pairs of parts, without pairs of one block and pairs of two blocks that forces
+/// do not move. `images`: the part of each box; if empty, box and part have the same number.
 ///
 /// # Errors
 /// If the list is not sorted, names a box that does not exist, or names a pair twice.
@@ -192,7 +192,7 @@ fn checked(
     Ok(list)
 }
 
-/// A tenth of the mean radius of the parts that move: boxes grow little, and the list lives for many steps.
+/// A tenth of the mean radius of the moving parts: a small margin that still keeps the list valid for many steps.
 pub(super) fn usual_skin(bodies: &[Body]) -> f64 {
     let moving = bodies.iter().filter(|body| !body.is_fixed());
     let (mut sum, mut count) = (0.0, 0.0f64);
@@ -204,8 +204,8 @@ pub(super) fn usual_skin(bodies: &[Body]) -> f64 {
 }
 
 impl Blocks {
-    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, those of fast blocks by more, and by
-    /// half the range of the films. Where space repeats, they are in the period, and the images that reach others follow.
+    /// Boxes of all parts for a [`Broadphase`], grown by half the skin, for fast blocks by more, and by
+    /// half the range of the films. In a periodic domain they are moved into the period, followed by the images that reach other boxes.
     pub fn aabbs(&self) -> Vec<Aabb> {
         let mut aabbs = self.part_aabbs();
         if let Some(periods) = &self.periods {
@@ -214,14 +214,14 @@ impl Blocks {
         aabbs
     }
 
-    /// The boxes of the parts where the blocks are.
+    /// The boxes of the parts at the present poses.
     fn part_aabbs(&self) -> Vec<Aabb> {
         let thin = self.film.as_ref().map_or(0.0, |film| 0.5 * film.reach());
         self.parts
             .aabbs(&self.bodies, |block| self.skin_margin(block) + thin)
     }
 
-    /// The period of the setup with what the blocks fill of it.
+    /// The periods of the setup, with the axes that blocks fill.
     pub(super) fn periods_of(&self, period: Period) -> Result<Periods> {
         let part_aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
         let filled = self.bodies.iter().enumerate().map(|(block, body)| {
@@ -235,7 +235,7 @@ impl Blocks {
         })
     }
 
-    /// Where space repeats.
+    /// The periods of the domain.
     pub fn period(&self) -> Option<Period> {
         self.periods.as_ref().map(|periods| periods.period)
     }
@@ -277,7 +277,7 @@ impl Blocks {
         periods.images(&self.states, &self.parts.block, &mut self.part_aabbs())
     }
 
-    /// Whether a step needs a new list of pairs first: a block has moved by half the skin, or will in this step.
+    /// Whether a step needs a new list of pairs first, because a block has moved by half the skin or will do so in this step.
     pub fn wants_pairs(&self) -> bool {
         self.skin_references.len() < self.bodies.len()
             || skin_exceeded(
@@ -289,7 +289,7 @@ impl Blocks {
             )
     }
 
-    /// The pairs of [`Blocks::aabbs`] that may touch. Caches and contacts of the pairs stay.
+    /// Sets the candidate pairs of [`Blocks::aabbs`]. Pairs keep their caches and contacts.
     ///
     /// # Errors
     /// [`Error::Argument`] if they are not sorted pairs of boxes.
@@ -315,13 +315,13 @@ impl Blocks {
         Ok(())
     }
 
-    /// By how much the boxes of a block are grown, m.
+    /// Margin of the boxes of a block, m.
     fn skin_margin(&self, block: usize) -> f64 {
         let (body, state) = (&self.bodies[block], &self.states[block]);
         skin_margin(body, state, &self.deforming, self.skin, self.pair_horizon())
     }
 
-    /// Time for which the list must stay complete, s.
+    /// Time for which the list must remain complete, s.
     fn pair_horizon(&self) -> f64 {
         // Without free blocks no step is too long, and there are no pairs.
         if self.time_step.is_finite() {
@@ -352,7 +352,7 @@ impl PlacedParts {
         parts
     }
 
-    /// The boxes of all parts, each grown by the room of its block (m). What forces do not move is one
+    /// The boxes of all parts, each grown by the margin of its block (m). All parts that forces do not move form one
     /// group.
     pub fn aabbs(&self, bodies: &[Body], skin_margin: impl Fn(usize) -> f64) -> Vec<Aabb> {
         let immovable = bodies.len() as u32;
@@ -391,7 +391,7 @@ impl PlacedParts {
         });
     }
 
-    /// Puts all parts where their blocks are.
+    /// Places all parts at the poses of their blocks.
     pub fn place_all(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let all = self.placed.iter_mut().zip(&self.block).enumerate();
         for (index, (placed, &block)) in all {
@@ -400,7 +400,7 @@ impl PlacedParts {
         }
     }
 
-    /// Puts the parts of one block where it is.
+    /// Places the parts of one block at its pose.
     pub fn place_block(&mut self, body: &Body, pose: &Pose) {
         let own = self.placed[body.parts.clone()].iter_mut();
         for (index, placed) in body.parts.clone().zip(own) {

@@ -1,4 +1,4 @@
-//! A setup that can be computed.
+//! Checks of a setup.
 
 use super::{
     Block, Deformable, Guide, Motion, Setup, Sleep,
@@ -174,7 +174,7 @@ pub(super) fn joints(setup: &Setup) -> Joints {
     }
 }
 
-/// Speed of a fixed point that rounding may leave, as a share of the speeds it is the sum of.
+/// Tolerance of the speed of a fixed point, relative to the speeds of which it is the sum.
 const SPEED_ROUNDING: f64 = 1e-12;
 
 /// # Errors
@@ -246,7 +246,7 @@ fn check_deformable(setup: &Setup, block: &Block, place: &str) -> Result<()> {
 }
 
 /// # Errors
-/// [`Error::Argument`] at `place` if a force acts on a block that no force moves, or is no number at the start.
+/// [`Error::Argument`] at `place` if a force acts on a block that is not free, or is not finite at the start.
 fn check_applied_forces(block: &Block, place: &str) -> Result<()> {
     let acts = !block.point_loads.is_empty() || block.acceleration.is_some();
     if acts && block.motion != Motion::Free {

@@ -10,52 +10,52 @@ use crate::rock::{
 };
 use glam::DVec3;
 
-/// No contact.
+/// Index that stands for no contact.
 pub(super) const NO_CONTACT: u32 = u32::MAX;
 
-/// The resolver's limit is a tenth of the smaller distance from centroid to face, of which overlaps are
-/// given as shares.
+/// Ratio of the smaller centroid-to-face distance, of which overlap limits are shares, to the limit of the
+/// resolver.
 pub(super) const DISTANCES_PER_LIMIT: f64 = 10.0;
 
-/// A contact, vectors along the world's axes.
+/// A contact. Vectors are in world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Contact {
     pub parts: [u32; 2],
     pub blocks: [u32; 2],
-    /// Shift of the second part to its image near the first, m: whole periods.
+    /// Shift of the second part to its periodic image near the first, m: whole periods.
     pub image_shift: DVec3,
     /// Point of contact, m.
     pub point: DVec3,
-    /// Where the force acts, m.
+    /// Point at which the force acts, m.
     pub pressure_centre: DVec3,
-    /// From the first to the second.
+    /// Unit normal from the first part to the second.
     pub normal: DVec3,
     /// m.
     pub overlap: f64,
-    /// That its springs count with, m²; 0 while the pair touches within rounding.
+    /// Area over which the springs act, m²; 0 while the pair touches within rounding.
     pub area: f64,
-    /// Of the section itself, which strength counts with, m².
+    /// Area of the section itself, over which the strength acts, m².
     pub section: f64,
     /// m.
     pub width: f64,
-    /// Overlap from which the blocks are no longer hard, m.
+    /// Largest overlap for which the blocks count as hard, m.
     pub limit: f64,
-    /// On the second block.
+    /// Force on the second block.
     pub force: Force,
-    /// Where its faces are bonded.
+    /// The bond between the faces; its area is 0 if there is none.
     pub bond: Bond,
-    /// Work done on the springs less that taken by friction, J.
+    /// Work done on the springs, less the work of friction, J.
     pub stored: f64,
     /// Rate of work on the springs at the end of the last step, W.
     pub power: f64,
 }
 
-/// Pairs that one thread takes at a time: enough to outweigh the handing out.
+/// Number of pairs per task: enough to outweigh the overhead of a task.
 pub(super) const CHUNK: usize = 64;
 
-/// Contacts in one list for each [`CHUNK`] pairs: each task writes a list of its own, which the
-/// step after the next uses again.
+/// Contacts in one list per [`CHUNK`] pairs. Each task writes a list of its own; the step
+/// after the next reuses it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ContactList {
     pub chunks: Vec<Chunk>,
@@ -68,11 +68,11 @@ pub(super) struct Chunk {
     pub contacts: Vec<Contact>,
     /// Films in the gaps of pairs that nearly touch.
     pub films: Vec<Film>,
-    /// What the springs held whose contact has ended in this step, J.
+    /// Energy in the springs of contacts that ended in this step, J.
     pub ended: Vec<f64>,
-    /// Room for the image of a part.
+    /// Scratch memory for the image of a part.
     pub image: Placed,
-    /// Power that the dashpots of each contact take, W.
+    /// Power of the dashpots of each contact on the blocks, W; negative if they dissipate energy.
     pub dashpots: Vec<f64>,
 }
 
@@ -87,18 +87,18 @@ impl ContactList {
         self.chunks.iter().flat_map(|chunk| &chunk.contacts)
     }
 
-    /// The films of all pairs, in their order.
+    /// The films of all pairs, in the order of the pairs.
     pub fn films(&self) -> impl Iterator<Item = &Film> {
         self.chunks.iter().flat_map(|chunk| &chunk.films)
     }
 
-    /// The contact that a pair names.
+    /// The contact of a pair, if it has one.
     pub fn of(&self, pair: &CandidatePair) -> Option<&Contact> {
         let id = pair.contact as usize;
         (pair.contact != NO_CONTACT).then(|| &self.chunks[id / CHUNK].contacts[id % CHUNK])
     }
 
-    /// All contacts into one list, and into `pairs` their places in it.
+    /// Copies all contacts into one list, and writes their indices in it into `pairs`.
     pub fn list(&self, pairs: &mut [CandidatePair], list: &mut Vec<Contact>) {
         list.clear();
         let mut firsts = Vec::with_capacity(self.chunks.len());
@@ -112,7 +112,7 @@ impl ContactList {
         }
     }
 
-    /// The contacts of a list, whose places name them, and films.
+    /// Splits a list of contacts, to which pairs refer by index, into chunks. All films go to the first chunk.
     pub fn from_list(list: &[Contact], films: &[Film]) -> Self {
         let chunk = |contacts: &[Contact]| Chunk {
             contacts: contacts.to_vec(),
@@ -134,7 +134,7 @@ pub struct ContactPoint {
     pub blocks: [usize; 2],
     /// First and second part, among the parts of all blocks.
     pub parts: [usize; 2],
-    /// Where the force acts on the first block, m.
+    /// Point at which the force acts on the first block, m.
     pub point: DVec3,
     /// Shift of the second block to its image near the first, m: zero, or whole periods.
     pub image_shift: DVec3,
@@ -144,11 +144,12 @@ pub struct ContactPoint {
     pub force: DVec3,
     /// Overlap, m.
     pub overlap: f64,
-    /// Area that its springs count with, m².
+    /// Area over which its springs act, m².
     pub area: f64,
-    /// Area of the section itself, m², with which cohesion counts: less than `area` where that is of a corner.
+    /// Area of the section itself, m², over which cohesion acts: smaller than `area` if
+    /// [`Setup::corner_area`](super::Setup::corner_area) applies.
     pub section: f64,
-    /// Whether its tensile strength still holds.
+    /// Whether its bond is intact.
     pub bonded: bool,
 }
 
@@ -169,18 +170,18 @@ impl ContactPoint {
     }
 }
 
-/// Sum of the contacts of one block.
+/// Sums over the contacts of one block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactSum {
     /// N.
     pub force: DVec3,
     /// About its centroid, N m.
     pub torque: DVec3,
-    /// Springs that hold it.
+    /// Stiffness of the springs that act on it.
     pub stiffness: Stiffness,
 }
 
-/// The sums of all blocks, in the order of the contacts.
+/// Sums the contacts of each block into `contact_sums`, in the order of the contacts.
 pub(super) fn sum_contacts(
     contacts: &ContactList,
     bodies: &[Body],
@@ -204,7 +205,7 @@ pub(super) fn sum_contacts(
             let arm = at - mid_steps[block].centre;
             sum.force += force;
             sum.torque += arm.cross(force) + moment;
-            // Among rigid blocks alone the bodies, which are far away in memory, are not read.
+            // If all blocks are rigid, the bodies, which are far away in memory, are not read.
             let (arm, width) = match deforming.is_empty() {
                 true => (arm, contact.width),
                 false => deforming.lever(&bodies[block], arm, contact.width),

@@ -1,7 +1,7 @@
-//! Deformable blocks: their deformation and how they move.
+//! Deformable blocks: their deformation and motion.
 //!
-//! They stand in the lists of all blocks like any other, so that contacts, pairs and output see no difference;
-//! their deformations are in lists of their own, which scenes of rigid blocks leave empty.
+//! They are in the lists of all blocks like rigid ones, so that contacts, pairs and output need no distinction.
+//! Their deformations are in separate lists, which are empty in scenes of rigid blocks.
 
 use super::{
     Block, Blocks, Body, Material,
@@ -19,21 +19,21 @@ use crate::{
 use glam::{DMat3, DVec3};
 use rayon_cond::CondIterator;
 
-/// In place of a number of a deforming block: it is rigid.
+/// Index that marks a rigid block.
 pub(super) const RIGID: u32 = u32::MAX;
 
-/// What stays of one.
+/// Constants of a deformable block.
 #[derive(Clone, Debug)]
 pub(super) struct Deforming {
-    /// Its number among all blocks.
+    /// Index among all blocks.
     pub block: usize,
     pub affine: Affine,
     pub constraints: PointConstraints,
-    /// Lever of its farthest vertex, m.
+    /// Largest lever arm of a vertex, m.
     pub reach: f64,
 }
 
-/// What changes of one, between two steps.
+/// State of a deformable block between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Strain {
@@ -50,7 +50,7 @@ pub(super) struct Strain {
 }
 
 impl Default for Strain {
-    /// None, at rest. Not derived: the default of a matrix is the identity.
+    /// No deformation, at rest. Not derived, because the default of a matrix is the identity.
     fn default() -> Self {
         Self {
             deformation: DMat3::IDENTITY,
@@ -68,7 +68,7 @@ impl Strain {
         self.rate * self.deformation.inverse()
     }
 
-    /// Whether it can be computed with and is not turned inside out.
+    /// Whether it is finite and has det F > 0.
     pub fn is_sound(&self) -> bool {
         self.rate.is_finite()
             && self.deformation.is_finite()
@@ -76,7 +76,7 @@ impl Strain {
     }
 }
 
-/// Where a block is and how it moves.
+/// Pose and motion of a block.
 pub(super) fn pose(body: &Body, state: &State, strains: &[Strain]) -> Pose {
     if body.deforming == RIGID {
         return state.pose();
@@ -90,12 +90,12 @@ pub(super) fn pose(body: &Body, state: &State, strains: &[Strain]) -> Pose {
     }
 }
 
-/// Result of the first half of a step of one.
+/// Result of the first half of a step of a deformable block.
 #[derive(Clone, Copy, Debug, Default)]
 struct TrialStep {
     state: State,
     mid_step: MidStep,
-    /// ∂v/∂x: the mean of the step, and that expected at its end, 1/s.
+    /// ∂v/∂x, 1/s: the mean over the step, and the value expected at its end.
     gradients: [DMat3; 2],
 }
 
@@ -104,7 +104,7 @@ struct TrialStep {
 pub(super) struct DeformingBlocks {
     pub list: Vec<Deforming>,
     pub strains: Vec<Strain>,
-    /// What a step writes before it is known to be good.
+    /// Results of a step until it is known to be valid.
     pub next: Vec<Strain>,
     trials: Vec<TrialStep>,
 }
@@ -123,7 +123,7 @@ pub(super) struct StepParams {
 }
 
 impl DeformingBlocks {
-    /// Adds the block `index`, if it deforms, and says which of these it is.
+    /// Adds the block `index`, if it deforms; returns its index among the deformable blocks.
     pub fn add(&mut self, index: usize, block: &Block, material: &Material) -> u32 {
         let (Some(deformable), Some(elastic)) = (&block.deformable, material.elastic) else {
             return RIGID;
@@ -174,13 +174,13 @@ impl DeformingBlocks {
         self.list.is_empty()
     }
 
-    /// The one that `body` is, with its state.
+    /// The deformable block of `body`, with its state.
     pub fn of(&self, body: &Body) -> Option<(&Deforming, &Strain)> {
         let k = body.deforming as usize;
         (body.deforming != RIGID).then(|| (&self.list[k], &self.strains[k]))
     }
 
-    /// What the step that is being computed makes of `body`.
+    /// The deformation of `body` in the present step.
     pub fn of_next(&self, body: &Body) -> Option<&Strain> {
         (body.deforming != RIGID).then(|| &self.next[body.deforming as usize])
     }
@@ -190,9 +190,9 @@ impl DeformingBlocks {
         (body.deforming != RIGID).then(|| &self.trials[body.deforming as usize].gradients)
     }
 
-    /// Arm and width, m, with which a contact of `width` (m) at `arm` (m from the centroid, world) counts for
-    /// the longest step: as they are for a rigid block. One that deforms has its lever against the smallest
-    /// second moment, and no section of it reaches farther than its vertices.
+    /// Arm and width, m, of a contact of `width` (m) at `arm` (m from the centroid, world) in the bound of
+    /// the time step: unchanged for a rigid block. A deformable block has its lever against the smallest
+    /// second moment, and no section of it extends beyond its vertices.
     pub fn lever(&self, body: &Body, arm: DVec3, width: f64) -> (DVec3, f64) {
         let Some((one, strain)) = self.of(body) else {
             return (arm, width);
@@ -201,7 +201,7 @@ impl DeformingBlocks {
         (DVec3::X * lever.hypot(0.5 * width).min(one.reach), 0.0)
     }
 
-    /// Speed of the fastest point of a block, m/s, or a bound of it.
+    /// Speed of the fastest point of a block, m/s, or an upper bound of it.
     pub fn fastest(&self, body: &Body, state: &State) -> f64 {
         match self.of(body) {
             None => state.fastest(body.radius),
@@ -209,20 +209,20 @@ impl DeformingBlocks {
         }
     }
 
-    /// No point of a block has moved farther by its deformation since the pairs were found, m.
+    /// Upper bound of the displacement of all points of a block by its deformation since the pairs were found, m.
     pub fn moved_by_strain(&self, body: &Body) -> Option<f64> {
         let (_, strain) = self.of(body)?;
         Some(norm(strain.deformation - strain.skin_reference) * body.radius)
     }
 
-    /// The pairs are found where the blocks are now.
+    /// Records the present deformations, at which the pairs were found.
     pub fn set_skin_reference(&mut self) {
         for strain in &mut self.strains {
             strain.skin_reference = strain.deformation;
         }
     }
 
-    /// How they move before the first step.
+    /// Sets the motion before the first step.
     pub fn at_start(&mut self) {
         for (trial, strain) in self.trials.iter_mut().zip(&self.strains) {
             trial.gradients = [DMat3::ZERO, strain.gradient()];
@@ -230,8 +230,8 @@ impl DeformingBlocks {
         self.next.clone_from(&self.strains);
     }
 
-    /// Kick and drift of all over a step, into `states` and `mid_steps`; the first block that is nowhere, or
-    /// turned inside out.
+    /// Kick and drift of all deformable blocks over a step, into `states` and `mid_steps`. Returns the first block whose
+    /// state is not finite or has det F ≤ 0.
     pub fn kick_drift(
         &mut self,
         bodies: &[Body],
@@ -299,7 +299,7 @@ impl DeformingBlocks {
 /// Acceleration of a deformable block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Acceleration {
-    /// Of the centroid, m/s².
+    /// Acceleration of the centroid, m/s².
     pub centre: DVec3,
     /// F̈, 1/s².
     pub deformation: DMat3,
@@ -365,10 +365,10 @@ impl Deforming {
             ..*strain
         };
         let inverse = next.deformation.inverse();
-        // Without a rotation there is nothing to turn with; the step is refused.
+        // Without a rotation the step is refused.
         if next.is_sound() {
             let rotation = integrate::polar(next.deformation);
-            // Of the two quaternions the one that follows on.
+            // The one of the two quaternions that is continuous.
             let follows = rotation.dot(before.rotation) >= 0.0;
             state.rotation = if follows { rotation } else { -rotation };
         }
@@ -404,12 +404,12 @@ impl Deforming {
     }
 }
 
-/// The moment Σ f ⊗ r of a torque (N m) alone.
+/// The moment Σ f ⊗ r of a pure torque (N m).
 pub(super) fn couple(torque: DVec3) -> DMat3 {
     crate::geometry::skew(torque) * 0.5
 }
 
-/// Frobenius norm: no vector grows by more.
+/// Frobenius norm, an upper bound of the growth of any vector.
 fn norm(a: DMat3) -> f64 {
     let columns = [a.x_axis, a.y_axis, a.z_axis];
     columns
@@ -420,7 +420,7 @@ fn norm(a: DMat3) -> f64 {
 }
 
 impl Blocks {
-    /// Whether some block deforms.
+    /// Whether any block is deformable.
     pub fn any_deforms(&self) -> bool {
         !self.deforming.is_empty()
     }
@@ -448,7 +448,7 @@ impl Blocks {
         Some(one.affine.strain_energy(strain.deformation))
     }
 
-    /// Force with which the fixed points of a block hold it, N; none if it has no fixed points.
+    /// Force of the fixed points on a block, N; `None` if it has no fixed points.
     pub fn support(&self, block: usize) -> Option<DVec3> {
         let body = &self.bodies[block];
         let (one, strain) = self.deforming.of(body)?;

@@ -1,4 +1,4 @@
-//! The energy ledger: where the energy is and where it went. Works follow the trapezoidal rule over a step, as in velocity Verlet.
+//! The energy ledger: energies of the blocks and works on them. Works follow the trapezoidal rule over a step, as in velocity Verlet.
 
 use super::{
     Body,
@@ -11,41 +11,41 @@ use crate::{geometry::skew, rock::law::inner};
 use glam::{DMat3, DVec3};
 use rayon_cond::CondIterator;
 
-/// Energies since the start, J.
+/// Present energies, and works since the start, J.
 ///
-/// A block's kinetic and potential energy counts only if it is free. The law's springs conserve energy
-/// only while the area of their contact stays (k_n A u_n has a potential in u_n alone): what they hold is
-/// therefore the work that was done on them, and what they still hold when their contact ends is counted
+/// Only free blocks contribute kinetic and potential energy. The springs of the contact law conserve energy
+/// only while the area of their contact is constant (k_n A u_n has a potential in u_n alone). Their energy is
+/// therefore defined as the work done on them, and the energy left when their contact ends is counted
 /// as `lost`, positive or negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
-    /// ½mv² + ½ω·L of the free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of those that deform.
+    /// ½mv² + ½ω·L of the rigid free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of the deformable ones.
     pub kinetic: f64,
-    /// −m g·x of the free blocks, from the origin of the coordinates.
+    /// −m g·x of the free blocks, relative to the origin.
     pub potential: f64,
-    /// ∫ ½E:C:E + σ₀:E of the blocks that deform.
+    /// ∫ ½E:C:E + σ₀:E of the deformable blocks.
     pub strain: f64,
-    /// Work done on the springs of the present contacts, less what friction took of it. Negative where the area of a
-    /// contact grew while it was pressed: its springs then give back more than they took.
+    /// Work done on the springs of the present contacts, less the work of friction. Negative if the area of a
+    /// contact grew while it was compressed: its springs then return more energy than they took up.
     pub elastic: f64,
-    /// Taken by friction.
+    /// Dissipated by friction.
     pub friction: f64,
-    /// Taken by the dashpots of the contacts.
+    /// Dissipated by the dashpots of the contacts.
     pub dashpot: f64,
-    /// Taken by the mass damping α.
+    /// Dissipated by the mass damping α.
     pub mass_damping: f64,
-    /// Taken by films of fluid between blocks that nearly touch.
+    /// Dissipated by films of fluid between blocks that nearly touch.
     pub film: f64,
-    /// Held by springs whose contact ended: what the contact law took out, or put in where it is negative.
+    /// Energy of springs whose contact ended: lost by the contact law, or gained if negative.
     pub lost: f64,
-    /// Done on the blocks by what moves the driven ones.
+    /// Work done by driven blocks.
     pub driven: f64,
-    /// Done on the blocks by external loads, point loads and accelerations.
+    /// Work done on the blocks by external loads, point loads and accelerations.
     pub loads: f64,
 }
 
 impl EnergyLedger {
-    /// What is there and what was taken, less what was put in: constant but for the error of the time
+    /// Present and dissipated energy, less the work done on the blocks: constant up to the error of the time
     /// integration.
     pub fn balance(&self) -> f64 {
         self.kinetic + self.potential + self.strain + self.elastic + self.taken()
@@ -53,7 +53,7 @@ impl EnergyLedger {
             - self.loads
     }
 
-    /// Taken for good.
+    /// Dissipated energy.
     pub fn taken(&self) -> f64 {
         self.friction + self.dashpot + self.mass_damping + self.film + self.lost
     }
@@ -66,7 +66,7 @@ pub(super) struct WorkSums {
     pub friction: f64,
     pub lost: f64,
     pub film: f64,
-    /// Of the dashpots, the mass damping, the drives and the loads.
+    /// Work of the dashpots, the mass damping, the driven blocks and the loads.
     pub work: [f64; 4],
     pub power: [f64; 4],
 }
@@ -80,11 +80,11 @@ pub(super) struct BodyStates<'a> {
 }
 
 impl BodyStates<'_> {
-    /// Velocity of a block where it is at `at` (m), m/s.
+    /// Velocity of a block at the point `at` (m), m/s.
     fn velocity(&self, block: usize, at: DVec3) -> DVec3 {
         let state = &self.states[block];
         let r = at - state.centre;
-        // Among rigid blocks alone the bodies, which are far away in memory, are not read.
+        // If all blocks are rigid, the bodies, which are far away in memory, are not read.
         let strained = !self.deforming.is_empty();
         let strain = strained
             .then(|| self.deforming.of(&self.bodies[block]))
@@ -97,7 +97,7 @@ impl BodyStates<'_> {
 }
 
 impl WorkSums {
-    /// Adds the works of a step that ends with `contacts` and the velocities of `all`.
+    /// Adds the work of a step that ends with `contacts` and the velocities of `all`.
     pub fn add_step(
         &mut self,
         all: BodyStates<'_>,
@@ -114,7 +114,7 @@ impl WorkSums {
         let chunks = CondIterator::new(&mut contacts.chunks, many);
         chunks.for_each(|chunk| work(chunk, &all, dt));
         let mut power = [0.0; 4];
-        // One after the other: the bits must not depend on the number of threads.
+        // Sequential, so that the bits do not depend on the number of threads.
         for chunk in &contacts.chunks {
             for (contact, dashpots) in chunk.contacts.iter().zip(&chunk.dashpots) {
                 power[0] -= dashpots;
@@ -139,7 +139,7 @@ impl WorkSums {
         self.power = power;
     }
 
-    /// Takes new loads over: the next step begins under them at the time `t` (s).
+    /// Sets the power of changed loads, under which the next step begins at the time `t` (s).
     pub fn reload(&mut self, all: BodyStates<'_>, t: f64) {
         let each = all.bodies.iter().zip(all.states);
         let free = each.filter(|(body, _)| body.is_free());
@@ -185,7 +185,7 @@ impl WorkSums {
     }
 }
 
-/// Works on the springs of some contacts in a step of `dt` (s), and the powers at its end.
+/// Computes the work on the springs of a chunk of contacts in a step of `dt` (s), and the powers at its end.
 fn work(chunk: &mut Chunk, all: &BodyStates<'_>, dt: f64) {
     chunk.dashpots.clear();
     for contact in &mut chunk.contacts {

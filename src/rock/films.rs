@@ -1,10 +1,10 @@
-//! Films of fluid between blocks that nearly touch: they resist the closing, opening and tilting of the gap.
+//! Films of fluid between blocks that nearly touch, which resist the closing, opening and tilting of the gap.
 //!
-//! A film takes from the relative motion u of a pair along one direction at the rate c u, with c that grows beyond
-//! all bounds as the gap closes. Its impulses are those of the implicit Euler step for all films together,
+//! A film resists the relative motion u of a pair along one direction with the force c u, and c diverges
+//! as the gap closes. Its impulses are those of the implicit Euler step for all films together,
 //! λ = −c (Δt/2) u(λ), on the velocities in the middle of a step and on those at its end: whatever the step, they are
-//! equal and opposite, take energy only, and let a load W press a gap together at W/c. The part of c that stands for loads
-//! that come late (see [`law::LoadDelay`]) acts on u less its mean over the last steps, and may give energy for that long.
+//! equal and opposite, only dissipate energy, and let a load W close a gap at the velocity W/c. The part of c that corrects the delay
+//! of loads (see [`law::LoadDelay`]) acts on u less its mean over the last steps, and may give energy for that long.
 
 use super::{
     Body,
@@ -15,13 +15,13 @@ use super::{
 use crate::rock::{contact::ThinGap, integrate, law};
 use glam::DVec3;
 
-/// Residual, as a share of the first one, at which the impulses are known: far below the velocity to which a film
-/// of a thousandth of the step's own time slows a pair.
+/// Residual, as a share of the first one, at which the iteration ends: far below the velocity to which a film
+/// with a thousandth of the step as its time constant slows a pair.
 const RESIDUAL_TOLERANCE: f64 = 1e-13;
-/// Iterations at most for each film; as many as there are films would do without rounding.
+/// Largest number of iterations per film; without rounding one per film suffices.
 const ITERATIONS_PER_FILM: usize = 3;
 
-/// In place of an index: the block has no films.
+/// Index that marks a block without films.
 const NO_BODY: u32 = u32::MAX;
 
 /// One mode, closing or tilt, in which one gap resists.
@@ -29,13 +29,13 @@ const NO_BODY: u32 = u32::MAX;
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Film {
     pub blocks: [u32; 2],
-    /// Along which the second block moves away from the first; zero for a tilt.
+    /// Direction in which the second block moves away from the first; zero for a tilt.
     pub normal: DVec3,
-    /// What the spin of each block adds to that: r × n, m, or the axis of a tilt.
+    /// Factor of the spin of each block: r × n, m, or the axis of a tilt.
     pub arms: [DVec3; 2],
     /// N s/m, or N m s.
     pub resistance: f64,
-    /// Its part that acts on changes of the velocity only.
+    /// The part of it that acts on changes of the velocity only.
     pub delayed: f64,
 }
 
@@ -49,7 +49,7 @@ impl Film {
     ) -> impl Iterator<Item = Self> {
         let slips = |block: u32| law.slip.binary_search(&(block as usize)).is_ok();
         let slips = blocks.map(slips);
-        // Where fluid slips along one side of a gap, twice as wide a one would be symmetric about it.
+        // A gap with slip on one side is half of a symmetric gap of twice the width.
         let share = if slips[0] == slips[1] { 1.0 } else { 0.25 };
         let normal = thin_gap.normal;
         let delay = law.delay.map(|delay| delay.resistance(thin_gap));
@@ -73,7 +73,7 @@ impl Film {
         all.filter(|film| film.resistance > 0.0)
     }
 
-    /// Velocity, or rate of tilt, at which its gap opens, of the velocities and spins of the two blocks.
+    /// Velocity, or rate of tilt, at which the gap opens, from the velocities and spins of the two blocks.
     fn opening(&self, [[v, spin], [other_v, other_spin]]: [[DVec3; 2]; 2]) -> f64 {
         self.normal.dot(other_v - v) + self.arms[1].dot(other_spin) - self.arms[0].dot(spin)
     }
@@ -98,7 +98,7 @@ struct FilmBody {
     spin: DVec3,
     /// Mean velocity and spin over the last steps.
     mean: [DVec3; 2],
-    /// 1/kg; 0 of what impulses do not move.
+    /// 1/kg; 0 for a block that impulses do not move.
     inverse_mass: f64,
     /// Change of velocity and spin by a direction of the impulses.
     direction_response: [DVec3; 2],
@@ -114,11 +114,11 @@ struct Row {
     ends: [usize; 2],
     /// Relative velocity at the start of the half step.
     before: f64,
-    /// What of that its resistance does not act on.
+    /// The part of it on which the resistance does not act.
     steady: f64,
-    /// What a unit of impulse does to the spin of each block.
+    /// Change of the spin of each block by a unit impulse.
     spin_response: [DVec3; 2],
-    /// Its place on the diagonal, without 1/κ.
+    /// Its diagonal element, without 1/κ.
     yielding: f64,
     impulse: f64,
     residual: f64,
@@ -127,7 +127,7 @@ struct Row {
     image: f64,
 }
 
-/// The films of a step, its memory used again and again.
+/// The films of a step, in memory that all steps reuse.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Films {
     /// Index of each block among the film bodies, or [`NO_BODY`]; empty before the first film.
@@ -139,7 +139,7 @@ pub(super) struct Films {
 }
 
 impl Films {
-    /// Finds the pushes in the first half of a step, of the films of `contacts`; returns the energy that they take, J.
+    /// Finds the impulses of the films of `contacts` in the first half of a step; returns the energy that they dissipate, J.
     pub fn first_half(
         &mut self,
         bodies: &[Body],
@@ -158,7 +158,7 @@ impl Films {
         self.solve()
     }
 
-    /// Remembers how blocks move before the second half of a step.
+    /// Stores the motion of the blocks before the second half of a step.
     pub fn before_second_half(
         &mut self,
         bodies: &[Body],
@@ -168,8 +168,8 @@ impl Films {
         self.begin(bodies, states, contacts);
     }
 
-    /// Adds the pushes in the second half of the step to `states` as it left them; returns the energy that they
-    /// take, J.
+    /// Adds the impulses of the second half of the step to `states`; returns the energy that they
+    /// dissipate, J.
     pub fn second_half(&mut self, bodies: &[Body], states: &mut [State]) -> f64 {
         for film_body in &mut self.film_bodies {
             let state = &states[film_body.block];
@@ -256,7 +256,7 @@ impl Films {
             self.film_bodies.push(FilmBody {
                 block,
                 velocity: state.velocity,
-                // In the middle of a step the spin of a free body is not that of its momentum yet.
+                // In the middle of a step the spin of a free body does not match its angular momentum yet.
                 spin: match inverse_mass > 0.0 {
                     true => integrate::spin(&body.inertia, state.rotation, state.momentum),
                     false => state.spin,
@@ -276,7 +276,7 @@ impl Films {
             .opening(ends.map(|body| [body.velocity, body.spin]))
     }
 
-    /// Solves for the impulses of half a step, and returns the energy that they take, J.
+    /// Solves for the impulses of half a step, and returns the energy that they dissipate, J.
     fn solve(&mut self) -> f64 {
         let half = 0.5 * self.dt;
         if self.rows.is_empty() || half == 0.0 {
@@ -343,7 +343,7 @@ impl Films {
         product
     }
 
-    /// Makes pushes of the impulses, and returns the energy that they take, J: they meet the mean of the velocities
+    /// Adds up the impulses per block and returns the energy that they dissipate, J, with the mean of the velocities
     /// at the start and at the end of the half step.
     fn apply(&mut self) -> f64 {
         for row in &self.rows {

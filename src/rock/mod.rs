@@ -1,7 +1,7 @@
-//! Blocks that move: their poses, their loads, and the step of all of them.
+//! Moving blocks: poses, loads, contacts and time integration.
 //!
-//! [`Blocks`] owns the state. A step is kick, drift, the contacts of the candidate pairs, kick; which pairs
-//! are candidates says a [`Broadphase`](crate::rock::broadphase::Broadphase) of the caller's. Forces are summed
+//! [`Blocks`] owns the state. A step is kick, drift, the contacts of the candidate pairs, kick. The caller provides a
+//! [`Broadphase`](crate::rock::broadphase::Broadphase), which finds the candidate pairs. Forces are summed
 //! in the order of the pairs, so that the bits do not depend on the number of threads.
 //!
 //! ```

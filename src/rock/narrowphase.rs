@@ -1,4 +1,4 @@
-//! The forces of all contacts and bonds: in parallel over many pairs, in the order of the pairs.
+//! Contacts and bonds of all candidate pairs and their forces, in parallel, with results in the order of the pairs.
 
 use super::{
     Body,
@@ -25,11 +25,11 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-/// Share of the square of a block's width that one of the four corners of its face carries: see
+/// Area that one of the four corners of a face carries, relative to the square of the block's width: see
 /// [`Setup::corner_area`](super::Setup::corner_area).
 const CORNER_SHARE: f64 = 0.25;
 
-/// Parts and blocks of a pair, and the image of the second part that it means.
+/// Parts and blocks of a pair, and the periodic image of the second part.
 #[derive(Clone, Copy, Debug)]
 struct PairIds {
     pub parts: [u32; 2],
@@ -38,7 +38,7 @@ struct PairIds {
     pub image_shift: DVec3,
 }
 
-/// What the contacts are computed from.
+/// Input of the computation of contacts.
 pub(super) struct Narrowphase<'a> {
     pub bodies: &'a [Body],
     pub mid_steps: &'a [MidStep],
@@ -49,7 +49,7 @@ pub(super) struct Narrowphase<'a> {
     pub contacts: &'a ContactList,
     /// s; 0 at the start.
     pub time_step: f64,
-    /// Whether faces that touch now are bonded.
+    /// Whether faces that touch in this step are bonded.
     pub bonding: bool,
     /// Largest overlap, as a share of the smaller distance from centroid to face.
     pub largest_overlap: f64,
@@ -73,10 +73,10 @@ impl Joints {
     }
 }
 
-/// Resolves all `pairs` into `next`; their contacts into `found`, whatever the number of threads.
+/// Resolves all `pairs` into `next`, with their contacts in `found`. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// That of the first pair that cannot be resolved.
+/// The error of the first pair that cannot be resolved.
 pub(super) fn resolve(
     narrowphase: &Narrowphase<'_>,
     resolver_pool: &mut ResolverPool,
@@ -128,7 +128,7 @@ impl Narrowphase<'_> {
                 None => NO_CONTACT,
             };
             if let (Some(before), None) = (before, contact) {
-                // Its force acted during the first half of the step.
+                // Its force has acted during the first half of the step.
                 let stored = before.stored + 0.5 * self.time_step * before.power;
                 found.ended.push(stored);
             }
@@ -146,7 +146,7 @@ impl Narrowphase<'_> {
     ) -> Result<Option<Contact>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
         if blocks.iter().all(|&b| self.mid_steps[b as usize].rests) {
-            // Nothing slips where nothing moves.
+            // Without relative motion there is no slip.
             return Ok(before.map(|contact| Contact {
                 force: law::Force {
                     friction: 0.0,
@@ -222,7 +222,7 @@ impl Narrowphase<'_> {
         })
     }
 
-    /// Refuses a contact that is too deep.
+    /// Returns an error if the penetration of a contact is too deep.
     fn check_depth(&self, contact: Contact, blocks: [u32; 2]) -> Result<Contact> {
         let limit = DISTANCES_PER_LIMIT * self.largest_overlap * contact.limit;
         if contact.overlap <= limit {
@@ -319,8 +319,8 @@ impl Narrowphase<'_> {
         }
     }
 
-    /// What deformation adds to the velocity of the second of two blocks against the first, over the step and
-    /// at its end, m/s: the symmetric part of ∂v/∂x, whose skew part is the spin.
+    /// Contribution of deformation to the velocity of the second block relative to the first, over the step and
+    /// at its end, m/s: that of the symmetric part of ∂v/∂x; the skew part is the spin.
     fn strain_velocity(&self, blocks: [u32; 2], arms: [DVec3; 2]) -> [DVec3; 2] {
         let mut sums = [DVec3::ZERO; 2];
         for ((block, arm), sign) in blocks.into_iter().zip(arms).zip([-1.0, 1.0]) {
@@ -340,7 +340,7 @@ impl Narrowphase<'_> {
         label(block as usize, &self.bodies[block as usize].name)
     }
 
-    /// The contact of a bond at the present poses of its parts; none where it breaks.
+    /// The contact of a bond at the present poses of its parts; `None` if it breaks.
     fn bonded_contact(
         &self,
         ids: PairIds,
@@ -393,7 +393,7 @@ impl Narrowphase<'_> {
     }
 }
 
-/// A block in a message.
+/// The name of a block for a message.
 pub(super) fn label(index: usize, name: &str) -> String {
     format!("blocks[{index}] ({name})")
 }
@@ -407,7 +407,7 @@ fn unbonded(contact: &Contact) -> History {
     }
 }
 
-/// One resolver a thread.
+/// One resolver per thread.
 pub(super) struct ResolverPool {
     options: Options,
     one_a_thread: Vec<Mutex<Resolver>>,
@@ -430,7 +430,7 @@ impl ResolverPool {
         }
     }
 
-    /// What all of them have done.
+    /// Counters summed over all threads.
     pub fn counts(&self) -> Counts {
         let mut sum = Counts::default();
         for resolver in &self.one_a_thread {
@@ -440,7 +440,7 @@ impl ResolverPool {
         sum
     }
 
-    /// Makes as many as there are `threads`.
+    /// Creates one for each of the `threads`.
     pub fn prepare(&mut self, threads: usize) {
         let options = self.options;
         let new = || Mutex::new(Resolver::new(options));
@@ -449,11 +449,11 @@ impl ResolverPool {
         }
     }
 
-    /// Lends this thread's to `work`.
+    /// Runs `work` with the resolver of this thread.
     pub fn with<T>(&self, work: impl FnOnce(&mut Resolver) -> T) -> T {
         let thread = rayon::current_thread_index().unwrap_or(0);
         let resolver = &self.one_a_thread[thread % self.one_a_thread.len()];
-        // A resolver holds nothing from one pair to the next: one that a panic left is as good.
+        // A resolver keeps no state between pairs, so that it is still valid after a panic.
         work(&mut resolver.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }

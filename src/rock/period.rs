@@ -1,27 +1,27 @@
-//! Space that repeats, and the images of blocks in it.
+//! Periodic domains, and the images of blocks in them.
 //!
-//! Blocks go on in the coordinates of the world, however many periods away. A search for pairs sees each part in
-//! the one period and, where its box reaches a neighbour's, its images in the next ones; a pair is two parts and the
+//! Blocks keep the coordinates of the world, however many periods away. The broadphase gets each part in
+//! the first period and, if its box reaches other boxes there, its images in adjacent periods. A pair is two parts and the
 //! number of periods by which the second is shifted to its image near the first.
 
 use super::{Body, body::State};
 use crate::{Error, Result, rock::broadphase::Aabb};
 use glam::DVec3;
 
-/// How far beyond a period a block may reach and count as one that fills it: the rounding of scenes.
+/// Tolerance for a block that fills a period: the rounding of coordinates in scenes.
 const FILLED: f64 = 1.0 + 1e-9;
 
-/// A box that repeats along some axes.
+/// A box that is periodic along some axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     /// Lower corner, m.
     pub origin: DVec3,
-    /// Edges, m; infinite along axes that do not repeat.
+    /// Edges, m; infinite along axes that are not periodic.
     pub size: DVec3,
 }
 
 impl Period {
-    /// Whether space repeats along an axis.
+    /// Whether an axis is periodic.
     fn repeats(&self, axis: usize) -> bool {
         self.size[axis].is_finite()
     }
@@ -35,7 +35,7 @@ impl Period {
         DVec3::new(shift(0), shift(1), shift(2))
     }
 
-    /// Number of periods from the first period to that of a place.
+    /// Number of periods from the first period to that of a point.
     fn offset(&self, place: DVec3) -> [i32; 3] {
         [0, 1, 2].map(|axis| match self.repeats(axis) {
             true => ((place[axis] - self.origin[axis]) / self.size[axis]).floor() as i32,
@@ -43,12 +43,12 @@ impl Period {
         })
     }
 
-    /// A place moved into the one period, m.
+    /// A point moved into the first period, m.
     pub(crate) fn wrapped(&self, place: DVec3) -> DVec3 {
         place - self.shift(self.offset(place))
     }
 
-    /// Shift to the nearest image of something at a distance vector `separation` (m) from something else, m.
+    /// Shift to the nearest image of a point at the distance vector `separation` (m) from another point, m.
     pub fn nearest(&self, separation: DVec3) -> DVec3 {
         let offset = [0, 1, 2].map(|axis| match self.repeats(axis) {
             true => -(separation[axis] / self.size[axis]).round() as i32,
@@ -57,8 +57,8 @@ impl Period {
         self.shift(offset)
     }
 
-    /// Shifts to the images of something at a distance vector `separation` (m) from something else that are within `range`
-    /// (m) of it along each axis, m: the nearest image, and at most one on each side of it.
+    /// Shifts to the images of a point, at the distance vector `separation` (m) from another point, that are within `range`
+    /// (m) of that point along each axis, m: the nearest image, and at most one on each side of it.
     pub(crate) fn image_shifts(&self, separation: DVec3, range: f64) -> Vec<DVec3> {
         let nearest = self.nearest(separation);
         let mut image_shifts = vec![nearest];
@@ -90,7 +90,7 @@ impl Period {
         Err(Error::argument("period", message))
     }
 
-    /// Along which axes a body at the start fills more than the period. What is fixed then is the same in all of them.
+    /// Axes along which a body at the start extends over more than the period. A fixed body then fills all periods.
     ///
     /// # Errors
     /// [`Error::Argument`] if it can move: it would overlap its own image.
@@ -115,25 +115,25 @@ impl Period {
     }
 }
 
-/// A part where a search sees it.
+/// A part at its position for the broadphase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Image {
     pub part: u32,
-    /// Periods by which it is moved back.
+    /// Number of periods by which it is shifted.
     pub offset: [i32; 3],
 }
 
-/// The periods of all blocks.
+/// The period, and the axes along which blocks fill it.
 #[derive(Clone, Debug)]
 pub(super) struct Periods {
     pub period: Period,
-    /// Axes along which a block fills more than the period and has no images.
+    /// Axes along which each block is longer than the period and has no images.
     pub filled: Vec<[bool; 3]>,
 }
 
 impl Periods {
-    /// Moves the boxes of all parts into the period and adds their images in the neighbouring ones, as far as they
-    /// reach another box there. `block`: that of each part.
+    /// Moves the boxes of all parts into the period, and adds their images in the neighbouring periods that reach the
+    /// region of the boxes. `block`: block of each part.
     pub fn images(&self, states: &[State], block: &[u32], aabbs: &mut Vec<Aabb>) -> Vec<Image> {
         let mut images: Vec<Image> = Vec::with_capacity(aabbs.len());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -180,8 +180,8 @@ impl Periods {
         images
     }
 
-    /// What stays the same of the periods between two blocks while one of them goes through the border: those along
-    /// axes that neither fills.
+    /// The components of a periodic offset that identify a pair while a block crosses the boundary: those along
+    /// axes that neither block fills.
     pub fn lasting(&self, blocks: [u32; 2], offset: [i32; 3]) -> [i32; 3] {
         let [a, b] = blocks.map(|block| self.filled[block as usize]);
         std::array::from_fn(|axis| if a[axis] || b[axis] { 0 } else { offset[axis] })

@@ -1,4 +1,4 @@
-//! Pushing apart what overlaps before the first step.
+//! Removes overlaps of blocks before the first step.
 
 use super::{Blocks, contact_list::DISTANCES_PER_LIMIT, deforming::pose};
 use crate::{
@@ -14,12 +14,12 @@ use glam::DVec3;
 impl Blocks {
     /// Pushes blocks apart along their contact normals, each by its share of the two masses, pair after
     /// pair, until none overlaps by more than [`Setup::start_overlap`](super::Setup::start_overlap);
-    /// nothing turns, and fixed and driven blocks stay. Velocities stay as they are.
+    /// no block rotates, fixed and driven blocks do not move, and velocities do not change.
     ///
     /// Returns the number of sweeps over all pairs, at most `sweeps`.
     ///
     /// # Errors
-    /// [`Error::Overlaps`] with what is left after `sweeps`; the blocks stay where they got to. Those of
+    /// [`Error::Overlaps`] with the overlap left after `sweeps`; the blocks keep their last positions. The errors of
     /// the broadphase.
     pub async fn relax(
         &mut self,
@@ -42,7 +42,7 @@ impl Blocks {
         Err(Error::Overlaps { pairs: left })
     }
 
-    /// One sweep; the pairs that overlapped too much before it.
+    /// One sweep; returns the pairs that overlapped too much before it.
     fn push_apart(&mut self, resolver: &mut Resolver) -> Result<Vec<Overlap>> {
         let mut found = Vec::new();
         let mut image = Placed::default();
@@ -51,7 +51,7 @@ impl Blocks {
             let blocks = pair
                 .parts
                 .map(|part| self.parts.block[part as usize] as usize);
-            // What fixed points hold stays, too.
+            // Blocks with fixed points do not move either.
             let inverse = blocks.map(|block| {
                 let body = &self.bodies[block];
                 let constrained = self
@@ -85,7 +85,7 @@ impl Blocks {
             if inverse == [0.0; 2] {
                 continue;
             }
-            // Half the allowed overlap stays, so that neighbours that touch keep touching.
+            // Half the allowed overlap remains, so that neighbours in contact stay in contact.
             let distance = contact.overlap - 0.5 * most;
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let share = inverse[k] / (inverse[0] + inverse[1]);

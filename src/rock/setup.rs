@@ -1,4 +1,4 @@
-//! What blocks there are, and how they are computed.
+//! The setup of a simulation of blocks.
 
 use super::Period;
 use crate::{
@@ -14,9 +14,9 @@ use std::sync::Arc;
 pub struct Setup {
     /// The blocks.
     pub blocks: Vec<Block>,
-    /// What they are made of; [`Block::material`] counts in here.
+    /// The materials, to which [`Block::material`] refers.
     pub materials: Vec<Material>,
-    /// Joints between two materials, where [`Joint::between`] is not what they have.
+    /// Joints between two materials that differ from [`Joint::between`].
     pub pairs: Vec<PairMaterial>,
     /// Gravity, m/s².
     pub gravity: DVec3,
@@ -28,26 +28,25 @@ pub struct Setup {
     /// Distance below which pairs are candidates, m. Without it a tenth of the mean radius of the parts
     /// that can move.
     pub skin: Option<f64>,
-    /// When blocks at rest are left out.
+    /// When blocks at rest fall asleep; `None`: never.
     pub sleep: Option<Sleep>,
     /// Largest overlap at the start, as a share of the smaller block's distance from centroid to face.
     pub start_overlap: f64,
-    /// Largest overlap later on, as a share of the same distance: more than a tenth is not hard any
-    /// more. Fast blocks of low stiffness may need more.
+    /// Largest overlap later on, as a share of the same distance; above a tenth the blocks no longer count as
+    /// hard. Fast blocks of low stiffness may need more.
     pub largest_overlap: f64,
-    /// Least area that the springs of a contact count with, as a share of (2d)², d the same distance.
+    /// Least area of the springs of a contact, as a share of (2d)², d being the same distance.
     ///
     /// The area of a corner or an edge begins at zero: a corner of a cube that sinks by u presses with
-    /// 1.46 k_n u³. A cube of 1 m of rock and 100 MPa/m sinks by 5.6 cm where it stands on its corner, by
-    /// a quarter of a millimetre where on its face; a real corner is crushed until it carries. With a
-    /// quarter, which is what each of the four corners of a square face carries, a corner is as stiff as
-    /// that part of the face from the first touch on. Contacts of a larger area stay as they are; cohesion
-    /// and tensile strength go by the true area.
+    /// 1.46 k_n u³. A cube of 1 m of rock and 100 MPa/m sinks by 5.6 cm if it stands on its corner, and by
+    /// a quarter of a millimetre on its face; a real corner is crushed until it carries the load. With a
+    /// value of 1/4, the share of each of the four corners of a square face, a corner is as stiff as
+    /// that part of the face from the first touch. Contacts of a larger area do not change; cohesion
+    /// and tensile strength use the true area.
     pub corner_area: f64,
-    /// The fluid that is squeezed out of thin gaps between rigid blocks, if there is one and no fluid solver
-    /// resolves its flow there.
+    /// The fluid in thin gaps between rigid blocks whose flow the fluid solver does not resolve, if any.
     pub film: Option<Film>,
-    /// The box after which space repeats, if it does: blocks then meet the images of others, too.
+    /// The periodic box, if any: blocks then also touch the images of others.
     pub period: Option<Period>,
     /// Free rigid blocks on rails.
     pub guides: Vec<Guide>,
@@ -76,13 +75,13 @@ impl Default for Setup {
     }
 }
 
-/// A rail without friction on which a free rigid block slides, and does not turn: what pulls it across is taken up, and does no
+/// A frictionless rail on which a free rigid block slides without rotation. The rail takes up the forces across it and does no
 /// work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guide {
-    /// Which of [`Setup::blocks`].
+    /// Index in [`Setup::blocks`].
     pub block: usize,
-    /// Along which it slides, of any length but 0.
+    /// Direction of sliding, of any length but 0.
     pub axis: DVec3,
 }
 
@@ -93,40 +92,40 @@ pub struct Block {
     pub name: String,
     /// Shape, about its centroid.
     pub shape: Arc<Shape>,
-    /// Which of [`Setup::materials`].
+    /// Index in [`Setup::materials`].
     pub material: usize,
     /// Centroid, m.
     pub centre: DVec3,
-    /// Turns vectors of the block's frame into the world's.
+    /// Rotation from the block's frame to the world's.
     pub rotation: DQuat,
-    /// Velocity of the centroid, m/s; a driven block has that of its formulas.
+    /// Velocity of the centroid, m/s; ignored for a driven block.
     pub velocity: DVec3,
-    /// Spin about the world's axes, rad/s; a driven block has that of its formulas.
+    /// Spin about the world's axes, rad/s; ignored for a driven block.
     pub spin: DVec3,
-    /// What moves it.
+    /// How the block moves.
     pub motion: Motion,
-    /// Whether it deforms, and how; only a free block of one convex part whose material is
-    /// [`Elastic`]. It never sleeps.
+    /// Deformation, if any; only for a free block of one convex part whose material is
+    /// [`Elastic`]. The block then never sleeps.
     pub deformable: Option<Deformable>,
-    /// Forces on points of it, if it is free. It then never sleeps.
+    /// Forces on points of a free block, which then never sleeps.
     pub point_loads: Vec<PointLoad>,
-    /// Acceleration in addition to gravity, m/s², formulas of t, if it is free. It then
+    /// Acceleration of a free block in addition to gravity, m/s², formulas of t. The block then
     /// never sleeps.
     pub acceleration: Option<[Formula; 3]>,
 }
 
-/// How a block deforms: as a whole, every point X of it, from its centroid in its own frame, at c + F X.
+/// Affine deformation of a block: the point X, from the centroid in the block's own frame, is at c + F X.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deformable {
-    /// Stress that it bears at the start without strain, symmetric, along the axes of the world, Pa; tension
+    /// Stress at zero strain, symmetric, along the axes of the world, Pa; tension
     /// is positive.
     pub initial_stress: DMat3,
-    /// Points that stay where they are at the start.
+    /// Points that are held in their initial positions.
     pub fixed_points: Vec<FixedPoint>,
 }
 
 impl Default for Deformable {
-    /// No stress, and nothing held. Not derived: the default of a matrix is the identity.
+    /// No stress and no fixed points. Not derived, because the default of a matrix is the identity.
     fn default() -> Self {
         Self {
             initial_stress: DMat3::ZERO,
@@ -135,7 +134,7 @@ impl Default for Deformable {
     }
 }
 
-/// A point of a block that is held in its place.
+/// A point of a block that is held in its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedPoint {
     /// The point, from the centroid in the block's own frame, m.
@@ -154,7 +153,7 @@ pub struct PointLoad {
 }
 
 impl Block {
-    /// A free block of the first material, at rest, not turned.
+    /// A free block of the first material, at rest, without rotation.
     pub fn new(name: impl Into<String>, shape: impl Into<Arc<Shape>>, centre: DVec3) -> Self {
         Self {
             name: name.into(),
@@ -171,7 +170,7 @@ impl Block {
         }
     }
 
-    /// The same block, held in its place.
+    /// The same block, fixed.
     pub fn fixed(self) -> Self {
         Self {
             motion: Motion::Fixed,
@@ -187,13 +186,13 @@ impl Block {
         }
     }
 
-    /// The same block, turned by `rotation`.
+    /// The same block, rotated by `rotation`.
     pub fn turned(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }
 }
 
-/// What moves a block.
+/// How a block moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
@@ -214,14 +213,14 @@ pub enum Motion {
     },
 }
 
-/// What a block is made of.
+/// The material of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Density, kg/m³.
     pub density: f64,
     /// The joint between two faces of this material.
     pub joint: Joint,
-    /// Elasticity of its deformable blocks, which need one.
+    /// Elasticity; required for deformable blocks.
     pub elastic: Option<Elastic>,
 }
 
@@ -239,23 +238,22 @@ impl Default for Material {
 /// The joint between two materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairMaterial {
-    /// Which of [`Setup::materials`], in either order.
+    /// Indices in [`Setup::materials`], in either order.
     pub materials: [usize; 2],
     /// Their joint.
     pub joint: Joint,
 }
 
-/// When a block counts as resting: it then stays in its place, and the contacts among resting blocks keep
+/// When a block falls asleep: it then does not move, and the contacts among sleeping blocks keep
 /// their forces without being computed.
 ///
-/// A block that sleeps moves by less than `speed` × the time that it would still have moved; it wakes as
-/// soon as the force of a moving neighbour on it, or its load, changes by more than `change` of its
-/// weight. So positions differ from those without sleep by about `speed` × (time asleep).
+/// A sleeping block wakes as soon as the force of a moving neighbour on it, or its load, changes by more than
+/// `change` of its weight. Positions differ from those without sleep by about `speed` × (time asleep).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sleep {
     /// Speed of its fastest point below which a block rests, m/s.
     pub speed: f64,
-    /// How long it must have been that slow, s.
+    /// Time for which it must have been that slow, s.
     pub after: f64,
     /// Change of force that wakes it, as a share of its weight (without gravity: of its largest
     /// contact force).

@@ -1,4 +1,4 @@
-//! The state between two steps, whole.
+//! The complete state between two steps.
 
 use super::{
     Blocks,
@@ -11,8 +11,8 @@ use super::{
 };
 use crate::{Error, Result};
 
-/// Everything that the next steps depend on: poses, momenta, deformations, forces, contact histories, what the
-/// resolver remembers, the ledger. What does not change, such as shapes, is in the
+/// All data on which the next steps depend: poses, momenta, deformations, forces, contact histories, caches of the
+/// resolver, the ledger. Constants such as shapes are in the
 /// [`Setup`](super::Setup).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
@@ -27,7 +27,7 @@ pub struct Snapshot {
     contacts: Vec<Contact>,
     films: Vec<Film>,
     work_sums: WorkSums,
-    /// Of blocks that deform.
+    /// States of deformable blocks.
     strains: Vec<Strain>,
 }
 
@@ -59,7 +59,7 @@ impl Blocks {
         snapshot
     }
 
-    /// The present state in place of an older one, whose memory it uses.
+    /// Stores the present state in the memory of an older one.
     pub fn save(&self, snapshot: &mut Snapshot) {
         snapshot.time = self.time;
         snapshot.steps = self.steps;
@@ -76,11 +76,11 @@ impl Blocks {
         snapshot.strains.clone_from(&self.deforming.strains);
     }
 
-    /// Goes back, or on, to a state of the same setup: the next steps give the same bits as they did
-    /// from there.
+    /// Restores a state of the same setup: the following steps have the same bits as when it was
+    /// taken.
     ///
     /// # Errors
-    /// [`Error::Argument`] if the state is not one of these blocks.
+    /// [`Error::Argument`] if the state belongs to other blocks.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;

@@ -13,10 +13,10 @@ use super::{
 use crate::{Error, Result, error::Overlap, rock::law};
 use std::time::Instant;
 
-/// Times that the host spends in the phases of steps, s.
+/// Host times of the phases of steps, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepTimes {
-    /// Steps that have been timed.
+    /// Number of steps timed.
     pub steps: u64,
     /// Candidate pairs.
     pub broadphase: f64,
@@ -26,7 +26,7 @@ pub struct StepTimes {
     pub integrate: f64,
 }
 
-/// Refuses a time `until` (s) that is not finite.
+/// Returns an error if the time `until` (s) is not finite.
 pub(super) fn is_time(until: f64) -> Result<()> {
     if until.is_finite() {
         return Ok(());
@@ -40,7 +40,7 @@ pub(super) fn is_time(until: f64) -> Result<()> {
 pub(super) struct Substep {
     /// s.
     dt: f64,
-    /// Time at its end, where it is known better than by adding up, s.
+    /// Time at its end, s, if it is known more exactly than by summation.
     end: Option<f64>,
 }
 
@@ -49,10 +49,9 @@ impl Blocks {
     ///
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
-    /// the contacts, [`Error::DeepOverlap`] if two blocks are pressed into each other,
-    /// [`Error::NotFinite`] if a block is nowhere, [`Error::Argument`] if pairs are wanted first, or if a block moves by more
-    /// than half its width, so that it could pass through others unseen. After an error everything is as it was before
-    /// the step.
+    /// the contacts, [`Error::DeepOverlap`] if two blocks penetrate too deeply,
+    /// [`Error::NotFinite`] if the pose of a block is not finite, [`Error::Argument`] if a new list of pairs is needed first, or if a block
+    /// moves by more than half its width and could pass through another one. After an error the state is that before the step.
     pub fn step(&mut self) -> Result<()> {
         self.step_by(Substep {
             dt: self.time_step,
@@ -60,10 +59,10 @@ impl Blocks {
         })
     }
 
-    /// One of the equal steps that lead to the time `until`, s, none longer than the time step.
+    /// One of equal steps, at most as long as the time step, to the time `until`, s.
     ///
     /// # Errors
-    /// Those of [`Blocks::step`], and [`Error::Argument`] if that time is past.
+    /// The errors of [`Blocks::step`], and [`Error::Argument`] if that time is in the past.
     pub fn step_towards(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         if until < self.time {
@@ -85,7 +84,7 @@ impl Blocks {
     /// Equal steps of at most the time step that lead to the time `until`, s.
     pub(crate) fn steps_to(&self, until: f64) -> f64 {
         let left = until - self.time;
-        // What rounding adds to a whole number of steps makes no step of its own.
+        // The rounding of a whole number of steps must not add a step.
         (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0)
     }
 
@@ -187,7 +186,7 @@ impl Blocks {
         self.check_step(dt)
     }
 
-    /// Takes the step over: forces, second kick, energies, sleep.
+    /// Completes an accepted step: forces, second kick, energies, sleep.
     fn finish_step(&mut self, dt: f64) {
         self.take_over();
         let (gravity, sleep, params) = (self.gravity, self.sleep, self.step_params(dt));
@@ -269,13 +268,13 @@ impl Blocks {
         }
     }
 
-    /// Puts all parts where their blocks are.
+    /// Places all parts at the poses of their blocks.
     pub(super) fn place(&mut self) {
         self.parts
             .place_all(&self.bodies, &self.states, &self.deforming.strains);
     }
 
-    /// Why a block has no pose at `time` (s).
+    /// The error of a block whose pose at `time` (s) is not finite.
     fn not_finite(&self, number: usize, time: f64) -> Error {
         let strain = self.deforming.of_next(&self.bodies[number]);
         let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
@@ -364,7 +363,7 @@ impl Blocks {
         })
     }
 
-    /// Refuses a given step that is too long for the contacts, or for a block that deforms.
+    /// Returns an error if a prescribed step is too long for the contacts or for a deformable block.
     fn check_step(&self, dt: f64) -> Result<()> {
         if !self.given_step {
             return Ok(());
@@ -383,7 +382,7 @@ impl Blocks {
         })
     }
 
-    /// Keeps a step that was not given within the usual bound of the present contacts.
+    /// Limits a step that is not prescribed to the usual bound of the present contacts.
     fn shorten_time_step(&mut self) {
         if self.given_step {
             return;

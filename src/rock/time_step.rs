@@ -1,5 +1,5 @@
-//! The longest stable step, from what the blocks look like, from what they touch, and from their elasticity; and steps so
-//! long that blocks could pass through others unseen.
+//! The longest stable step, from the shapes, the contacts and the elasticity of the blocks, and the detection of steps so
+//! long that blocks could pass through others.
 
 use super::{
     Blocks, Body, body::State, contact_list::ContactSum, deforming::DeformingBlocks,
@@ -12,11 +12,11 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 
-/// Share of its surface over which a block is held, before its contacts are known. With all of it the
-/// step would be √2 too long, which the room between the usual and the largest step covers.
+/// Assumed share of the surface of a block in contact, before its contacts are known. With the whole surface in contact the
+/// step would be √2 too long, which the margin between the usual and the largest step covers.
 const HELD_SHARE: f64 = 0.5;
 
-/// ω² of the stiffest block and which it is, from the faces of the shapes.
+/// ω² and index of the stiffest block, from the faces of the shapes.
 pub(super) fn of_shapes(
     bodies: &[Body],
     deforming: &DeformingBlocks,
@@ -37,7 +37,7 @@ pub(super) fn of_shapes(
                     let (arm, width) = deforming.lever(body, arm, width);
                     sum.add(joint, HELD_SHARE * area, arm, width);
                 }),
-                // Six balls around it at an overlap of a tenth of the radius, where it would be refused:
+                // Six balls around it at an overlap of a tenth of the radius, the limit of penetration:
                 // sections of π r²/10 each.
                 Form::Sphere { radius } => {
                     let arm = part.offset + DVec3::X * *radius;
@@ -50,7 +50,7 @@ pub(super) fn of_shapes(
     stiffest(bodies, deforming, bodies.iter().map(stiffness))
 }
 
-/// ω² of the stiffest block and which it is, from the contacts and the present deformations.
+/// ω² and index of the stiffest block, from the contacts and the present deformations.
 pub(super) fn of_sums(
     bodies: &[Body],
     deforming: &DeformingBlocks,
@@ -63,8 +63,8 @@ pub(super) fn of_sums(
     )
 }
 
-/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever stands for; the
-/// largest eigenvalue of a sum is at most the sum of the largest.
+/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever represents; the
+/// largest eigenvalue of a sum is at most the sum of the largest eigenvalues.
 fn stiffest(
     bodies: &[Body],
     deforming: &DeformingBlocks,
@@ -105,19 +105,19 @@ fn faces(shape: &Polyhedron, mut each: impl FnMut(f64, DVec3, f64)) {
     }
 }
 
-/// Largest travel in a step as a share of the width of the block along its velocity: an obstacle, however thin, then
+/// Largest travel in a step as a share of the width of the block along its velocity: even a thin obstacle then
 /// touches it before its middle has passed.
 const LARGEST_TRAVEL: f64 = 0.5;
 
-/// Share of its radius by which a block may move without a look at its width: half the width of the thinnest.
+/// Share of its radius by which a block may move without computing its width: half the width of the thinnest block.
 const NEGLIGIBLE_TRAVEL: f64 = 2e-4;
 
 impl Blocks {
-    /// Refuses a step of `dt` (s), which has been computed, if a block leaps in it.
+    /// Returns an error if a block moves too far in a computed step of `dt` (s).
     pub(super) fn check_tunnelling(&self, dt: f64) -> Result<()> {
         let alone = self.bodies.len() < 2 && self.periods.is_none();
         if alone || !self.bodies.iter().any(Body::is_free) {
-            // There is nothing that it could touch.
+            // There is no other block to touch.
             return Ok(());
         }
         let all = each_block(&self.bodies, self.bodies.len()).zip(&self.states);

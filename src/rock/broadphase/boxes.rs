@@ -1,4 +1,4 @@
-//! Boxes as the search sees them: f32 about a local origin, sorted into levels by size.
+//! Boxes in the form of the broadphase: f32 about a local origin, sorted into levels by size.
 
 use super::Aabb;
 use crate::{
@@ -7,26 +7,26 @@ use crate::{
 };
 use bytemuck::Zeroable;
 
-/// Largest coordinate, m: squares and differences of f32 are far from their end there.
+/// Largest coordinate, m: differences in f32 are far from overflow there.
 pub const FARTHEST: f64 = (1u128 << 100) as f64;
 
-/// Exponents of the cell edges that the search uses, in powers of two of a metre.
+/// Exponents of the cell edges of the search, in powers of two of a metre.
 const FINEST: i32 = -100;
 const COARSEST: i32 = FINEST + MAX_LEVELS as i32 - 1;
 
-/// Cells from the origin to the farthest corner are at most 2 to this power, so that an f32 holds
-/// their numbers exactly.
+/// There are at most 2 to this power cells from the origin to the farthest corner, so that an f32 represents
+/// their indices exactly.
 const DIGITS: i32 = 22;
 
-/// Boxes with the levels that they are on.
+/// Boxes with their levels.
 ///
-/// f64 → f32 and the shift to the local origin round, but neither changes the order of two
-/// numbers: boxes that overlap do so still. The search in f32 may find too much, never too little.
+/// The shift to the local origin and the conversion from f64 to f32 round, but neither reverses the order of two
+/// numbers: boxes that overlap still do so. The search in f32 may find additional pairs but misses none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Boxes {
-    /// One for each box, in their order.
+    /// One per input box, in the order of the input.
     pub boxes: Vec<DeviceBox>,
-    /// From fine to coarse; only those with a box.
+    /// From fine to coarse; only levels with a box.
     pub levels: Vec<Level>,
 }
 
@@ -84,7 +84,7 @@ impl Boxes {
     }
 }
 
-/// The middle of all boxes, if they are boxes.
+/// Checks the boxes, and returns the centre of their common bounding box.
 fn check(aabbs: &[Aabb]) -> Result<[f64; 3]> {
     if aabbs.len() > 1 << NUMBER_BITS {
         return Err(Error::Limit {
@@ -98,7 +98,7 @@ fn check(aabbs: &[Aabb]) -> Result<[f64; 3]> {
     for (number, item) in aabbs.iter().enumerate() {
         for a in 0..3 {
             let (min, max) = (item.min[a], item.max[a]);
-            // Also false if one of them is no number.
+            // Also false if one of them is NaN.
             if !(-FARTHEST <= min && min <= max && max <= FARTHEST) {
                 return Err(refusal(number, a, min, max));
             }
@@ -121,7 +121,7 @@ fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
     Error::argument(format!("items[{number}]"), message)
 }
 
-/// ⌊log₂ x⌋ of a number that is not negative; far below every level for zero.
+/// ⌊log₂ x⌋ of a non-negative number; far below every level for zero.
 fn exponent(x: f64) -> i32 {
     (x.to_bits() >> 52) as i32 - 1023
 }

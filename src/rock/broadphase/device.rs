@@ -1,4 +1,4 @@
-//! The search on the device: boxes into bins, a count of their pairs, places by a scan, the list.
+//! The broadphase on the device: sorts boxes into bins, counts their pairs, finds their places by a scan, writes the list.
 
 use super::{Aabb, Boxes, Broadphase, exact_pairs};
 use crate::{
@@ -13,9 +13,9 @@ use crate::{
 };
 use bytemuck::{Pod, Zeroable};
 
-/// Finds pairs on the caller's device, in O(N) for all mixtures of sizes.
+/// Finds pairs on the caller's device, in O(N) for any mixture of sizes.
 ///
-/// Buffers are kept from call to call, for as many boxes as the last call had. Nothing blocks:
+/// Buffers are reused if the number of boxes is that of the last call. No call blocks:
 /// the caller polls the device while it awaits the list.
 ///
 /// ```
@@ -35,7 +35,7 @@ pub struct DeviceBroadphase {
     prepared: Option<Prepared>,
 }
 
-/// The buffers of a number of boxes.
+/// Buffers for a given number of boxes.
 #[derive(Debug)]
 struct Prepared {
     sorted: BinsOf,
@@ -47,7 +47,7 @@ impl DeviceBroadphase {
     /// Compiles the kernels.
     ///
     /// # Errors
-    /// [`Error::Limit`] if the device cannot run them: they want six storage buffers.
+    /// [`Error::Limit`] if the device cannot run them: they need six storage buffers.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self> {
         Ok(Self {
             scan: Scan::new(device)?,
@@ -70,7 +70,7 @@ impl DeviceBroadphase {
         })
     }
 
-    /// Sorts the boxes, counts their pairs and finds the places of them.
+    /// Sorts the boxes, counts their pairs and finds the place of each in the list.
     async fn count(&mut self, prepared: &mut Prepared, levels: u32) -> Result<Header> {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         self.bins.record(&mut encoder, &self.scan, &prepared.sorted);
@@ -91,7 +91,7 @@ impl DeviceBroadphase {
             if header.candidates == 0 {
                 return Ok(header);
             }
-            // Somebody has more neighbours than one invocation looks at.
+            // A box has more candidates than its invocations compare.
             let Prepared { sorted, hits, list } = prepared;
             let candidates = header.candidates;
             *hits = self
@@ -102,7 +102,7 @@ impl DeviceBroadphase {
         }
     }
 
-    /// The list, in as many parts as its room asks for.
+    /// The list, in as many parts as its capacity requires.
     async fn write(
         &mut self,
         prepared: &mut Prepared,
@@ -167,28 +167,28 @@ impl Broadphase for DeviceBroadphase {
     }
 }
 
-/// Candidates that an invocation compares with its box.
+/// Number of candidates that an invocation compares with its box.
 const SLICE: u32 = 8192;
 
-/// What a comparison knows, as the kernels have it.
+/// Parameters of the kernels, in their layout.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Search {
-    /// Levels that have boxes.
+    /// Number of levels with boxes.
     pub levels: u32,
-    /// Invocations of a box.
+    /// Invocations per box.
     pub slices: u32,
-    /// The pair that the first place of the list is for.
+    /// Number of the pair at the first place of the list.
     pub first_pair: u32,
 }
 
-/// What a count finds, as the kernels have it.
+/// Result of the count, in the layout of the kernels.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Header {
-    /// Candidates of the box that has most, if some were not looked at.
+    /// Largest number of candidates of a box, if some were not compared.
     pub candidates: u32,
-    /// Pairs of all boxes.
+    /// Number of pairs of all boxes.
     pub pairs: u32,
 }
 
@@ -201,7 +201,7 @@ struct Comparison {
     pub(super) header: wgpu::Buffer,
 }
 
-/// Pairs of each invocation, then pairs before each.
+/// Number of pairs of each invocation, then its prefix sum.
 #[derive(Debug)]
 struct Hits {
     pub(super) slices: u32,
@@ -211,7 +211,7 @@ struct Hits {
     bind: wgpu::BindGroup,
 }
 
-/// Room for pairs.
+/// Memory for pairs.
 #[derive(Debug)]
 struct List {
     pub(super) capacity: u32,
@@ -234,7 +234,7 @@ impl Comparison {
         })
     }
 
-    /// Prepares to count with so many invocations that all `candidates` of a box are looked at.
+    /// Prepares to count with enough invocations to compare all `candidates` of a box.
     fn hits(
         &self,
         device: &wgpu::Device,
@@ -283,7 +283,7 @@ impl Comparison {
         queue.write_buffer(&self.search, 0, bytemuck::bytes_of(&search));
     }
 
-    /// Records the count of pairs, the places of them, and the header.
+    /// Records the count of pairs, its prefix sum, and the header.
     fn record_count(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, hits: &Hits) {
         encoder.clear_buffer(&self.header, 0, None);
         encoder.clear_buffer(&hits.counts, 0, None);
@@ -295,7 +295,7 @@ impl Comparison {
         encoder.copy_buffer_to_buffer(hits.scan.total(), 0, &self.header, 4, 4);
     }
 
-    /// Records the writing of the pairs that the list has room for.
+    /// Records the writing of as many pairs as the list holds.
     fn record_write(&self, encoder: &mut wgpu::CommandEncoder, list: &List) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         self.write.record(&mut pass, &list.bind, list.groups);
@@ -313,13 +313,13 @@ impl Comparison {
 }
 
 impl List {
-    /// Whether more room would not help for as many pairs.
+    /// Whether the list holds as many of `pairs` as a binding allows.
     fn suffices(&self, device: &wgpu::Device, pairs: u32) -> bool {
         self.capacity >= pairs.min(most(device))
     }
 }
 
-/// Pairs that a binding holds.
+/// Largest number of pairs in a binding.
 fn most(device: &wgpu::Device) -> u32 {
     let limits = device.limits();
     let bytes = limits

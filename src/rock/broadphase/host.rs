@@ -1,6 +1,6 @@
 //! Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, with a grid for each size: every
-//! box lies in the one cell of its level that holds its lower corner, and looks through the cells
-//! of its own and all coarser levels from which a box can reach it.
+//! box lies in the cell of its level that contains its lower corner, and is compared with the boxes in those
+//! cells of its own and all coarser levels from which a box can reach it.
 
 use super::{Aabb, Boxes, Broadphase, exact_pairs};
 use crate::{
@@ -9,16 +9,16 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// Up to here every pair is tried, at less than half the cost of cells. Cells win from 350 boxes of
-/// one size and 1000 of sizes 1:100 on; in between they lose some ten microseconds, and keep the
-/// cost in proportion to the number.
+/// Number of boxes up to which every pair is compared, at less than half the cost of cells. Cells are faster from 350
+/// boxes of one size and 1000 of sizes 1:100; in between they cost some ten microseconds more, but scale linearly with
+/// the number.
 const BRUTE_FORCE_MAX: usize = 64;
 
-/// Items that a thread takes at once.
+/// Number of items per task.
 const BOXES_PER_TASK: usize = 1024;
 
-/// Finds pairs on the host, in O(N) for all mixtures of sizes; with threads from a few thousand
-/// boxes on.
+/// Finds pairs on the host, in O(N) for any mixture of sizes, on several threads from a few thousand
+/// boxes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HostBroadphase;
 
@@ -41,7 +41,7 @@ impl Broadphase for HostBroadphase {
     }
 }
 
-/// Every pair tried.
+/// Compares every pair.
 fn brute_force(aabbs: &[Aabb]) -> Vec<[u32; 2]> {
     let mut found = Vec::new();
     for (i, first) in (0..).zip(aabbs) {
@@ -54,20 +54,20 @@ fn brute_force(aabbs: &[Aabb]) -> Vec<[u32; 2]> {
     found
 }
 
-/// Boxes sorted into a table of cells.
+/// Boxes sorted into a hash table of cells.
 struct Bins<'a> {
     levels: &'a [Level],
-    /// One more than there are, where the boxes end.
+    /// All buckets, and one more that marks the end of the boxes.
     buckets: Vec<Bucket>,
     entries: Vec<DeviceBox>,
 }
 
-/// Cells that share a place in the table.
+/// Cells that share a place in the hash table.
 #[derive(Clone, Copy)]
 struct Bucket {
-    /// Where its boxes begin.
+    /// Index of its first box.
     start: u32,
-    /// Lowest and highest group.
+    /// Lowest and highest group of its boxes.
     groups: [u32; 2],
 }
 
@@ -163,7 +163,7 @@ fn cell(point: [f32; 3], scale: f32) -> [i32; 3] {
     point.map(|x| (x * scale).floor() as i32)
 }
 
-/// Teschner et al. 2003, VMV, spatial hashing, of blocks of 4 × 4 × 4 cells that stay together:
+/// Spatial hashing (Teschner et al. 2003, VMV) of blocks of 4 × 4 × 4 cells, which stay together so that
 /// neighbours are near in memory. The last steps mix the bits (Appleby's MurmurHash3).
 fn bucket(cell: [i32; 3], level: u32, buckets: usize) -> usize {
     let [x, y, z] = cell.map(|n| (n >> 2) as u32);

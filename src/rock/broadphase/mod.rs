@@ -1,7 +1,7 @@
-//! Which pairs may touch: a list that is complete, sorted and the same from every implementation.
+//! Search for pairs that may touch. The list is complete, sorted and the same from every implementation.
 //!
-//! Broadphases take boxes as they are given: to keep a list for several steps, grow the
-//! boxes by a skin first, and search again once something has moved half of it.
+//! A broadphase uses the boxes as given. To keep a list for several steps, grow the
+//! boxes by a skin first, and search again once an item has moved by half of it.
 
 mod boxes;
 mod device;
@@ -13,14 +13,14 @@ pub use host::HostBroadphase;
 
 use crate::{Result, gpu::Processor};
 
-/// A box along the axes around something that may touch others, already grown by the skin.
+/// Axis-aligned bounding box of an item that may touch others, already grown by the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Lower corner, m.
     pub min: [f64; 3],
     /// Upper corner, m.
     pub max: [f64; 3],
-    /// Items of one group never pair: the parts of a compound, everything that is fixed.
+    /// Items of one group never pair, for example the parts of a compound, or all fixed items.
     pub group: u32,
 }
 
@@ -32,7 +32,7 @@ impl Aabb {
         along(0) & along(1) & along(2)
     }
 
-    /// Whether the two may touch: their boxes do, and they are of different groups.
+    /// Whether the two items may touch: their boxes overlap, and their groups differ.
     pub fn pairs_with(&self, other: &Self) -> bool {
         (self.group != other.group) & self.overlaps(other)
     }
@@ -40,14 +40,14 @@ impl Aabb {
 
 /// Finds the pairs of boxes of different groups that overlap.
 pub trait Broadphase {
-    /// The pairs (i, j), i < j, sorted, each once. Two broadphases give the same list, bit for bit.
+    /// Returns the pairs (i, j), i < j, sorted, each once. Any two broadphases return the same list, bit for bit.
     ///
     /// # Errors
     /// If a device fails, or a box is not finite.
     fn pairs(&mut self, aabbs: &[Aabb]) -> impl Future<Output = Result<Vec<[u32; 2]>>>;
 }
 
-/// Most storage buffers in a kernel of [`DeviceBroadphase`].
+/// Largest number of storage buffers in a kernel of [`DeviceBroadphase`].
 pub const MAX_STORAGE_BUFFERS: u32 = 6;
 
 /// Searches on the host for few boxes and on the device for many; the list is the same.
@@ -55,16 +55,16 @@ pub const MAX_STORAGE_BUFFERS: u32 = 6;
 /// The kernels are compiled when the device is first used.
 #[derive(Debug)]
 pub struct AutoBroadphase {
-    /// Items from which on the device is used.
+    /// Number of items from which the device is used.
     pub crossover: usize,
     device: Option<(wgpu::Device, wgpu::Queue)>,
     device_broadphase: Option<DeviceBroadphase>,
 }
 
 impl AutoBroadphase {
-    /// Items from which on a device that computes so is used, as `riprap bench --device` records it: never on a CPU
-    /// (lavapipe, 10² to 10⁵ boxes of one size and of sizes 1:100). There is no record of a GPU yet; its number is an
-    /// estimate: the host takes 0.5 to 1 µs a box, and two submissions that are waited for some hundred microseconds.
+    /// Number of items from which a device on such a processor is used, as recorded by `riprap bench --device`: never on a
+    /// CPU (lavapipe, 10² to 10⁵ boxes of one size and of sizes 1:100). There is no record of a GPU yet; its number is an
+    /// estimate: the host takes 0.5 to 1 µs per box, and two submissions with a wait take some hundred microseconds.
     pub const fn crossover_on(processor: Processor) -> usize {
         match processor {
             Processor::Cpu => usize::MAX,
@@ -72,7 +72,7 @@ impl AutoBroadphase {
         }
     }
 
-    /// Uses `device` from [`Self::crossover_on`] what it is on.
+    /// Uses `device` from the number of items given by [`Self::crossover_on`] for its processor.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self {
             crossover: Self::crossover_on(Processor::of(&device.adapter_info())),
@@ -81,7 +81,7 @@ impl AutoBroadphase {
         }
     }
 
-    /// Searches on the host alone.
+    /// Always searches on the host.
     pub fn on_host() -> Self {
         Self {
             crossover: usize::MAX,
@@ -105,7 +105,7 @@ impl Broadphase for AutoBroadphase {
     }
 }
 
-/// Sorts pairs (i, j), i < j, by counting, linear in boxes and pairs, and takes those whose boxes
+/// Sorts pairs (i, j), i < j, by counting, linear in boxes and pairs, and keeps those whose boxes
 /// overlap in f64.
 fn exact_pairs(aabbs: &[Aabb], found: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut ends = vec![0; aabbs.len() + 1];

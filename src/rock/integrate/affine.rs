@@ -1,19 +1,19 @@
-//! A block that deforms as a whole (Shi 2001; Mikola & Sitar 2014, eqs. 1 and 7): every point X of it, from
-//! its centroid, is at x = c + F X.
+//! A block with a homogeneous deformation (Shi 2001; Mikola & Sitar 2014, eqs. 1 and 7): a material point X,
+//! relative to the centroid, is at x = c + F X.
 //!
 //! m c̈ = Σ f + m g,  F̈ = (Σ f ⊗ X − V P) S⁻¹,  S = ∫ρ X Xᵀ dV,  P = F (λ tr E · 1 + 2μE + σ₀),
 //! E = ½(FᵀF − 1).
 //!
-//! These are the twelve unknowns of DDA, with a mass matrix that is 4 × 4 and the same for each axis. The
-//! strain is exact under rotation. F P ᵀ is symmetric, so that the central difference keeps the angular
+//! These are the twelve unknowns of DDA, with a 4 × 4 mass matrix that is the same for each axis. The strain
+//! is exact under rotation. F P ᵀ is symmetric, so that the central difference conserves the angular
 //! momentum Ḟ S Fᵀ − F S Ḟᵀ up to rounding.
 //!
-//! Points of an affine body that are held in their places, along some axes or all.
+//! Points of an affine body may be fixed along some or all axes.
 //!
-//! c + F X stays: linear in the unknowns and the same in each step, so that a projection of the accelerations
-//! keeps it exactly, with no spring that would limit the step. Each axis of the world has a row
-//! q = (c_k, F_k1, F_k2, F_k3) of its own with the mass matrix M = diag(m, S), and each point held along it
-//! a condition b·q = const., b = (1, X).
+//! A fixed point has a constant c + F X. This condition is linear in the unknowns and the same in each step, so that a
+//! projection of the accelerations satisfies it exactly, without a spring that would limit the step. Each world axis has
+//! its own row q = (c_k, F_k1, F_k2, F_k3) of unknowns with the mass matrix M = diag(m, S), and each point fixed along it
+//! adds a condition b·q = const., b = (1, X).
 
 use super::Principal;
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 };
 use glam::{DMat3, DQuat, DVec3};
 
-/// Mass, elasticity and shape of an affine body: what stays of it.
+/// Constants of an affine body: mass, elasticity and shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Affine {
     /// kg.
@@ -47,13 +47,13 @@ pub struct Affine {
 pub struct Wrench {
     /// Σ f, N.
     pub force: DVec3,
-    /// Σ f ⊗ r, r from the centroid in the world, N m.
+    /// Σ f ⊗ r, r from the centroid in world axes, N m.
     pub moment: DMat3,
 }
 
 impl Affine {
-    /// A body of `volume` (m³) and `density` (kg/m³), `inertia` its inertia tensor about the centroid for a
-    /// density of one (m⁵), `initial_stress` σ₀ (Pa, symmetric, own frame) what it bears without strain.
+    /// A body of `volume` (m³) and `density` (kg/m³). `inertia`: inertia tensor about the centroid for a density
+    /// of one (m⁵). `initial_stress`: stress σ₀ at zero strain (Pa, symmetric, own frame).
     pub fn new(
         volume: f64,
         inertia: DMat3,
@@ -76,7 +76,7 @@ impl Affine {
         }
     }
 
-    /// E of the deformation `f`.
+    /// Strain E of the deformation `f`.
     pub fn strain(&self, f: DMat3) -> DMat3 {
         (f.transpose() * f - DMat3::IDENTITY) * 0.5
     }
@@ -107,7 +107,7 @@ impl Affine {
         axial(rate * self.second_moment * f.transpose())
     }
 
-    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `wrench` and its own stress.
+    /// Accelerations c̈ (m/s²) and F̈ (1/s²) under `wrench` and the stress of the body.
     pub fn accelerations(&self, f: DMat3, wrench: &Wrench) -> (DVec3, DMat3) {
         // f ⊗ X with X = F⁻¹ r.
         let outer = wrench.moment * f.inverse().transpose();
@@ -115,10 +115,10 @@ impl Affine {
         (wrench.force / self.mass, (outer - stress) * self.inverse)
     }
 
-    /// Bound of ω² of its stiffest mode when deformed by `f`, rad²/s²; exact without strain.
+    /// Upper bound of ω² of the stiffest mode at the deformation `f`, rad²/s²; exact without strain.
     ///
-    /// The stress follows FᵀδF, no longer than |F|² ≤ 1 + 2|E| of δF; what stress there is turns with δF
-    /// and adds V|S| over the smallest second moment.
+    /// The change of stress depends on FᵀδF, whose square is at most |F|² ≤ 1 + 2|E| times that of δF. The present
+    /// stress rotates with δF and adds V|S| over the smallest second moment.
     pub fn frequency_squared(&self, f: DMat3) -> f64 {
         let strain = self.strain(f);
         let stress = self.inner_stress(f);
@@ -127,7 +127,7 @@ impl Affine {
             + self.volume * norm(stress) / self.smallest_moment
     }
 
-    /// The longest step with which the central difference is stable without contacts and strain, 2/ω, s
+    /// Longest step for which the central difference is stable without contacts and strain, 2/ω, s
     /// (Mikola & Sitar 2014, eq. 8).
     pub fn critical_step(&self) -> f64 {
         2.0 / self.frequency_squared(DMat3::IDENTITY).sqrt()
@@ -138,8 +138,8 @@ impl Affine {
         self.smallest_moment
     }
 
-    /// The arm (m) at which a spring would have, against the smallest moment, the frequency that it has at
-    /// the point `x` (m, own frame): its square over that moment is xᵀ S⁻¹ x.
+    /// Equivalent lever arm (m) of a spring at the point `x` (m, own frame): with it and the smallest moment, the spring
+    /// has the same frequency. Its square over that moment is xᵀ S⁻¹ x.
     pub fn lever(&self, x: DVec3) -> f64 {
         (self.smallest_moment * x.dot(self.inverse * x)).sqrt()
     }
@@ -150,9 +150,9 @@ impl Affine {
     }
 }
 
-/// ω² of the stiffest elastic mode per volume, with S diag(s) in its principal axes, in which an isotropic
-/// body has the same law. The nine-by-nine problem K v = ω² M v of F falls apart there: a shear and a
-/// rotation with ω² = μ(1/s_i + 1/s_j) and 0 for each pair of axes, and the three axial strains with
+/// ω² of the stiffest elastic mode per volume, with S = diag(s) in its principal axes, in which an isotropic
+/// body has the same law. The nine-by-nine problem K v = ω² M v of F decouples there: a shear and a
+/// rotation with ω² = μ(1/s_i + 1/s_j) and 0 for each pair of axes, and the three axial strains with the matrix
 /// (λ + 2μ δ_ij)/√(s_i s_j).
 fn stiffest(elastic: &Elastic, s: DVec3) -> f64 {
     let [lambda, mu] = elastic.lame();
@@ -168,11 +168,11 @@ fn stiffest(elastic: &Elastic, s: DVec3) -> f64 {
     modes.max(shears).max_element()
 }
 
-/// Most passes of [`polar`]: each doubles the digits, from a few passes on.
+/// Largest number of iterations of [`polar`]; after the first few, each doubles the number of correct digits.
 const PASSES: usize = 60;
 
-/// The rotation R of F = R U, by Newton's iteration X ← ½(X + X⁻ᵀ) (Higham 1986); F must not be turned
-/// inside out.
+/// Rotation R of the polar decomposition F = R U, by Newton's iteration X ← ½(X + X⁻ᵀ) (Higham 1986). det F must be
+/// positive.
 pub fn polar(f: DMat3) -> DQuat {
     let mut x = f;
     for _ in 0..PASSES {
@@ -186,14 +186,14 @@ pub fn polar(f: DMat3) -> DQuat {
     DQuat::from_mat3(&x).normalize()
 }
 
-/// A row of unknowns, or what a condition multiplies them by.
+/// A row of unknowns, or the coefficients of a condition on them.
 type Row = (f64, DVec3);
 
-/// Share of a condition that must be new for it to count: what is left of one that follows from the others is
-/// rounding, 1e-16 of it and some.
+/// Share of a condition that must be independent of the others for it to count. A redundant condition leaves only
+/// rounding, a little more than 1e-16 of it.
 const NEW: f64 = 1e-9;
 
-/// β·q = value.
+/// A condition β·q = value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Condition {
     /// β, with β_i M⁻¹ β_j = δ_ij.
@@ -210,9 +210,8 @@ pub struct PointConstraints {
 }
 
 impl PointConstraints {
-    /// Holds points X of `body` (m from the centroid, own frame) where they are at `centre` (m) and
-    /// `deformation`, each along the axes of the world that are set. Those that follow from others change
-    /// nothing.
+    /// Fixes points X of `body` (m from the centroid, own frame) at their positions for `centre` (m) and
+    /// `deformation`, each along the world axes that are set. Redundant conditions are dropped.
     pub fn new(
         body: &Affine,
         (centre, deformation): (DVec3, DMat3),
@@ -233,11 +232,12 @@ impl PointConstraints {
         constraints
     }
 
-    /// What is new in a condition on an axis whose row is `now`.
+    /// The part of a condition that is independent of the known ones, on an axis whose present row is `now`; `None` if
+    /// the condition is redundant.
     fn next(&self, body: &Affine, axis: usize, given: Row, now: Row) -> Option<Condition> {
         let whole = dot(given, body.over_mass(given)).sqrt();
         let mut left = given;
-        // Twice: what rounding leaves of a direction after the first time goes in the second.
+        // Twice: the second pass removes what rounding leaves after the first.
         for _ in 0..2 {
             for known in &self.conditions[axis] {
                 left = less(left, dot(left, known.moved), known.factors);
@@ -252,22 +252,22 @@ impl PointConstraints {
         })
     }
 
-    /// Whether nothing is held.
+    /// Whether no point is fixed.
     pub fn is_empty(&self) -> bool {
         self.conditions.iter().all(Vec::is_empty)
     }
 
-    /// What the held points leave of accelerations c̈ and F̈; the same for velocities.
+    /// Projects accelerations c̈ and F̈, or velocities, onto the motions that the fixed points allow.
     pub fn project(&self, rates: (DVec3, DMat3)) -> (DVec3, DMat3) {
         self.corrected(rates, |_| 0.0)
     }
 
-    /// Puts the held points back where rounding has moved them from.
+    /// Moves the fixed points back to their positions, which rounding has changed.
     pub fn place(&self, place: (DVec3, DMat3)) -> (DVec3, DMat3) {
         self.corrected(place, |condition| condition.value)
     }
 
-    /// The unknowns nearest to those given, by M, for which each condition has the value that `wanted` says.
+    /// The unknowns nearest to the given ones, in the norm of M, for which each condition has the value of `wanted`.
     fn corrected(
         &self,
         (centre, deformation): (DVec3, DMat3),

@@ -1,16 +1,16 @@
-//! Motion of rigid and of affine bodies under given forces.
+//! Time integration of rigid and affine bodies under given forces.
 //!
 //! Velocity Verlet with mass damping (Gardner & Sitar 2018, eq. 1): m(ẍ + αẋ) = F + mg.
 //!
-//! The two halves of v⁺ = [v(1 − αΔt/2) + aΔt]/(1 + αΔt/2), between which the position moves with v½.
-//! They meet in the mean of the half-step velocities, so that their work is exact: the same for momentum
-//! with force as for angular momentum with torque, and for the rate of a deformation. With steps of different
-//! lengths these are the central differences of Mikola & Sitar 2014, eqs. 5–6.
+//! The update v⁺ = [v(1 − αΔt/2) + aΔt]/(1 + αΔt/2) is split into two kicks, between which the position drifts with
+//! v½. The velocity at a whole step is the mean of the half-step velocities, so that the work is exact. The same scheme
+//! advances momentum with force, angular momentum with torque, and the deformation rate. With steps of different
+//! lengths it is the central difference of Mikola & Sitar 2014, eqs. 5–6.
 //!
-//! Free rotation by a symmetric splitting about the principal axes (Dullweber, Leimkuhler & McLachlan
-//! 1997; McLachlan 1993): the kinetic energy is Σ L_i²/2I_i, and under each term alone the body turns
-//! about that axis at the constant rate L_i/I_i. The angular momentum stays as it is, in the world's
-//! axes, whatever the step; the energy stays in a band.
+//! Free rotation uses a symmetric splitting about the principal axes (Dullweber, Leimkuhler & McLachlan
+//! 1997; McLachlan 1993): the kinetic energy is Σ L_i²/2I_i, and under each term alone the body rotates
+//! about that axis at the constant rate L_i/I_i. The angular momentum in the world's axes is conserved
+//! for any step; the energy stays bounded.
 
 mod affine;
 
@@ -37,7 +37,7 @@ where
 }
 
 /// Rotation of a body after `dt` (s) of free rotation with the angular momentum `momentum` (kg m²/s,
-/// world), `body` its principal frame (kg m²).
+/// world). `body`: its principal moments (kg m²) and axes.
 pub fn turn(body: &Principal, rotation: DQuat, momentum: DVec3, dt: f64) -> DQuat {
     let mut frame = rotation * body.axes;
     let mut inner = frame.conjugate() * momentum;
@@ -58,25 +58,25 @@ pub fn spin(body: &Principal, rotation: DQuat, momentum: DVec3) -> DVec3 {
     frame * ((frame.conjugate() * momentum) / body.moments)
 }
 
-/// Principal moments and axes of a body, found once for each shape.
+/// Principal moments and axes of a body, computed once per shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Principal {
     /// Moments about the three axes, in the unit of the tensor.
     pub moments: DVec3,
-    /// Turns vectors of the principal frame into the body's.
+    /// Rotation from the principal frame to the body's.
     pub axes: DQuat,
 }
 
 impl Principal {
-    /// Of a symmetric tensor, by Jacobi rotations; a diagonal one keeps its axes exactly.
+    /// Moments and axes of a symmetric tensor, by Jacobi rotations. A diagonal tensor keeps its axes exactly.
     pub fn of(tensor: DMat3) -> Self {
         let mut d = tensor;
         let mut axes = DMat3::IDENTITY;
-        // Cyclic Jacobi converges quadratically: six sweeps reach the last bit from anywhere.
+        // Cyclic Jacobi converges quadratically: six sweeps reach the last bit for any tensor.
         for _ in 0..12 {
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
                 let off = 0.5 * (d.col(p)[q] + d.col(q)[p]);
-                // Of what rounding leaves of a zero no rotation is made.
+                // Off-diagonals at rounding level are skipped.
                 if off.abs() <= 1e-15 * (d.col(p)[p].abs() + d.col(q)[q].abs()) {
                     continue;
                 }

@@ -1,5 +1,5 @@
-//! St. Venant & Kirchhoff: stress linear in the strain E = ½(FᵀF − 1) that turns with the body, so that a
-//! rotation of any size strains nothing. S = λ tr E · 1 + 2μE, the second Piola–Kirchhoff stress.
+//! St. Venant & Kirchhoff: stress linear in the strain E = ½(FᵀF − 1), which rotates with the body, so that a
+//! rotation of any size causes no strain. S = λ tr E · 1 + 2μE, the second Piola–Kirchhoff stress.
 
 use crate::{Error, Result, geometry::inner};
 use glam::DMat3;
@@ -32,7 +32,7 @@ impl Elastic {
         0.5 * inner(self.stress(strain), strain)
     }
 
-    /// Whether the numbers can be computed with.
+    /// Checks the numbers.
     ///
     /// # Errors
     /// [`Error::Argument`] at `place`, naming the number and its range.

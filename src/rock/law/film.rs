@@ -1,5 +1,5 @@
-//! The resistance of a film of fluid that is squeezed out of a thin gap, beyond what a grid gives that resolves
-//! nothing narrower than h₀: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
+//! The resistance of a film of fluid that is squeezed out of a thin gap, in addition to that of a grid which does not resolve
+//! gaps narrower than h₀: lubrication theory (Reynolds 1886; for spheres the leading term of Brenner 1961),
 //! less its value at that gap (Nguyen & Ladd 2002, Phys. Rev. E 66:046708).
 
 use super::LoadDelay;
@@ -17,20 +17,20 @@ use std::f64::consts::PI;
 pub struct Film {
     /// Dynamic viscosity μ, Pa s; 0 without friction.
     pub viscosity: f64,
-    /// Gap h₀ from which on the flow is resolved where one side is a sphere, m.
+    /// Gap h₀ above which the flow is resolved if one side is a sphere, m.
     pub round: f64,
     /// The same between faces, m.
     pub flat: f64,
     /// Gap below which the resistance no longer grows, the roughness of the faces, m.
     pub roughness: f64,
-    /// Of the loads of the fluid; `None` if they come at once.
+    /// Delay of the loads of the fluid; `None` without delay.
     pub delay: Option<LoadDelay>,
-    /// Blocks along which the fluid slips, ascending: between one of them and another the resistance is a quarter.
+    /// Blocks along which the fluid slips, ascending: between one of them and another block the resistance is a quarter.
     pub slip: Vec<usize>,
 }
 
 impl Film {
-    /// Whether the numbers can be computed with.
+    /// Checks the numbers.
     ///
     /// # Errors
     /// [`Error::Argument`] naming the number and its range.
@@ -45,7 +45,7 @@ impl Film {
         self.delay.iter().try_for_each(LoadDelay::check)
     }
 
-    /// Widest gap that is looked at, m.
+    /// Widest gap with a film, m.
     pub fn reach(&self) -> f64 {
         let delay = self.delay.map_or(0.0, |delay| delay.range);
         self.round.max(self.flat).max(delay)
@@ -135,7 +135,7 @@ mod tests {
         let rise = |h: f64| film.resistance(&thin_gap(h, GapShape::Round { radius: r })) / stokes;
         for h in [0.5, 0.2, 0.1, 0.05, 0.01] {
             let exact = brenner(h / r) - brenner(film.round / r);
-            // What is left out, ⅕ ln(h₀/h), is small against R/h.
+            // The omitted term ⅕ ln(h₀/h) is small compared with R/h.
             let error = (rise(h) - exact).abs();
             assert!(
                 error < 0.21 * (film.round / h).ln(),

@@ -8,11 +8,12 @@
 //! would not damp rocking at all, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
 //! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere does not rock on
-//! its contact, it rolls: over a contact that goes with it the springs lose nothing, and no dashpot turns it.
+//! its contact, it rolls: over a contact that moves with it the springs dissipate nothing, and no dashpot resists the rotation.
 //!
-//! A bond is a contact whose springs pull too: it keeps the area that it began with, and bends over it as an elastic
-//! bed. It breaks, for good, where its tension reaches σ_t at a corner, or where it has slipped by σ_t/k_s: as far as
-//! it opens before it breaks. It has no spring against a twist about its normal, which dashpots slow alone. What is left is the contact without tension.
+//! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
+//! bed. It breaks permanently if its tension reaches σ_t at a corner, or if it has slipped by σ_t/k_s, the distance by which
+//! it opens before it breaks. It has no spring against a twist about its normal, which only dashpots resist. A broken bond is a contact
+//! without tension.
 //!
 //! Hart, Cundall & Lemos 1988: the longest stable step, from an upper bound of the highest frequency.
 //!
@@ -22,7 +23,7 @@
 use crate::{Error, Result};
 use glam::{DQuat, DVec3};
 
-/// What a contact remembers from step to step.
+/// History of a contact from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
@@ -32,11 +33,11 @@ pub struct History {
     pub normal: DVec3,
     /// Whether the tensile strength still holds.
     pub bonded: bool,
-    /// How far a bond has slipped, m.
+    /// Slip of a bond, m.
     pub slip: f64,
 }
 
-/// Where two blocks overlap.
+/// Geometry of the overlap of two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Unit normal from the first to the second block.
@@ -45,15 +46,15 @@ pub struct Section {
     pub overlap: f64,
     /// A, m².
     pub area: f64,
-    /// Area that springs and dashpots count with, m²: A, or more where A is that of a corner.
+    /// Area of springs and dashpots, m²: A, or more if A is the area of a corner.
     pub elastic_area: f64,
-    /// Whether one of the two is a sphere there, which rolls.
+    /// Whether one of the two parts is a sphere, which rolls.
     pub rolls: bool,
-    /// Opening of a bond at its widest corner less that at its middle, m: 0 where it does not bend.
+    /// Opening of a bond at its widest corner less that at its middle, m: 0 without bending.
     pub opening: f64,
 }
 
-/// How two blocks move about their contact, of the second relative to the first.
+/// Motion of the second block relative to the first at their contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Displacement of the pressure centre in this step, m.
@@ -70,7 +71,7 @@ pub struct Motion {
     pub mass: f64,
 }
 
-/// What a contact does to the second block; the first gets the opposite.
+/// Action of a contact on the second block; the first gets the opposite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Force {
@@ -82,9 +83,9 @@ pub struct Force {
     pub moment: DVec3,
     /// Moment of the springs of a bond about the middle of its area, N m.
     pub bending: DVec3,
-    /// Work that friction has taken in this step, J.
+    /// Work dissipated by friction in this step, J.
     pub friction: f64,
-    /// State that the next step starts from.
+    /// State at the start of the next step.
     pub history: History,
 }
 
@@ -118,7 +119,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let opening_rate = motion.velocity.dot(normal);
     let mut bonded = history.bonded;
     let pulled = pressing - dashpot(joint.damping, motion.mass, normal_stiffness) * opening_rate;
-    // A bond breaks where its tension is the largest: bent, before the mean is σ_t.
+    // A bond breaks at its largest tension: under bending, before the mean reaches σ_t.
     let least = if bonded {
         normal_stiffness * opening - joint.tensile_strength * area
     } else {
@@ -127,12 +128,12 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     bonded &= pulled >= least;
     let pressed = pulled.max(least);
 
-    // The cap follows the whole normal force, as it presses the faces together.
+    // The friction limit uses the total normal force, which presses the faces together.
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
     let tangential = motion.displacement - normal * motion.displacement.dot(normal);
     let trial_shear = turned(history, normal, motion) - shear_stiffness * tangential;
     let shear = capped(trial_shear, strength);
-    // Slip is the displacement that the spring does not take; the force is the mean over it.
+    // Slip is the part of the displacement that the spring does not take; the force is the mean over the slip.
     let slip = (trial_shear - shear) / shear_stiffness;
     let friction = slip.dot(shear);
     let slip = history.slip + slip.length();
@@ -151,7 +152,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let mass = motion.mass;
     let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;
     let turn = dashpot(joint.damping, mass, shear_stiffness) * (area / 6.0) * twist;
-    // No pressure pulls: the resultant stays in the face, half a side from its middle. Friction over a
+    // Pressure cannot pull: the resultant stays in the face, half a side from its middle. Friction over a
     // square has the mean arm 0.3826 a.
     let most = 0.3826 * side * strength;
     let grip = if bonded {
@@ -191,8 +192,8 @@ fn capped(force: DVec3, most: f64) -> DVec3 {
     }
 }
 
-/// The stored shear force, turned with the normal by the shortest arc and about it by the mean spin of
-/// the two blocks. It is stored in the first block's frame, so half the relative spin is left to do.
+/// The stored shear force, rotated with the normal by the shortest arc and about it by the mean spin of
+/// the two blocks. It is stored in the first block's frame, so that half the relative spin remains to be applied.
 fn turned(history: &History, normal: DVec3, motion: &Motion) -> DVec3 {
     if history.shear == DVec3::ZERO {
         return DVec3::ZERO;
@@ -201,7 +202,7 @@ fn turned(history: &History, normal: DVec3, motion: &Motion) -> DVec3 {
     let arc = DQuat::from_rotation_arc(before.normalize(), normal);
     let angle = 0.5 * motion.spin.dot(normal) * motion.time_step;
     let shear = DQuat::from_axis_angle(normal, angle) * (arc * (motion.frame * history.shear));
-    // Rounding leaves no part along the normal.
+    // Removes the rounding error along the normal.
     shear - normal * shear.dot(normal)
 }
 
@@ -252,7 +253,7 @@ impl Joint {
         }
     }
 
-    /// Whether the numbers can be computed with.
+    /// Checks the numbers.
     ///
     /// # Errors
     /// [`Error::Argument`] at `place`, naming the number and its range.
@@ -293,12 +294,12 @@ impl Joint {
     }
 }
 
-/// Share of 2/ω that a step takes by default.
+/// Default ratio of the step to 2/ω.
 pub const USUAL_SHARE: f64 = 0.1;
-/// Largest share of 2/ω that a step may take.
+/// Largest ratio of the step to 2/ω.
 pub const LARGEST_SHARE: f64 = 0.2;
 
-/// The springs that hold one block.
+/// Sums over the springs that act on one block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stiffness {
     /// Σ(k_n + k_s) A, N/m.

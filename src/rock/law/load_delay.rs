@@ -1,11 +1,11 @@
-//! Loads of a fluid that come late: what they lack in the film between two faces.
+//! Correction of the delay of a fluid's loads in the film between two faces.
 //!
-//! A fluid that is advanced in turns with its blocks returns the loads of a step when it is over. Water in a joint is stiff:
+//! A fluid that is advanced alternately with its blocks returns the loads of a step at its end. Water in a joint is stiff:
 //! a gap that closes by dh raises its pressure by ρ c² dh/H, H being the thickness of the water that is compressed. A
-//! spring k whose force comes late by t_d pushes in the direction of the motion, F = −k x(t − t_d) ≈ −k x + k t_d dx/dt, and the blocks on
-//! its sides oscillate with a growth rate of k t_d/2m: about as fast as the waves in it for blocks a few cells thick. The damping
-//! k t_d cancels this. It is due only while the pressure follows the gap; where water flows out of a gap as fast as it
-//! closes, the pressure stays, and its delay means nothing. So it acts on the velocity less a mean over the last steps.
+//! spring k whose force lags by t_d has a part in the direction of the motion, F = −k x(t − t_d) ≈ −k x + k t_d dx/dt, and the blocks on
+//! its sides oscillate with a growth rate of k t_d/2m, as fast as the waves in it for blocks a few cells thick. The damping
+//! k t_d cancels this. It is correct only while the pressure follows the gap; if water leaves a gap as fast as it
+//! closes, the pressure is constant and its delay has no effect. The damping therefore acts on the velocity less a mean over the last steps.
 
 use crate::{
     Result,
@@ -15,19 +15,19 @@ use crate::{
     },
 };
 
-/// The loads of a fluid that come late.
+/// The delay of the loads of a fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadDelay {
-    /// Pressure that the loads lack, over the velocity at which a gap closes, Pa s/m: ρ c² t_d/H.
+    /// Missing pressure over the velocity at which a gap closes, Pa s/m: ρ c² t_d/H.
     pub impedance: f64,
-    /// Gap from which on they lack nothing, m. From its half on they lack ever less.
+    /// Gap above which no correction is needed, m. From half of it on the correction decreases.
     pub range: f64,
     /// Time over which velocities are averaged, s.
     pub memory: f64,
 }
 
 impl LoadDelay {
-    /// Whether the numbers can be computed with.
+    /// Checks the numbers.
     ///
     /// # Errors
     /// [`crate::Error::Argument`] naming the number and its range.
@@ -38,7 +38,7 @@ impl LoadDelay {
     }
 
     /// Normal force over the velocity at which the gap closes, N s/m, and moment over the rate at which it tilts about each
-    /// axis, N m s; zero where one side is a sphere.
+    /// axis, N m s; zero if one side is a sphere.
     pub fn resistance(&self, thin_gap: &ThinGap) -> (f64, [f64; 2]) {
         let GapShape::Flat {
             area,

@@ -1,4 +1,4 @@
-//! Blocks whose friction a law of the wall gives: on faces along the grid.
+//! Wall model on grid-aligned faces of blocks.
 
 use super::{Lattice, boundary::cell_pass, cell_kernels::CellDispatch, fluid::Dispatch};
 use crate::{
@@ -7,8 +7,8 @@ use crate::{
 };
 use bytemuck::{Pod, Zeroable};
 
-/// A face of a block under which a cell is full, and what the law of the wall says of it, as
-/// `kernels/lattice/block_friction.wgsl` writes it; lattice units.
+/// A face of a block above a full cell, with the result of the law of the wall, in the layout of
+/// `kernels/lattice/block_friction.wgsl`; lattice units.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct BlockFace {
@@ -18,37 +18,37 @@ pub struct BlockFace {
     pub face: u32,
     /// Friction velocity.
     pub friction: f32,
-    /// The part of the stress that is the law's: 0 for a face without slip, 1 for all of it.
+    /// Fraction of the stress that comes from the law: 0 for a no-slip face, 1 for the law alone.
     pub share: f32,
     /// Stress on the face over the density, along x, y, z.
     pub stress: [f32; 3],
-    /// How far it lies beyond the cell: the part of the next cell that the block fills.
+    /// Distance of the face beyond the cell: the solid fraction of the next cell.
     pub fraction: f32,
 }
 
-/// The faces of blocks that a law of the wall is for.
+/// The faces of blocks for the wall model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlockFaces {
     /// Those where it acts, in the order of the cells.
     pub faces: Vec<BlockFace>,
-    /// All faces of full cells of blocks before which there is fluid.
+    /// Number of all faces of full block cells in contact with fluid.
     pub area: u64,
 }
 
-/// Cells of the bricks that blocks reach for each invocation that goes through the list of those under faces: where more are in the list,
-/// an invocation does several.
+/// Number of cells of the bricks that blocks reach per invocation over the list of cells under faces: if the list is longer,
+/// an invocation processes several entries.
 const CELLS_OF_BRICKS: u32 = 16;
 
-/// The dispatches of what depends on where blocks are.
+/// The dispatches that depend on the positions of blocks.
 #[derive(Debug, Default)]
 pub(super) struct BlockPasses {
-    /// Once they have moved: the walls with blocks near them, and the faces where the law of the wall acts.
+    /// After blocks have moved: find the walls with blocks nearby, and the faces where the law of the wall acts.
     pub faces: Vec<Dispatch>,
-    /// Their friction, in even and odd steps.
+    /// Friction of these faces, in even and odd steps.
     pub friction: [Vec<Dispatch>; 2],
-    /// What the end of a step takes back of it.
+    /// Removal of the eddy viscosity at the end of a step.
     pub end: Option<Dispatch>,
-    /// The cells that may be under such a face.
+    /// List of the cells that may be under such a face.
     pub outer_cells: Option<wgpu::Buffer>,
 }
 
@@ -62,7 +62,7 @@ impl Lattice {
         Some((list, slots * cells))
     }
 
-    /// A pass over these cells; `more` are buffers of its own.
+    /// A pass over these cells; `more`: additional buffers.
     fn pass_of_model(
         &self,
         device: &wgpu::Device,
@@ -85,7 +85,7 @@ impl Lattice {
         self.cell_dispatch(device, &dispatch)
     }
 
-    /// The dispatches of what depends on where blocks are.
+    /// The dispatches that depend on the positions of blocks.
     pub(super) fn block_passes(&self, device: &wgpu::Device) -> Result<BlockPasses> {
         let mut passes = BlockPasses {
             faces: self.mark_passes(device)?,

@@ -12,7 +12,7 @@ use crate::{Error, Result};
 use std::ops::Range;
 
 impl Lattice {
-    /// All of a step of the given parity, in their order: see [`super::stages::Stages`].
+    /// All boundary passes of a step of the given parity, in their order: see [`super::stages::Stages`].
     pub(super) fn boundary_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = Vec::new();
         let limit = device.limits().max_storage_buffer_binding_size as usize;
@@ -57,7 +57,7 @@ impl Lattice {
         Ok(passes)
     }
 
-    /// What outflow faces carry from the present state, which is complete, to the next step.
+    /// Passes that store the data of outflow faces for the next step; the present state must be complete.
     pub(super) fn remember_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = Vec::new();
         for (face, (axis, side, cells)) in self.geometry.open.iter().enumerate() {
@@ -126,10 +126,10 @@ impl Lattice {
         Ok(Some(self.cell_dispatch(device, &dispatch)?))
     }
 
-    /// Gives a pressure or outflow face another density, in lattice units; it holds from the next submission on.
+    /// Sets the density of a pressure or outflow face, in lattice units; it holds from the next submission on.
     ///
     /// # Errors
-    /// If there is no such face, it holds no density, or one that no fluid has.
+    /// If there is no such face, it has no density, or the density is not positive and finite.
     pub fn set_face_density(
         &mut self,
         queue: &wgpu::Queue,
@@ -157,7 +157,7 @@ impl Lattice {
         Ok(())
     }
 
-    /// Gives the cells of a velocity face new velocities, in lattice units, lower axis fastest;
+    /// Sets the velocities of the cells of a velocity face, in lattice units, lower axis fastest;
     /// they hold from the next submission on.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl Lattice {
 }
 
 impl OpenFace {
-    /// That of a face of a setup.
+    /// The parameters of a face of a setup.
     pub(super) fn of(setup: &Setup, grid: &Grid, axis: usize, side: usize) -> Self {
         // Sound that crosses the domain is reflected by about 3 hold × its wave length: with
         // 0.4 / length a pulse of a tenth of the domain loses 1 %. The integral takes some
@@ -208,7 +208,7 @@ impl OpenFace {
             Face::Pressure { density } | Face::Outflow { density } => density,
             _ => 1.0,
         };
-        // What a face is given it has in its middle.
+        // The given density is that of the middle of the face.
         let mut gradient = setup.open_face_gradient;
         gradient[axis] = 0.0;
         let middle = |a: usize| 0.5 * f64::from(grid.cells[a] - 1);
@@ -234,11 +234,11 @@ pub(super) fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
     }
 }
 
-/// What a pass over an open face does.
+/// Action of a pass over an open face.
 #[derive(Clone, Copy)]
 enum Action {
-    /// Writes what enters.
+    /// Writes the entering populations.
     Apply,
-    /// Keeps what the next step needs.
+    /// Stores data for the next step.
     Remember,
 }

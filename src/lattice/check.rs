@@ -1,4 +1,4 @@
-//! A setup that can be computed, in numbers that the device can hold.
+//! Checks of a setup.
 
 use super::{Face, Force, Setup, SolidOperator, SolidWeight, SurfaceCell, face_name, in_plane};
 use crate::{Error, Result};
@@ -7,7 +7,7 @@ use crate::{Error, Result};
 pub const MAX_ROUGHNESS: f64 = 5.0;
 
 impl Setup {
-    /// Whether a fluid can be made of it.
+    /// Checks the setup.
     ///
     /// # Errors
     /// [`Error::Argument`] naming the first field that cannot be used.
@@ -109,7 +109,7 @@ impl Setup {
         ];
         for (name, rate) in rates {
             let rate = rate as f32;
-            // 2 is what 1/τ of the least viscosities is in 32 bits.
+            // In f32, 1/τ of the lowest viscosities is 2.
             if !(rate > 0.0 && rate <= 2.0) {
                 let message = format!("is {rate}; a rate lies above 0, up to 2");
                 return Err(Error::argument(format!("rates.{name}"), message));
@@ -224,7 +224,7 @@ impl Setup {
     }
 }
 
-/// There must be as many values as cells.
+/// Checks that there is one value per cell.
 fn same(name: &str, values: usize, cells: u128) -> Result<()> {
     if values as u128 == cells {
         return Ok(());
@@ -235,7 +235,7 @@ fn same(name: &str, values: usize, cells: u128) -> Result<()> {
     ))
 }
 
-/// All of these must be numbers.
+/// Checks that all values are finite.
 pub(super) fn finite(name: &str, values: &[f32]) -> Result<()> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(()),

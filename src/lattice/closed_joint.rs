@@ -1,25 +1,25 @@
-//! How much water a closed joint lets through, and the weight B of its momentum with which it does so.
+//! Conductivity of closed joints, as a function of the weight B of the momentum in their cells.
 //!
-//! The cells of a closed joint take part of the momentum of their water in each step, and full cells beside them reflect theirs. Steady flow
+//! The cells of a closed joint remove part of the momentum of their water in each step, and the adjacent full cells reflect their populations. Steady flow
 //! along such cells, uniform across the joint but for the rows, follows from three sums over the populations that go along it: those
-//! that stay in the row, come up and come down. Their momentum, shear stress and third moment relax with B of the momentum and that of
+//! that stay in the row, move up and move down. Their momentum, shear stress and third moment relax with B of the momentum and that of
 //! the other moments; a gradient of p/ρ adds its part to those that come from cells of the joint (docs/src/theory/solids.md).
 
 use super::{Collision, Setup, SolidOperator};
 use crate::error::{Error, Result};
 
-/// B of the momentum where no aperture is given: joints of blocks a few cells thick are stable with it at any viscosity.
+/// Default B of the momentum without a given aperture: joints of blocks a few cells thick are stable with it at any viscosity.
 const WEIGHT: f64 = 0.25;
-/// Largest B in joints of one row and of two; 1 would let nothing through, and keep the pressure that a joint had as it closed.
+/// Largest B in joints of one row and of two; 1 would let no water through, and keep the pressure at the time the joint closed.
 const LARGEST_WEIGHTS: [f64; 2] = [0.95, 0.98];
-/// What bounds may lose by rounding.
+/// Tolerance of the bounds for rounding.
 const ROUNDING: f64 = 1.0 - 1e-6;
 /// B of all other moments, as in `kernels/lattice/psm_cells.wgsl`.
 const OTHERS: f64 = 0.0625;
 
-/// What the moments of the water keep in a step, without B of the momentum.
+/// Fractions of the moments that the water keeps in a step, without B of the momentum.
 struct Kept {
-    /// Part of the momentum that the operator takes where B is 1.
+    /// Fraction of the momentum that the operator removes for B = 1.
     momentum: f64,
     shear: f64,
     third: f64,
@@ -27,7 +27,7 @@ struct Kept {
 
 impl Setup {
     /// Hydraulic aperture of closed joints with one row of cells, a shared one or one between block and wall, and of those with two, cells:
-    /// a slot so wide lets through a³/12ν for each width and −∇(p/ρ) (cubic law). Within 1 % of what is measured
+    /// a slot of this aperture a has the flow a³/12ν per width and −∇(p/ρ) (cubic law). Within 1 % of the measured flow
     /// (`riprap validate --case joint/pressure`).
     pub fn joint_apertures(&self) -> [f64; 2] {
         let kept = self.kept();
@@ -35,8 +35,8 @@ impl Setup {
         [kept.one_row(one), kept.two_rows(two)].map(|conductance| self.aperture(conductance))
     }
 
-    /// Diffusivity of the pressure in closed joints with one row of cells and with two, lattice units. Full cells beside a row hold a sixth of the
-    /// water that it does. That of a shared row; of one at a wall it is 8/7 of that.
+    /// Diffusivity of the pressure in closed joints with one row of cells and with two, lattice units. Full cells next to a row store a sixth of the
+    /// water of the row. The first value is that of a shared row; for a row at a wall it is 8/7 times as large.
     pub fn joint_diffusivities(&self) -> [f64; 2] {
         let [one, two] = self.joint_apertures().map(|a| a.powi(3) / (12.0 * self.nu));
         [one / 4.0, two / 7.0]
@@ -84,7 +84,7 @@ impl Setup {
         }
         let [least, largest] = self.joint_aperture_range();
         match self.joint_aperture {
-            // The bounds may have been to metres and back.
+            // The bounds may have been converted to metres and back.
             Some(given) if !(least * ROUNDING..=largest / ROUNDING).contains(&given) => {
                 let message = format!(
                     "is {given}; closed joints conduct as slots of {least:.4} to {largest:.4} cells"

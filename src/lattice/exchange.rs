@@ -1,4 +1,4 @@
-//! Populations in canonical order: what a checkpoint holds.
+//! Populations in canonical order, for checkpoints.
 
 use super::{
     CellPass, Lattice,
@@ -16,9 +16,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Populations {
-    /// Steps done.
+    /// Number of steps done.
     pub step: u64,
-    /// Cells an axis.
+    /// Number of cells along each axis.
     pub cells: [u32; 3],
     /// f_q − w_q of each cell, direction by direction, x fastest.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
@@ -29,10 +29,10 @@ pub struct Populations {
     /// Least eddy viscosity of each cell in the coming step, by a wall model where blocks are in the fluid; otherwise empty.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub near_wall: Vec<f32>,
-    /// What the outflow faces carry from step to step, face by face.
+    /// Data of the outflow faces for the next step, face by face.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub carried: Vec<f32>,
-    /// How far the mean flow has come through each face that feeds turbulence, 2⁻¹⁶ cell; without it faces begin anew.
+    /// Displacement of the mean flow through each face with synthetic turbulence, 2⁻¹⁶ cell; if empty, faces start anew.
     pub travelled: Vec<u32>,
 }
 
@@ -40,7 +40,7 @@ impl Lattice {
     /// Reads the state between two steps.
     ///
     /// # Errors
-    /// If the device is lost or does not hold one direction more.
+    /// If the device is lost or cannot hold one more direction.
     pub async fn populations(
         &mut self,
         device: &wgpu::Device,
@@ -101,10 +101,10 @@ impl Lattice {
         })
     }
 
-    /// Whether [`Lattice::set_populations`] takes a state.
+    /// Checks whether [`Lattice::set_populations`] accepts a state.
     ///
     /// # Errors
-    /// If it is of another grid, or lacks what the eddy viscosity or the faces need.
+    /// If it belongs to another grid, or lacks data for the eddy viscosity or the faces.
     pub fn check_populations(&self, state: &Populations) -> Result<()> {
         let cells = self.grid.cell_count();
         let wrong = |message: String| Err(Error::argument("restart", message));
@@ -125,10 +125,10 @@ impl Lattice {
         Ok(())
     }
 
-    /// Goes on from a state; the same setup on the same device goes on to the same bits.
+    /// Continues from a state; the same setup on the same device gives the same bits.
     ///
     /// # Errors
-    /// If the state is of another grid, or lacks what the eddy viscosity needs.
+    /// If the state belongs to another grid, or lacks data for the eddy viscosity.
     pub fn set_populations(
         &mut self,
         device: &wgpu::Device,
@@ -197,7 +197,7 @@ impl Lattice {
         Ok(())
     }
 
-    /// Where the cells of an open face lie in its buffer, in the order of a state; the buffer of a closed one has one cell.
+    /// Indices of the cells of an open face in its buffer, in the order of a state; the buffer of a closed face has one cell.
     fn places(&self, face: usize) -> Vec<usize> {
         let (_, _, cells) = &self.geometry.open[face];
         match cells.is_empty() {

@@ -1,4 +1,4 @@
-//! The fluid on a device: its buffers, its kernels, and what a step records.
+//! The fluid on a device: its buffers, its kernels, and the recording of steps.
 
 use super::{
     Bindings, Geometry, Grid, Setup,
@@ -20,7 +20,7 @@ pub(super) struct Dispatch {
 }
 
 impl Dispatch {
-    /// `groups` workgroups of a kernel with its buffers.
+    /// A dispatch of `groups` workgroups of a kernel with its buffers.
     pub(super) fn new(kernel: Arc<Kernel>, bind: wgpu::BindGroup, groups: u32) -> Self {
         Self {
             kernel,
@@ -37,7 +37,7 @@ impl Dispatch {
 
 /// A D3Q27 lattice Boltzmann fluid.
 ///
-/// It owns buffers and pipelines; device, queue and encoder are the caller's. A step is recorded
+/// It owns buffers and pipelines; the caller owns device, queue and encoder. A step is recorded
 /// by [`Lattice::record`]; nothing is read back unless requested.
 #[derive(Debug)]
 pub struct Lattice {
@@ -48,23 +48,23 @@ pub struct Lattice {
     pub(super) buffers: Buffers,
     /// Boundary passes of even and odd steps.
     boundary: [Vec<Dispatch>; 2],
-    /// What the wall model needs of blocks.
+    /// Data of the wall model on blocks.
     pub(super) of_blocks: BlockPasses,
-    /// Whether the faces of blocks have been found where they are now.
+    /// Whether the faces of blocks have been found at their present positions.
     faces_found: bool,
     /// Kernels for single cells.
     pub(super) cells: CellKernels,
     /// Collision and streaming.
     pub(super) streams: Streams,
-    /// Steps recorded.
+    /// Number of steps recorded.
     pub(super) step: u64,
     /// Whether the boundary passes of the coming step have been recorded.
     pub(super) closed: bool,
 }
 
 impl Lattice {
-    /// Makes buffers and pipelines; the populations are those of rest at ρ = 1 until an initial
-    /// state is given.
+    /// Creates buffers and pipelines; the populations are those of rest at ρ = 1 until an initial
+    /// state is set.
     ///
     /// # Errors
     /// [`Error::Argument`] for a setup that contradicts itself, [`Error::Limit`] if the device cannot
@@ -104,17 +104,17 @@ impl Lattice {
         Ok(lattice)
     }
 
-    /// What it was made from.
+    /// Its setup.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
 
-    /// How it lies in memory.
+    /// Its layout in memory.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// What surrounds its cells.
+    /// Walls, open faces and bricks of its cells.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
@@ -126,7 +126,7 @@ impl Lattice {
     }
 
     /// Velocities of moving walls and velocity faces in the last step, synthetic turbulence included, lattice units: for each cell of
-    /// [`Geometry::moving`] those of its faces normal to x, y, z, three components each. None where nothing moves.
+    /// [`Geometry::moving`] those of its faces normal to x, y, z, three components each. `None` without moving walls and velocity faces.
     pub fn wall_velocity_buffer(&self) -> Option<&wgpu::Buffer> {
         self.buffers.wall_velocity.as_ref()
     }
@@ -180,8 +180,8 @@ impl Lattice {
         self.closed = false;
     }
 
-    /// Has these bricks, numbered as in [`Grid::bricks`] with x fastest, run by the kernel for blocks;
-    /// none are at the start. Only of a setup with a `solid_operator`.
+    /// Sets the bricks, numbered as in [`Grid::bricks`] with x fastest, that the kernel for blocks computes;
+    /// initially none. Only of a setup with a `solid_operator`.
     ///
     /// # Errors
     /// If the setup has no blocks, or a brick does not exist, is solid or is listed twice.
@@ -206,7 +206,7 @@ impl Lattice {
             let message = format!("brick {bad} has no fluid cell, or does not exist");
             return Err(Error::argument("bricks", message));
         }
-        // Two workgroups would share a brick and write over each other.
+        // Two workgroups would write to the same brick.
         let mut ascending = bricks.to_vec();
         ascending.sort_unstable();
         if let Some(twice) = ascending.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -218,14 +218,14 @@ impl Lattice {
             return Ok(());
         }
         self.write_psm_slots(queue, bricks);
-        // The planes may be other buffers.
+        // The buffers of the planes may have changed.
         self.of_blocks = self.block_passes(device)?;
         self.blocks_have_moved();
         Ok(())
     }
 
-    /// Has the wall model find the faces of blocks anew in the coming step. Whoever writes other solid fractions into
-    /// [`Lattice::psm_planes`] calls it; [`Lattice::set_psm_bricks`] does so for other bricks.
+    /// Makes the wall model search the faces of blocks again in the next step. Call it after writing solid fractions to
+    /// [`Lattice::psm_planes`]; [`Lattice::set_psm_bricks`] calls it for changed bricks.
     pub fn blocks_have_moved(&mut self) {
         self.faces_found = false;
     }
@@ -243,7 +243,7 @@ impl Lattice {
         self.bindings
     }
 
-    /// The list of the bricks that blocks reach, after their number, and that; none where there are none.
+    /// The buffer with the number and the list of the bricks that blocks reach, and that number; `None` without blocks.
     pub(super) fn psm_bricks(&self) -> Option<(&wgpu::Buffer, u32)> {
         self.streams.psm_bricks()
     }

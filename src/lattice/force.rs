@@ -3,13 +3,13 @@
 use super::{Force, Lattice, check::finite};
 use crate::{Error, Result};
 
-/// What the kernels read.
+/// The buffer that the kernels read.
 pub(super) fn force_words([x, y, z]: [f64; 3]) -> [f32; 4] {
     [x as f32, y as f32, z as f32, 0.0]
 }
 
 impl Lattice {
-    /// Gives all cells another body force per volume, in lattice units; it holds from the next submission on.
+    /// Sets the body force per volume of all cells, in lattice units; it holds from the next submission on.
     ///
     /// # Errors
     /// If the setup has no [`Force::Constant`], or the force is not finite.

@@ -1,4 +1,4 @@
-//! Reading the values of listed cells.
+//! Readback of the values of listed cells.
 
 use super::{Lattice, buffers};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// Copies values of listed cells together before they leave the device.
+/// Gathers the values of listed cells on the device before the readback.
 #[derive(Debug)]
 pub(super) struct Gather(Arc<Kernel>);
 
@@ -22,7 +22,7 @@ impl Gather {
         )?))
     }
 
-    /// `field` on `cells`, which are places in it.
+    /// Reads `field` on `cells`, which are indices into it.
     pub(super) async fn read(
         &self,
         device: &wgpu::Device,

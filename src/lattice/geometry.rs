@@ -1,4 +1,4 @@
-//! What surrounds each cell: flags, reflecting links, moving and open faces, bricks.
+//! The surroundings of each cell: flags, reflecting links, moving and open faces, bricks.
 
 use super::{Face, Grid, Setup, stages::Stages, surface, wall_model::Walls};
 use crate::gpu::Processor;
@@ -34,16 +34,16 @@ pub const C: [[i32; 3]; 27] = [
     [1, -1, -1],
 ];
 
-/// The cell is next to a wall: bit of its flags.
+/// Flag of a cell next to a wall.
 pub const NEXT_TO_WALL: u8 = 1 << 6;
-/// The cell is not fluid: bit of its flags.
+/// Flag of a cell that is not fluid.
 pub const SOLID: u8 = 1 << 7;
 
 pub(super) fn opposite(q: usize) -> usize {
     if q == 0 { 0 } else { ((q - 1) ^ 1) + 1 }
 }
 
-/// What a direction leads to from a fluid cell.
+/// Target of a direction from a fluid cell.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Beyond {
     Fluid,
@@ -111,7 +111,7 @@ pub struct Geometry {
     pub plain: Vec<u32>,
     /// Bricks that run the kernel with flags.
     pub mixed: Vec<u32>,
-    /// Bricks that hold cells which solids at rest fill in part, or neighbours of such cells.
+    /// Bricks with cells that static solids fill in part, or with neighbours of such cells.
     pub surface: Vec<u32>,
     /// Bricks without a fluid cell.
     pub solid_bricks: u32,
@@ -126,7 +126,7 @@ pub(super) struct Survey<'a> {
 }
 
 impl Geometry {
-    /// Surveys the grid of a setup.
+    /// Determines the surroundings of all cells of a setup.
     pub fn new(setup: &Setup, grid: &Grid) -> Self {
         if setup.is_all_fluid() {
             return Self {
@@ -167,7 +167,7 @@ impl Geometry {
             let word = &mut geometry.flags[element as usize];
             *word = *word & !(0xff << (8 * lane)) | u32::from(bits) << (8 * lane);
         }
-        // Neighbours in the list are neighbours in memory.
+        // Sorted by memory address.
         let links = &mut geometry.links;
         links.sort_unstable_by_key(|link| (link.directions, link.to));
         geometry.walls.own_layers(grid);
@@ -290,7 +290,7 @@ impl Geometry {
             }
             let first = [x * grid.brick[0], y * grid.brick[1], z * grid.brick[2]];
             match (flagged, solid) {
-                // It is padding behind the last cells, which no kernel has to leave out.
+                // It consists of padding, which no kernel has to skip.
                 (_, true) if !grid.contains(first) => {}
                 (_, true) => self.solid_bricks += 1,
                 (true, _) => self.mixed.push(brick),
@@ -299,8 +299,8 @@ impl Geometry {
         }
     }
 
-    /// Has all bricks run the kernel with flags where those of plain fluid are fewer: on a CPU neighbours that run one
-    /// after the other save more time than flags take.
+    /// Runs all bricks by the kernel with flags if fewer bricks are plain fluid: on a CPU the locality of consecutive
+    /// bricks saves more time than flags cost.
     fn merge_bricks(&mut self) {
         if self.plain.len() < self.mixed.len() {
             self.mixed.append(&mut self.plain);
@@ -315,15 +315,15 @@ impl Survey<'_> {
         !solid.is_empty() && solid[self.grid.index(cell)]
     }
 
-    /// Whether solids at rest fill the cell in part.
+    /// Whether static solids fill the cell in part.
     pub(super) fn is_surface(&self, cell: [u32; 3]) -> bool {
         let index = self.grid.index(cell) as u32;
         let surface = &self.setup.surface;
         surface.binary_search_by_key(&index, |s| s.cell).is_ok()
     }
 
-    /// Whether all 26 neighbours are fluid cells of the domain, or may be taken so: the early
-    /// out for the bulk of the cells. Cells at faces answer no where solids have to be looked up.
+    /// Whether all 26 neighbours are fluid cells of the domain or may be treated so: a shortcut for most
+    /// cells. Returns false for cells at faces if solids have to be looked up.
     fn is_inside(&self, cell: [u32; 3]) -> bool {
         let off_the_face = |a: usize| (1..self.grid.cells[a].saturating_sub(1)).contains(&cell[a]);
         let solid = &self.setup.solid;
@@ -347,8 +347,8 @@ impl Survey<'_> {
         x + nx * (y + ny * z)
     }
 
-    /// What direction `q` leads to. Where it crosses several faces the first of: solid, wall, moving
-    /// wall, velocity, pressure or outflow, free slip decides.
+    /// Target of direction `q`. If it crosses several faces, the first of solid, wall, moving
+    /// wall, velocity, pressure or outflow, free slip applies.
     pub(super) fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
         let mut crossed = [None; 3];
@@ -361,7 +361,7 @@ impl Survey<'_> {
                 crossed[a] = Some(usize::from(at >= n));
             }
         }
-        // A solid next to the face goes on beyond it.
+        // A solid next to the face continues beyond it.
         let nearest = [0, 1, 2].map(|a| if crossed[a].is_some() { cell[a] } else { to[a] });
         if self.is_solid(nearest) {
             return Beyond::Wall;
@@ -387,7 +387,7 @@ impl Survey<'_> {
         found
     }
 
-    /// Where the population lies that `cell` loads in direction `q` in an even step.
+    /// Index of the population that `cell` loads in direction `q` in an even step.
     fn incoming(&self, cell: [u32; 3], q: usize) -> (u32, u32) {
         if q % 2 == 1 {
             (self.grid.scalar_of(cell), q as u32 + 1)
@@ -397,7 +397,7 @@ impl Survey<'_> {
         }
     }
 
-    /// What `sender` sent in direction `sent` returns to `receiver` in direction `received`.
+    /// Adds a link: the population that `sender` sent in direction `sent` returns to `receiver` in direction `received`.
     pub(super) fn link(
         &self,
         sender: [u32; 3],

@@ -1,27 +1,27 @@
-//! Where a cell lies: padding, lanes, elements, bricks.
+//! Memory layout of cells: padding, lanes, elements, bricks.
 
 use super::{Setup, Storage};
 use crate::{Error, Result, gpu::kernel::MAX_GROUPS};
 
-/// Most cells of a grid: each has an index of 32 bits, and so has what folding a dispatch adds.
+/// Largest number of cells of a grid: indices have 32 bits, including the padding of a folded dispatch.
 const MAX_CELLS: u32 = u32::MAX - 64 * MAX_GROUPS;
 
-/// The grid as it lies in memory.
+/// The grid in memory.
 ///
-/// Axes that are not periodic carry a layer of cells that are not fluid behind the last one: it
-/// holds what fluid cells send into the walls on both sides. Along `lane_axis`, `lanes` slabs of as
-/// many cells as there are elements lie side by side in each element.
+/// Axes that are not periodic have a layer of non-fluid cells after the last one, which
+/// receives the populations that fluid cells send into the walls on both sides. Along `lane_axis` the domain is divided into
+/// `lanes` slabs; an element holds one cell of each slab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
-    /// Fluid cells an axis.
+    /// Number of fluid cells along each axis.
     pub cells: [u32; 3],
-    /// Elements an axis, padding included.
+    /// Number of elements along each axis, padding included.
     pub elements: [u32; 3],
-    /// Cells an element.
+    /// Cells per element.
     pub lanes: u32,
-    /// The axis along which they are spread, 1 or 2.
+    /// The axis along which the domain is divided into lanes, 1 or 2.
     pub lane_axis: usize,
-    /// Elements of a brick an axis.
+    /// Elements of a brick along each axis.
     pub brick: [u32; 3],
 }
 
@@ -29,8 +29,8 @@ impl Grid {
     /// The grid of a setup.
     ///
     /// # Errors
-    /// If a periodic axis of the lanes does not divide into them, or the grid has more cells than an
-    /// index holds.
+    /// If a periodic lane axis is not divisible by the number of lanes, or the grid has too many cells for an
+    /// index.
     pub fn new(setup: &Setup) -> Result<Self> {
         if setup.cells.contains(&0) {
             return Err(Error::argument(
@@ -92,17 +92,17 @@ impl Grid {
         })
     }
 
-    /// Elements in all.
+    /// Number of elements.
     pub fn element_count(&self) -> u32 {
         self.elements.iter().product()
     }
 
-    /// Cells of all elements, padding included.
+    /// Number of cells of all elements, padding included.
     pub fn scalar_count(&self) -> u32 {
         self.element_count() * self.lanes
     }
 
-    /// Fluid cells in all.
+    /// Number of fluid cells.
     pub fn cell_count(&self) -> usize {
         self.cells.iter().map(|&n| n as usize).product()
     }
@@ -116,12 +116,12 @@ impl Grid {
         }
     }
 
-    /// Cells an axis, padding included.
+    /// Number of cells along each axis, padding included.
     pub fn padded(&self) -> [u32; 3] {
         [0, 1, 2].map(|axis| self.elements[axis] * self.lanes_along(axis))
     }
 
-    /// Bricks an axis.
+    /// Number of bricks along each axis.
     pub fn bricks(&self) -> [u32; 3] {
         [0, 1, 2].map(|a| self.elements[a].div_ceil(self.brick[a]))
     }
@@ -133,7 +133,7 @@ impl Grid {
         (element, y / ny + z / nz)
     }
 
-    /// The brick of a cell, numbered as in [`Grid::bricks`] with x fastest, and its place there: element, then lane.
+    /// The brick of a cell, numbered as in [`Grid::bricks`] with x fastest, and its index there: element, then lane.
     pub(super) fn place_in_bricks(&self, cell: [u32; 3]) -> (u32, u32) {
         let [nx, ny, _] = self.elements;
         let (element, lane) = self.element_of(cell);

@@ -1,14 +1,14 @@
-//! Velocities in cells with solid, from one run to the next.
+//! Velocities in cells with solid, for restarts.
 
 use super::{Grid, Lattice, Observer, buffers::storage, observe::VELOCITY_OUT};
 use crate::{Error, Result, gpu::kernel::Kernel};
 use std::sync::Arc;
 
-/// Velocities in cells with solid at the end of a step: they follow from what the solid did in it, which the populations do not contain.
+/// Velocities in cells with solid at the end of a step: they depend on the action of the solid in that step, which the populations do not contain.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inside {
-    /// Places of the cells, x fastest, ascending: those whose populations alone have another velocity.
+    /// Indices of the cells, x fastest, ascending: those whose velocity differs from that of the populations alone.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub cells: Vec<u32>,
     /// Their velocities, component by component, lattice units.
@@ -17,10 +17,10 @@ pub struct Inside {
 }
 
 impl Inside {
-    /// Whether [`Observer::keep_inside`] takes them.
+    /// Checks whether [`Observer::keep_inside`] accepts them.
     ///
     /// # Errors
-    /// If they are of another grid.
+    /// If they belong to another grid.
     pub fn check(&self, grid: &Grid) -> Result<()> {
         let count = grid.cell_count();
         let outside = self.cells.iter().any(|n| *n as usize >= count);
@@ -34,16 +34,16 @@ impl Inside {
     }
 }
 
-/// Those of a step, until the lattice goes on.
+/// The velocities of a step, valid until the lattice advances.
 #[derive(Debug)]
 pub(super) struct Kept {
     step: u64,
-    /// None without cells.
+    /// `None` without cells.
     dispatch: Option<(Arc<Kernel>, wgpu::BindGroup, u32)>,
 }
 
 impl Kept {
-    /// Puts them in the place of those of the populations, if they are of this step.
+    /// Replaces the velocities of the populations, if they belong to this step.
     pub fn record(&self, step: u64, pass: &mut wgpu::ComputePass<'_>) -> bool {
         if let Some((kernel, bind, groups)) = self.dispatch.as_ref().filter(|_| self.step == step) {
             kernel.record(pass, bind, *groups);
@@ -90,10 +90,10 @@ impl Observer {
         })
     }
 
-    /// Shows these velocities in their cells until the lattice, which has just been given the populations of their step, goes on.
+    /// Uses these velocities in their cells until the lattice, whose populations must be of the same step, advances.
     ///
     /// # Errors
-    /// [`Error::Argument`] if they are of another grid.
+    /// [`Error::Argument`] if they belong to another grid.
     pub fn keep_inside(
         &mut self,
         device: &wgpu::Device,

@@ -1,8 +1,8 @@
 //! The lattice Boltzmann fluid: D3Q27, in place, on any device.
 //!
-//! [`Setup`] says which kernels run and with which numbers, all in lattice units (Δx = Δt = 1, ρ₀ = 1); [`Units`](crate::units::Units)
-//! converts. [`Lattice`] owns the populations and records steps into the caller's pass. [`Observer`] computes density, velocity and what
-//! follows from them, into buffers that kernels of the caller can bind. [`memory`] says what a setup takes before it is made.
+//! [`Setup`] has all parameters, in lattice units (Δx = Δt = 1, ρ₀ = 1); [`Units`](crate::units::Units)
+//! converts. [`Lattice`] owns the populations and records steps into the caller's pass. [`Observer`] computes density, velocity and
+//! derived fields, into buffers that kernels of the caller can bind. [`memory`] gives the memory of a setup before it is created.
 //!
 //! ```
 //! use riprap::{lattice::{Face, Lattice, Observer, Setup, State, memory, Grid}, wgpu};

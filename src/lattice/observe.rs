@@ -1,4 +1,4 @@
-//! Density, velocity and what follows from them: fields, sums, the guard.
+//! Density, velocity and derived quantities: fields, sums, the guard.
 
 use super::{
     CellPass, Lattice, State, cell_kernels::CellDispatch, fluid::Dispatch, gather::Gather,
@@ -10,19 +10,19 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// A number that follows from the velocity gradient.
+/// A quantity that follows from the velocity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derived {
     /// Q-criterion (Hunt, Wray & Moin 1988).
     QCriterion,
-    /// Eddy viscosity of WALE, which the setup must have.
+    /// Eddy viscosity of WALE; the setup must use it.
     EddyViscosity,
     /// A component of the vorticity, 0 to 2.
     Vorticity(u32),
 }
 
 impl Derived {
-    /// Whether `lattice` has it.
+    /// Whether `lattice` has this quantity.
     fn check(self, lattice: &Lattice) -> Result<()> {
         match self {
             Self::EddyViscosity if lattice.setup.wale.is_none() => {
@@ -50,13 +50,13 @@ pub struct Sums {
     pub kinetic_energy: f64,
     /// Σ (curl u)²/2.
     pub enstrophy: f64,
-    /// Largest |u|; not a number if one is not.
+    /// Largest |u|; NaN if any is NaN.
     pub max_speed: f64,
-    /// Fluid cells.
+    /// Number of fluid cells.
     pub cells: f64,
 }
 
-/// The first cell in which the guard found a flow outside of the method's range.
+/// The first cell in which the guard found a flow outside the range of the method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Step, from 0.
@@ -68,18 +68,18 @@ pub struct Fault {
 /// Reads a [`Lattice`]: buffers and kernels that only output needs.
 #[derive(Debug)]
 pub struct Observer {
-    /// A buffer of the lattice, by which it is known.
+    /// A buffer of the lattice, which identifies it.
     of: wgpu::Buffer,
     density: wgpu::Buffer,
     velocity: [wgpu::Buffer; 3],
-    /// Made when first requested.
+    /// Created when first requested.
     derived: Option<wgpu::Buffer>,
     derive: Vec<(Derived, Dispatch)>,
     sums: Option<(wgpu::Buffer, Dispatch)>,
     macroscopic: [Dispatch; 2],
-    /// Where blocks may be.
+    /// With blocks in the fluid.
     velocity_psm: Option<(wgpu::Device, Arc<Kernel>)>,
-    /// Since a restart.
+    /// Velocities in cells with solid after a restart.
     pub(super) kept: Option<Kept>,
     gather: Gather,
     readback: Readback,
@@ -89,7 +89,7 @@ pub(super) const VELOCITY_OUT: [&str; 3] = ["velocity_x_out", "velocity_y_out", 
 const VELOCITY_IN: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
 
 impl Observer {
-    /// Makes the buffers for density and velocity of `lattice`.
+    /// Creates the buffers for density and velocity of `lattice`.
     ///
     /// # Errors
     /// If the device does not hold them.
@@ -140,11 +140,11 @@ impl Observer {
     }
 
     /// Records the density and velocity of the present state into [`Observer::density`] and
-    /// [`Observer::velocity`]; in cells with solid the velocity is that in the middle of a step, so that in a steady flow a plane carries
-    /// what crosses it.
+    /// [`Observer::velocity`]; in cells with solid the velocity is that in the middle of a step, so that in a steady flow the flux through
+    /// every plane is the same.
     ///
     /// # Errors
-    /// If this observes another lattice, or the device cannot bind what blocks leave of their cells.
+    /// If this observes another lattice, or the device cannot bind the planes of blocks.
     pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
         self.record_cells(lattice, pass)?;
         if self
@@ -159,7 +159,7 @@ impl Observer {
         else {
             return Ok(());
         };
-        // Both may be other buffers than the last time.
+        // Both buffers may have changed since the last call.
         let mut buffers = vec![("bricks", list), ("density", &self.density)];
         buffers.extend(lattice.psm_planes());
         buffers.extend(VELOCITY_OUT.into_iter().zip(&self.velocity));
@@ -171,7 +171,7 @@ impl Observer {
         Ok(())
     }
 
-    /// Reads the velocity that the populations alone have.
+    /// Reads the velocity by the populations alone.
     pub(super) async fn velocity_of_populations(
         &mut self,
         device: &wgpu::Device,
@@ -192,7 +192,7 @@ impl Observer {
         Ok(velocity)
     }
 
-    /// The same without what solids do to the momentum of a cell in the middle of a step.
+    /// The same without the action of solids on the momentum of a cell in the middle of a step.
     fn record_cells(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
         self.check(lattice)?;
         lattice.close(pass);
@@ -200,7 +200,7 @@ impl Observer {
         Ok(())
     }
 
-    /// Whether this was made for `lattice`.
+    /// Whether this was created for `lattice`.
     fn check(&self, lattice: &Lattice) -> Result<()> {
         if lattice.buffers.populations.first() == Some(&self.of) {
             return Ok(());
@@ -251,7 +251,7 @@ impl Observer {
         self.state_on(device, queue, lattice, None).await
     }
 
-    /// Reads density and velocity of the given cells (places, x fastest), or of all.
+    /// Reads density and velocity of the given cells (indices, x fastest), or of all.
     ///
     /// # Errors
     /// If the device is lost.
@@ -283,10 +283,10 @@ impl Observer {
         })
     }
 
-    /// Reads a field that follows from the velocity gradient, lattice units.
+    /// Reads a field derived from the velocity gradient, lattice units.
     ///
     /// # Errors
-    /// If the lattice has no such field, or the device is lost or does not hold it.
+    /// If the lattice has no such field, or the device is lost or cannot hold it.
     pub async fn derived(
         &mut self,
         device: &wgpu::Device,
@@ -298,10 +298,10 @@ impl Observer {
             .await
     }
 
-    /// Reads such a field on the given cells (places, x fastest), or on all, lattice units.
+    /// Reads such a field on the given cells (indices, x fastest), or on all, lattice units.
     ///
     /// # Errors
-    /// If the lattice has no such field, or the device is lost or does not hold it.
+    /// If the lattice has no such field, or the device is lost or cannot hold it.
     pub async fn derived_on(
         &mut self,
         device: &wgpu::Device,
@@ -365,8 +365,8 @@ impl Observer {
         lattice.cell_dispatch(device, &dispatch)
     }
 
-    /// Reads the sums over the fluid cells, of what is in them: in cells with solid a body force has put half of itself into
-    /// their momentum, of which nothing flows.
+    /// Reads the sums over the contents of the fluid cells. In cells with solid the momentum includes half of the body force,
+    /// which does not correspond to a flow.
     ///
     /// # Errors
     /// If the device is lost.
@@ -400,7 +400,7 @@ impl Observer {
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            // The ledger of blocks and fluid is that of what is in the cells.
+            // The ledger of blocks and fluid uses the contents of the cells.
             self.record_cells(lattice, &mut pass)?;
             dispatch.record(&mut pass);
         }
@@ -416,7 +416,7 @@ impl Observer {
             }
             sums.kinetic_energy += part[4];
             sums.enstrophy += part[5];
-            // The larger of two numbers leaves out what is none; the kinetic energy does not.
+            // A maximum ignores NaN; the kinetic energy does not.
             let lost = part[4].is_nan() || sums.max_speed.is_nan();
             sums.max_speed = match lost {
                 true => f64::NAN,
@@ -427,7 +427,7 @@ impl Observer {
         Ok(sums)
     }
 
-    /// What the guard has found so far.
+    /// Reads the fault that the guard has found so far, if any.
     ///
     /// # Errors
     /// If the device is lost.
@@ -441,7 +441,7 @@ impl Observer {
             return Ok(None);
         };
         let found: Vec<u32> = self.readback.read(device, queue, guard, 4).await?;
-        // Both counts are of steps done, the latest one the larger, or stopped at the same number.
+        // Both counts are numbers of steps: the later one is larger, or both stopped at the same number.
         const STOPPED: u32 = 1 << 31;
         let done = (found[0] & !STOPPED).max(found[1] & !STOPPED);
         let Some(step) = done.checked_sub(1) else {

@@ -1,4 +1,4 @@
-//! How shaders reach the populations.
+//! Shader access to the populations.
 
 use super::{
     Setup, Storage,
@@ -8,7 +8,7 @@ use super::{
 /// Directions of the lattice.
 pub const Q: u32 = 27;
 
-/// Words of direction `s` and element `e` behind `read_word(s, e)` and `write_word(s, e, word)`.
+/// WGSL functions `read_word(s, e)` and `write_word(s, e, word)` for the word of direction `s` and element `e`.
 ///
 /// The directions are spread over `bindings` buffers, the same number in each but the last.
 pub fn accessors(bindings: u32, setup: &Setup) -> String {

@@ -1,4 +1,4 @@
-//! Which files and numbers make the kernels of a setup.
+//! The WGSL files and constants of the kernels of a setup.
 
 use super::{
     Bindings, Collision, Equilibrium, Face, Force, Grid, PsmAccess, Setup, SolidOperator,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::gpu::link::Program;
 
-/// Which cells a collide–stream kernel is for.
+/// The cells of a collide–stream kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BrickKind {
     /// All bricks, and all cells are plain fluid.
@@ -15,7 +15,7 @@ pub enum BrickKind {
     Plain,
     /// Listed bricks with the flags of each cell.
     Flagged,
-    /// Listed bricks with flags that hold cells which solids at rest fill in part.
+    /// Listed bricks with flags and with cells that static solids fill in part.
     Surface,
     /// Listed bricks with flags and with the planes of partially saturated cells.
     Psm,
@@ -202,7 +202,7 @@ pub fn equilibrium(kind: Equilibrium) -> &'static str {
     }
 }
 
-/// The numbers of a setup, for every kernel of it; `odd` is the parity of the step.
+/// The constants of a setup for all of its kernels; `odd` is the parity of the step.
 pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f64)> {
     let everywhere = setup.lambda.map(|lambda| setup.odd_rate(lambda));
     let rates = setup.rates;
@@ -262,7 +262,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
     all
 }
 
-/// A bit for each face that neither is a wall at rest nor joined to another one: x−, x+, y−, ….
+/// A bit for each face that is neither a wall at rest nor periodic: x−, x+, y−, ….
 fn no_walls(setup: &Setup) -> u32 {
     let faces = setup.faces.iter().flatten().enumerate();
     let others =

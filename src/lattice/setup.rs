@@ -1,4 +1,4 @@
-//! What a lattice fluid is, in lattice units (Δx = Δt = 1, ρ₀ = 1).
+//! The setup of a lattice fluid, in lattice units (Δx = Δt = 1, ρ₀ = 1).
 
 use super::SyntheticTurbulence;
 use crate::gpu::Processor;
@@ -19,41 +19,41 @@ pub enum Collision {
 pub enum Equilibrium {
     /// All 27 moments, Galilean invariant to order 6.
     Product,
-    /// To second order in the velocity, as the paper has it.
+    /// To second order in the velocity, as in the paper.
     SecondOrder,
 }
 
-/// How the populations of a partially saturated cell are drawn to the solid in it (Gardner & Sitar 2018, eqs. 8–10).
+/// Collision operator of the solid in a partially saturated cell (Gardner & Sitar 2018, eqs. 8–10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolidOperator {
     /// Holdych 2003: the default, with the least error of the drag.
     Holdych,
-    /// Noble & Torczynski 1998, what the paper prints.
+    /// Noble & Torczynski 1998, as printed in the paper.
     Noble,
     /// The second form of Noble & Torczynski 1998.
     Superposition,
 }
 
-/// Weight B of the solid operator in a cell of which blocks fill the fraction ε (Gardner & Sitar 2018, eq. 10).
+/// Weight B of the solid operator in a cell with the solid fraction ε (Gardner & Sitar 2018, eq. 10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolidWeight {
-    /// That with which the operator of Holdych puts a plane along the grid where it is, in steady shear; of curved
-    /// surfaces and edges ε grows by what they lack.
+    /// The weight with which the operator of Holdych has a grid-aligned plane at its true position in steady shear; ε is
+    /// corrected for curved surfaces and edges.
     Exact,
     /// ε (τ − ½) / ((1 − ε) + (τ − ½)) (Noble & Torczynski 1998).
     Standard,
 }
 
-/// How populations lie in memory; arithmetic is f32 in both.
+/// Storage of the populations; arithmetic is f32 in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// 4 bytes a population.
+    /// 4 bytes per population.
     F32,
-    /// 2 bytes a population; needs 2 or 4 lanes.
+    /// 2 bytes per population; needs 2 or 4 lanes.
     F16,
 }
 
-/// Law of the wall from which a wall at rest takes its friction where the grid does not resolve it.
+/// Law of the wall for the friction of walls at rest that the grid does not resolve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallModel {
     /// Werner & Wengle 1991: two powers; within 3 % of the log law (κ 0.384, B 4.27) for y⁺ from 30 to 2500.
@@ -65,27 +65,27 @@ pub enum WallModel {
 /// Body force per volume.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Force {
-    /// None: its code is absent.
+    /// No force, and no code for it.
     None,
-    /// The same everywhere.
+    /// Uniform.
     Constant([f64; 3]),
-    /// One for each cell, x fastest.
+    /// A field, one value per cell, x fastest.
     Field(Vec<[f32; 3]>),
 }
 
-/// A cell that solids at rest fill in part.
+/// A cell that static solids fill in part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceCell {
-    /// Its place in the domain, x fastest.
+    /// Index in the domain, x fastest.
     pub cell: u32,
-    /// The part of its volume that they fill, between 0 and 1.
+    /// Solid fraction, between 0 and 1.
     pub fraction: f32,
 }
 
-/// What lies beyond a face of the domain.
+/// Boundary condition at a face of the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Face {
-    /// The opposite face.
+    /// Periodic: the opposite face.
     Periodic,
     /// A no-slip wall half a cell beyond the last cells, with its velocity, which is along the wall.
     Wall([f64; 3]),
@@ -94,14 +94,14 @@ pub enum Face {
     /// Prescribed velocity at each cell of the face, lower axis fastest; can be changed while
     /// running by `Lattice::set_face_velocity`.
     Velocity(Vec<[f32; 3]>),
-    /// The given density ρ = 1 + 3p, held firmly: reflects sound (Latt et al. 2008).
+    /// Prescribed density ρ = 1 + 3p, which reflects sound (Latt et al. 2008).
     Pressure {
         /// Density at the face.
         density: f64,
     },
-    /// Sound and vortices leave (Orlanski 1976); the mean density goes to the given one.
+    /// Outlet that sound and vortices leave (Orlanski 1976); the mean density tends to the given one.
     Outflow {
-        /// Density that the face is drawn to.
+        /// Density to which the mean over the face tends.
         density: f64,
     },
 }
@@ -143,7 +143,7 @@ impl Rates {
         s26: 1.74,
     };
 
-    /// One rate for all.
+    /// One rate for all moments.
     pub fn equal(s: f64) -> Self {
         Self {
             s4: s,
@@ -159,11 +159,11 @@ impl Rates {
     }
 }
 
-/// Everything that decides which kernels run and with which numbers. Made by [`Setup::periodic`]; then fields are changed.
+/// All parameters of a lattice, from which its kernels are built. Create it by [`Setup::periodic`] and change its fields.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// Fluid cells an axis.
+    /// Number of fluid cells along each axis.
     pub cells: [u32; 3],
     /// Kinematic viscosity, (τ − ½)/3.
     pub nu: f64,
@@ -176,9 +176,9 @@ pub struct Setup {
     /// Magic parameter of the odd rates everywhere, without a floor, for laminar flows: 3/16 makes
     /// Poiseuille flow exact at every τ. `None` keeps `rates` away from walls.
     pub lambda: Option<f64>,
-    /// Lower bound of the odd rates that `wall_lambda` gives: low ones are unstable in fast flow.
+    /// Lower bound of the odd rates by `wall_lambda`: lower rates are unstable in fast flow.
     pub odd_rate_floor: f64,
-    /// Blocks may be in the fluid, with this operator; `None` has no code for them.
+    /// Solid operator of blocks in the fluid; `None`: no blocks, and no code for them.
     pub solid_operator: Option<SolidOperator>,
     /// Weight of this operator; `None`: [`SolidWeight::Exact`] with [`SolidOperator::Holdych`], otherwise
     /// [`SolidWeight::Standard`].
@@ -186,41 +186,41 @@ pub struct Setup {
     /// Magic parameter of the odd rates in cells with a block and next to them, floored as next to walls;
     /// `None` keeps `rates` there too.
     pub solid_lambda: Option<f64>,
-    /// Hydraulic aperture of the joints of blocks in contact, cells, within [`Setup::joint_aperture_range`]; `None`: what is
-    /// widest for joints with one row of cells and with two, [`Setup::joint_apertures`].
+    /// Hydraulic aperture of the joints of blocks in contact, cells, within [`Setup::joint_aperture_range`]; `None`: the largest
+    /// values for joints with one row of cells and with two, [`Setup::joint_apertures`].
     pub joint_aperture: Option<f64>,
     /// Equilibrium.
     pub equilibrium: Equilibrium,
     /// WALE constant; `None` is laminar.
     pub wale: Option<f64>,
-    /// Friction of walls at rest, static solids, and faces of blocks along the grid by a law of the wall, where a wall is plain and
-    /// five cells of fluid lie before it; without slip elsewhere. It needs `wale`. `None` has no code for it.
+    /// Law of the wall for the friction of walls at rest, static solids and grid-aligned faces of blocks, if a wall is plane and
+    /// has five cells of fluid in front of it; no slip elsewhere. It needs `wale`. `None`: no code for it.
     pub wall_model: Option<WallModel>,
     /// Equivalent sand roughness k_s of the faces of the domain, cells: lower and upper of x, y, z. 0 is smooth.
     pub wall_roughness: [[f64; 2]; 3],
-    /// The same of each static solid cell, x fastest; empty if all are smooth.
+    /// The same for each static solid cell, x fastest; empty if all are smooth.
     pub solid_roughness: Vec<f32>,
     /// Body force per volume.
     pub force: Force,
     /// Lower and upper face of x, y, z.
     pub faces: [[Face; 2]; 3],
-    /// What velocity faces add to their velocities; `None` has no code for it.
+    /// Synthetic turbulence added at velocity faces; `None`: no code for it.
     pub turbulence: [[Option<SyntheticTurbulence>; 2]; 3],
-    /// Increase of the density from cell to cell that pressure and outflow faces hold along themselves: the hydrostatic one
-    /// where the fluid feels gravity. A face has its own density in its middle.
+    /// Increase of the density from cell to cell along pressure and outflow faces: the hydrostatic one
+    /// if gravity acts on the fluid. The middle of a face has the density of the face.
     pub open_face_gradient: [f64; 3],
     /// Static solid cells, x fastest; empty if there are none.
     pub solid: Vec<bool>,
-    /// Cells that solids at rest fill in part, in ascending order; each of the others is `solid` or fluid.
+    /// Cells that static solids fill in part, in ascending order; all others are `solid` or fluid.
     pub surface: Vec<SurfaceCell>,
     /// Storage of the populations.
     pub storage: Storage,
-    /// Cells an invocation: 1, 2 or 4.
+    /// Cells per invocation: 1, 2 or 4.
     pub lanes: u32,
-    /// The axis along which they are spread: 1 or 2. Bricks whose cells are all solid are left out, so that the axis
+    /// The axis along which these cells are distributed: 1 or 2. Bricks whose cells are all solid are skipped, so that the axis
     /// along which a scene changes least is the fastest.
     pub lane_axis: usize,
-    /// Speed above which the guard stops the run; 0 leaves the guard out.
+    /// Speed above which the guard stops the run; 0: no guard.
     pub max_speed: f64,
     /// Elements of a brick along x, y, z; their product is the workgroup: 32, 64, 128 or 256.
     pub brick: [u32; 3],
@@ -232,8 +232,8 @@ pub struct Setup {
     /// Whether values go to and from memory in words of 64 bits, where there are four lanes: 1.25
     /// times the speed on lavapipe, the same bits. Needs [`wgpu::Features::SHADER_INT64`].
     pub wide: bool,
-    /// What the kernels of blocks in the fluid are made for; `None`: what the device is. For [`Processor::Cpu`], too, all
-    /// bricks run the kernel with flags where most have them.
+    /// Processor for which the kernels of blocks are built; `None`: that of the device. For [`Processor::Cpu`], all
+    /// bricks run the kernel with flags if most have flags.
     pub processor: Option<Processor>,
 }
 
@@ -267,7 +267,7 @@ impl Setup {
             storage: Storage::F32,
             lanes: 1,
             lane_axis: 2,
-            // Three quarters of the speed of sound: outside of what the method resolves, before NaN.
+            // Three quarters of the speed of sound: outside the range of the method, but before NaN.
             max_speed: 0.43,
             brick: [16, 2, 2],
             row_alignment: 1,
@@ -277,18 +277,18 @@ impl Setup {
         }
     }
 
-    /// The operator of cells with solid: that of blocks, or [`SolidOperator::Holdych`] where only solids at rest fill cells in part.
+    /// The operator of cells with solid: that of blocks, or [`SolidOperator::Holdych`] if only static solids fill cells in part.
     pub fn operator(&self) -> Option<SolidOperator> {
         let at_rest = (!self.surface.is_empty()).then_some(SolidOperator::Holdych);
         self.solid_operator.or(at_rest)
     }
 
-    /// Whether the wall model acts on blocks. With 16-bit storage a GPU has no registers left for it.
+    /// Whether the wall model acts on blocks. With 16-bit storage GPUs lack the registers for it.
     pub fn has_block_friction(&self) -> bool {
         self.wall_model.is_some() && self.solid_operator.is_some() && self.storage == Storage::F32
     }
 
-    /// The weight of the solid operator, which is [`SolidWeight::Standard`] where there is none.
+    /// The weight of the solid operator, [`SolidWeight::Standard`] without an operator.
     pub fn weight(&self) -> SolidWeight {
         let usual = match self.operator() {
             Some(SolidOperator::Holdych) => SolidWeight::Exact,
@@ -297,11 +297,11 @@ impl Setup {
         self.solid_weight.unwrap_or(usual)
     }
 
-    /// Suits an adapter that computes on the CPU and offers `features`: bricks that are rows of 32 or
-    /// 64 elements, and words as wide as it has. Its threads walk through an invocation's neighbours one
+    /// Chooses the layout for a CPU adapter with these `features`: bricks that are rows of 32 or
+    /// 64 elements, and the widest words that it supports. Its threads process the invocations of a workgroup one
     /// after the other, so that rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
-    /// Invocations beyond the cells cost as much as others there, so that rows are the longest that leave
-    /// the fewest; rows without any cell, of the padding behind the last ones alone, are left out.
+    /// Invocations beyond the cells cost as much as others, so that rows are the longest with the fewest
+    /// such invocations; rows that consist of padding only are skipped.
     pub fn suit_cpu(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
         let length = self.cells[0];
@@ -315,9 +315,9 @@ impl Setup {
         self.processor = Some(Processor::Cpu);
     }
 
-    /// Suits a GPU: bricks that are rows of up to 128 elements, each of which begins at a line of its memory. On an H200 a
+    /// Chooses the layout for a GPU: bricks that are rows of up to 128 elements, aligned to its memory lines. On an H200 a
     /// plain step of 128³ cells with rows of 128, 64 and 32 reaches 0.89, 0.85 and 0.73 of the speed of copies, with bricks of
-    /// 16 × 2 × 2 0.59. Where blocks are in the fluid rows have 32: longer ones hold more cells that no block reaches.
+    /// 16 × 2 × 2 0.59. With blocks in the fluid rows have 32 elements: longer ones contain more cells that no block reaches.
     pub fn suit_gpu(&mut self) {
         let length = self.cells[0];
         // Invocations beyond the last cell are idle: at most one for eight cells.
@@ -332,8 +332,8 @@ impl Setup {
         self.processor = Some(Processor::Gpu);
     }
 
-    /// Has an invocation treat `lanes` cells, along y or z: the axis along which fewer elements hold fluid, z where both do
-    /// alike. False, with nothing changed, where both are periodic and do not divide into the lanes.
+    /// Sets `lanes` cells per invocation, along y or z: the axis along which fewer elements hold fluid, z if they
+    /// are equal. Returns false, without a change, if both axes are periodic and not divisible by `lanes`.
     pub fn spread_lanes(&mut self, lanes: u32) -> bool {
         if lanes == 1 {
             (self.lanes, self.lane_axis) = (1, 2);
@@ -350,7 +350,7 @@ impl Setup {
         least.is_some()
     }
 
-    /// Elements that hold fluid if they have `lanes` cells along an axis; none where that is impossible.
+    /// Number of elements with fluid for `lanes` cells along an axis; `None` if that is impossible.
     fn fluid_elements(&self, axis: usize, lanes: u32) -> Option<u64> {
         let periodic = self.periodic_axes()[axis];
         if periodic && !self.cells[axis].is_multiple_of(lanes) {

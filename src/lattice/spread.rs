@@ -1,20 +1,20 @@
-//! Fields of several planes, a number of each cell a plane, spread over the bindings of a device, and the shader text
-//! that finds their planes.
+//! Fields of several planes, one value per cell in each plane, distributed over the bindings of a device, and the WGSL
+//! that accesses the planes.
 
 use std::fmt::Write;
 
-/// Bindings of each field of a fluid.
+/// Number of bindings of each field of a fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bindings {
     /// Of the populations, [`super::C`] planes.
     pub populations: u32,
     /// Of each field of vectors, 3 planes: the velocity of a step, the body force.
     pub vectors: u32,
-    /// Of what blocks leave in cells, [`PSM_PLANES`] planes.
+    /// Of the fields of blocks, [`PSM_PLANES`] planes.
     pub psm_planes: u32,
 }
 
-/// So many bindings of the populations, and one of each other field.
+/// The given number of bindings for the populations, and one for each other field.
 impl From<u32> for Bindings {
     fn from(populations: u32) -> Self {
         Self {
@@ -25,7 +25,7 @@ impl From<u32> for Bindings {
     }
 }
 
-/// Numbers that each cell of a brick with blocks has on the device.
+/// Number of values per cell of a brick with blocks.
 pub const PSM_PLANES: u32 = 10;
 
 /// Names of the bindings of those planes.
@@ -42,20 +42,20 @@ pub(super) const PSM_NAMES: [&str; PSM_PLANES as usize] = [
     "psm_planes_9",
 ];
 
-/// Planes of each of so many bindings: the same number in each but the last.
+/// Planes per binding for a number of bindings: the same in each but the last.
 pub(super) fn planes(count: u32, bindings: u32) -> Vec<std::ops::Range<u32>> {
     let each = count.div_ceil(bindings.clamp(1, count));
     let starts = (0..count).step_by(each as usize);
     starts.map(|s| s..count.min(s + each)).collect()
 }
 
-/// A field, and how shaders reach it.
+/// A field, and the shader functions that access it.
 pub(super) struct Field<'a> {
     /// Name of its bindings, which are numbered from 0.
     pub name: &'a str,
-    /// Number of the first one.
+    /// Number of the first binding.
     pub binding: u32,
-    /// Type of what stands in a place.
+    /// Type of an element.
     pub word: &'a str,
     /// Parameters of the functions that read and write, after the plane s.
     pub parameters: &'a str,
@@ -181,7 +181,7 @@ pub(super) fn vector(own: &std::ops::Range<u32>, count: &str) -> String {
     format!("(s - {}u) * ({count}) + e", own.start)
 }
 
-/// Who reaches the planes of partially saturated cells.
+/// Kernels that access the planes of partially saturated cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PsmAccess {
     /// The fluid kernel, by elements.

@@ -13,15 +13,15 @@ use crate::{
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 
-/// Samples of a block.
+/// Number of samples per block.
 const BLOCK: u64 = 256;
-/// Numbers of a cell: 4 means, 7 covariances, and as many sums of the open block.
+/// Numbers per cell: 4 means, 7 covariances, and as many sums of the open block.
 const PLANES: usize = 22;
 
-/// Cells whose numbers lie together, as in `kernels/lattice/statistics.wgsl`.
+/// Number of cells whose values are stored together, as in `kernels/lattice/statistics.wgsl`.
 const GROUP: usize = 64;
 
-/// Where the numbers of cell `n` of a part lie, `plane` of them.
+/// Index of the value `plane` of cell `n` of a part.
 fn place(plane: usize, n: usize) -> usize {
     (n / GROUP * PLANES + plane) * GROUP + n % GROUP
 }
@@ -57,25 +57,25 @@ impl Statistic {
     }
 }
 
-/// What the dispatches on a block differ in, as it lies in `kernels/lattice/statistics.wgsl`.
+/// Parameters of a dispatch on a block, with the layout of `kernels/lattice/statistics.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct StatisticsPass {
-    /// The number of a cell that is written out.
+    /// The plane that is written to the output.
     pub plane: u32,
     /// Samples of the open block.
     pub samples: f32,
-    /// Their share of all samples.
+    /// Their fraction of all samples.
     pub weight: f32,
-    /// Not used.
+    /// Padding.
     pub pad: u32,
 }
 
-/// The numbers of all cells between two samples.
+/// The state of all cells between two samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct StatisticsState {
-    /// Samples in whole blocks.
+    /// Number of samples in complete blocks.
     pub merged: u64,
     /// Samples of the open block.
     pub open: u64,
@@ -84,21 +84,21 @@ pub struct StatisticsState {
     pub values: Vec<f32>,
 }
 
-/// Cells whose numbers one buffer holds.
+/// Number of cells per buffer.
 #[derive(Debug)]
 struct Part {
     cells: Range<u32>,
     buffer: wgpu::Buffer,
-    /// Of the first sample, after an even and after an odd number of steps.
+    /// Kernels of the first sample, after an even and after an odd number of steps.
     begin: [Dispatch; 2],
-    /// Of the others.
+    /// Kernels of the other samples.
     add: [Dispatch; 2],
 }
 
-/// Statistics over time of density and velocity: 88 bytes a cell.
+/// Statistics over time of density and velocity: 88 bytes per cell.
 ///
-/// Sums run over blocks of 256 samples, shifted by the mean so far, and each block is then merged with those before it, so
-/// that in f32 neither means nor covariances drift: after 3·10⁵ samples their errors are below 10⁻⁵.
+/// Sums run over blocks of 256 samples, shifted by the mean so far, and each block is then combined with the previous ones, so
+/// that neither means nor covariances drift in f32: after 3·10⁵ samples their errors are below 10⁻⁵.
 ///
 /// ```
 /// use riprap::{lattice::{Lattice, Setup, State, Statistics}, wgpu};
@@ -131,17 +131,17 @@ pub struct Statistics {
     cells: usize,
     merged: u64,
     open: u64,
-    /// Made when first read.
+    /// Created when first read.
     field: Option<wgpu::Buffer>,
     gather: Gather,
     readback: Readback,
 }
 
 impl Statistics {
-    /// Of the states of a lattice without blocks, read from its populations.
+    /// Statistics of a lattice without blocks, read from its populations.
     ///
     /// # Errors
-    /// If it has cells with solid, of which only an [`Observer`] knows the velocity, or the device does not hold the buffers.
+    /// If it has cells with solid, whose velocity only an [`Observer`] computes, or the device cannot hold the buffers.
     pub fn of_populations(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
         if lattice.setup.solid_operator.is_some() {
             let message = "this lattice has blocks; use `of_observer`, which knows the velocity in their cells";
@@ -150,10 +150,10 @@ impl Statistics {
         Self::new(device, lattice, "sample_populations", &[])
     }
 
-    /// Of what `observer` shows of a lattice: before each [`Statistics::record`] goes an [`Observer::record`].
+    /// Statistics of the fields of `observer`: call [`Observer::record`] before each [`Statistics::record`].
     ///
     /// # Errors
-    /// If the device does not hold the buffers.
+    /// If the device cannot hold the buffers.
     pub fn of_observer(
         device: &wgpu::Device,
         lattice: &Lattice,
@@ -237,7 +237,7 @@ impl Statistics {
             .sum()
     }
 
-    /// Records that the present state is a sample.
+    /// Records a sample of the present state.
     ///
     /// # Errors
     /// If the device does not compile the kernel that merges a block.
@@ -296,7 +296,7 @@ impl Statistics {
         lattice.cell_dispatch(device, &dispatch)
     }
 
-    /// Reads a statistic of the samples so far on the given cells (places, x fastest), or on all, lattice units; not a number
+    /// Reads a statistic of the samples so far on the given cells (indices, x fastest), or on all, lattice units; NaN
     /// before the first sample.
     ///
     /// # Errors
@@ -372,10 +372,10 @@ impl Statistics {
         Ok(state)
     }
 
-    /// Whether [`Statistics::restore`] takes a state.
+    /// Checks whether [`Statistics::restore`] accepts a state.
     ///
     /// # Errors
-    /// If it is of another grid.
+    /// If it belongs to another grid.
     pub fn check(&self, state: &StatisticsState) -> Result<()> {
         let count = match state.merged.saturating_add(state.open) {
             0 => 0,
@@ -393,7 +393,7 @@ impl Statistics {
     /// Continues from a state.
     ///
     /// # Errors
-    /// If it is of another grid.
+    /// If it belongs to another grid.
     pub fn restore(&mut self, queue: &wgpu::Queue, state: &StatisticsState) -> Result<()> {
         self.check(state)?;
         (self.merged, self.open) = (state.merged, state.open);
@@ -413,7 +413,7 @@ impl Statistics {
     }
 }
 
-/// The pass over cells one after the other.
+/// The pass over all cells in order.
 fn pass_over(cells: &Range<u32>) -> CellPass {
     CellPass {
         first: cells.start,

@@ -1,4 +1,4 @@
-//! Walls whose friction a law of the wall gives: which cells they are, and what they receive.
+//! Walls with the wall model: their cells, and the stress on them.
 
 use super::{
     Grid, Lattice, Link, Setup,
@@ -17,12 +17,12 @@ use std::collections::HashSet;
 
 /// Directions into a plane wall.
 const LINKS: usize = 9;
-/// Cells from the wall on that are fluid where the model acts.
+/// Number of fluid cells in front of a wall that the model needs.
 const DEPTH: u32 = 5;
-/// Of them those on whose eddy viscosity follows from the wall.
+/// Number of these whose eddy viscosity follows from the wall.
 const LAYERS: u32 = 4;
 
-/// A cell at such a wall, as `kernels/lattice/wall_model.wgsl` reads it.
+/// A cell at such a wall, with the layout of `kernels/lattice/wall_model.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WallCell {
@@ -30,13 +30,13 @@ pub struct WallCell {
     pub cell: u32,
     /// The face of the cell that is the wall: x−, x+, y−, y+, z−, z+.
     pub face: u32,
-    /// Cells from the wall on whose eddy viscosity follows from it, up to 4: fewer where another wall is nearer.
+    /// Number of cells in front of the wall whose eddy viscosity follows from it, up to 4: fewer if another wall is nearer.
     pub layers: u32,
     /// Equivalent sand roughness, cells; 0 for a smooth wall.
     pub roughness: f32,
 }
 
-/// What a wall cell of the model received in a step, as `kernels/lattice/wall_model.wgsl` writes it; lattice units.
+/// Result of the model for a wall cell in a step, with the layout of `kernels/lattice/wall_model.wgsl`; lattice units.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WallStress {
@@ -44,7 +44,7 @@ pub struct WallStress {
     pub stress: [f32; 2],
     /// Friction velocity by the law of the wall.
     pub friction: f32,
-    /// The part of the stress that is the law's: 0 for a wall without slip, 1 for all of it.
+    /// Fraction of the stress that comes from the law: 0 for a no-slip wall, 1 for the law alone.
     pub share: f32,
 }
 
@@ -55,7 +55,7 @@ pub struct Walls {
     pub cells: Vec<WallCell>,
     /// Faces of fluid cells that are walls at rest, those of the model and all others.
     pub area: u64,
-    /// Of each cell those into the wall, by the tangential direction.
+    /// Links of each cell into the wall, by their tangential direction.
     links: Vec<[Link; LINKS]>,
 }
 
@@ -90,7 +90,7 @@ impl Walls {
         }));
     }
 
-    /// Sorts the cells, and gives each cell of the fluid that is near a wall to the nearest one.
+    /// Sorts the cells, and assigns each fluid cell near a wall to the nearest wall.
     pub(super) fn own_layers(&mut self, grid: &Grid) {
         let place = |n: &usize| {
             let cell = &self.cells[*n];
@@ -143,20 +143,20 @@ impl Survey<'_> {
     }
 }
 
-/// The walls that one dispatch treats.
+/// The walls of one dispatch.
 #[derive(Debug)]
 pub(super) struct WallPart {
     cells: wgpu::Buffer,
     links: wgpu::Buffer,
-    /// What they received in the last step.
+    /// Results of the last step.
     stress: wgpu::Buffer,
-    /// Which of them had a block near them in the last step, where there are blocks.
+    /// Which of them had a block nearby in the last step; only with blocks.
     blocks: Option<wgpu::Buffer>,
     count: u32,
 }
 
 impl WallPart {
-    /// Those of a geometry.
+    /// The walls of a geometry.
     pub fn all(device: &wgpu::Device, setup: &Setup, walls: &Walls) -> Vec<Self> {
         let most = largest_binding(&device.limits()) as usize / size_of::<[Link; LINKS]>();
         let parts = walls
@@ -190,12 +190,12 @@ impl WallPart {
 }
 
 impl Lattice {
-    /// The walls of the model, of a step of the given parity.
+    /// The passes over the walls of the model in a step of the given parity.
     pub(super) fn wall_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         self.passes_of_walls(device, "wall_model", odd)
     }
 
-    /// Sets the eddy viscosity beside walls of a state that is complete: each step has it from its boundary passes.
+    /// Sets the eddy viscosity next to walls for a complete state; in a step the boundary passes set it.
     pub(super) fn set_near_wall(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
         let passes = self.passes_of_walls(device, "near_wall", self.parity() as u32)?;
         let mut encoder = device.create_command_encoder(&Default::default());
@@ -239,7 +239,7 @@ impl Lattice {
         Ok(passes)
     }
 
-    /// The dispatches that find the walls with blocks near them, which the next step reads.
+    /// The dispatches that find the walls with blocks nearby for the next step.
     pub(super) fn mark_passes(&self, device: &wgpu::Device) -> Result<Vec<Dispatch>> {
         let program = self.cell_program("mark_blocks");
         let mark = |part: &WallPart| {
@@ -262,7 +262,7 @@ impl Lattice {
         }
     }
 
-    /// The buffer in which each brick has its place among those that blocks reach, from 1.
+    /// The buffer with the number of each brick among those that blocks reach, from 1.
     pub(super) fn write_psm_slots(&self, queue: &wgpu::Queue, bricks: &[u32]) {
         if let Some(buffer) = &self.buffers.psm_slots {
             let mut slots = vec![0u32; buffer.size() as usize / 4];
@@ -273,7 +273,7 @@ impl Lattice {
         }
     }
 
-    /// What each cell of [`Walls::cells`] received in the last step.
+    /// Reads the results for each cell of [`Walls::cells`] in the last step.
     ///
     /// # Errors
     /// If the device fails.

@@ -4,7 +4,7 @@ use super::{FACE_LOAD, Frame};
 use crate::geometry::{Form, Part, Polyhedron, Pose, clip, outer};
 use glam::{DMat3, DVec3};
 
-/// A plane face of a block where it is.
+/// A plane face of a block at its present position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlaneFace {
     /// Number of the part among those of the block.
@@ -19,38 +19,38 @@ pub struct PlaneFace {
     pub area: f64,
 }
 
-/// What a fluid does to one plane face of a block, from the cells of the layer along it: what a face of less
-/// than some cells shows is coarse. Without a cell of fluid along it, it has no load.
+/// Load of a fluid on one plane face of a block, from the layer of cells along it; coarse for a face of
+/// few cells. A face without a fluid cell along it has no load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceLoad {
     /// The face.
     pub face: PlaneFace,
-    /// What of the face lies in the domain, m², and in no seam with another part of its block: its area where nothing
-    /// sticks out or is covered. Of a part longer than a period it is that of one period, as the load on a block is.
+    /// Area of the face inside the domain and outside seams with other parts of its block, m². For a part longer than a
+    /// period it is the area in one period, like the load on a block.
     pub inside: f64,
-    /// Centroid of that, m; of the face where it is all seam.
+    /// Centroid of that area, m; of the whole face if it is all seam.
     pub centre: DVec3,
-    /// Area with fluid along it, m²: `inside` times the share of the cells next to it that hold fluid alone.
+    /// Area with fluid along it, m²: `inside` times the fraction of adjacent cells that contain only fluid.
     pub wetted: f64,
     /// Force on the wetted area, N: minus its pressure times the normal, and shear.
     pub force: DVec3,
     /// Moment of this force about the centroid of the block, N m.
     pub moment: DVec3,
-    /// Mean of the feet on the face of the centres of the cells from which this follows, m: on grids of few cells not
-    /// the centroid of what is wet.
+    /// Mean of the projections of the cell centres onto the face, m: with few cells it differs from
+    /// the centroid of the wetted area.
     pub foot: DVec3,
-    /// Mean of the squares of their places about that, m².
+    /// Second moments of these projections about their mean, m².
     pub spread: DMat3,
-    /// Slope along the face of the pressure in them, Pa/m; by it the force is that at [`FaceLoad::acts_at`], not at `foot`.
+    /// Gradient of the pressure along the face, Pa/m, which shifts the force from `foot` to [`FaceLoad::acts_at`].
     pub slope: DVec3,
-    /// Mean height over the face of the centres of the cells from which this follows, m.
+    /// Mean height of the cell centres over the face, m.
     pub height: f64,
     /// Number of these cells.
     pub cells: u32,
 }
 
 impl FaceLoad {
-    /// Mean pressure on the wetted area, Pa, that pushes onto the rock where it is positive; NaN without fluid
+    /// Mean pressure on the wetted area, Pa, positive onto the rock; NaN without fluid
     /// along it.
     pub fn pressure(&self) -> f64 {
         -self.force.dot(self.face.normal) / self.wetted
@@ -62,8 +62,8 @@ impl FaceLoad {
         (self.force - self.force.dot(normal) * normal) / self.wetted
     }
 
-    /// Where on the face a force acts that has no moment other than that of the mean traction, m: the centroid of a face
-    /// that is wet all over but for seams, else the mean foot of the cells next to it.
+    /// Point of action of the force of the mean traction, m: the centroid of a face
+    /// that is completely wet except for seams, else `foot`.
     pub fn acts_at(&self) -> DVec3 {
         match self.wetted == self.inside {
             true => self.centre,
@@ -71,13 +71,13 @@ impl FaceLoad {
         }
     }
 
-    /// By how much the push at [`FaceLoad::acts_at`] is more than that of the pressure at `foot`, N.
+    /// Difference of the normal force by the pressure at [`FaceLoad::acts_at`] and by that at `foot`, N.
     pub(crate) fn shifted(&self) -> f64 {
         self.wetted * self.slope.dot(self.acts_at() - self.foot)
     }
 
-    /// From what the device added up, [`FACE_LOAD`] numbers, of a block with the centroid `block` (m), what of the face
-    /// lies in the domain, and what of that in `seams`.
+    /// Creates the load from the [`FACE_LOAD`] sums of the device, the centroid `block` (m) of the block, the polygon of the face
+    /// in the domain, and the `seams` in it.
     pub(super) fn new(
         frame: &Frame,
         (face, block): (PlaneFace, DVec3),
@@ -98,7 +98,7 @@ impl FaceLoad {
         }
         let wetted = inside * (cells / counted);
         let cell = frame.units.cell;
-        // The traction of a cell acts on its share of the wetted area.
+        // The traction of a cell acts on an equal share of the wetted area.
         let share = wetted / (cells * cell * cell);
         let force = vector(0) * share * frame.units.force_from_lattice(1.0);
         let moment = vector(3) * share * frame.units.torque_from_lattice(1.0);
@@ -109,7 +109,7 @@ impl FaceLoad {
             DVec3::new(aside.z, across.y, aside.x),
             DVec3::new(aside.y, aside.x, across.z),
         );
-        // All feet lie in the face: what is across it is rounding.
+        // All projections lie in the face: components across it are rounding errors.
         let along = DMat3::IDENTITY - outer(face.normal, face.normal);
         let mut load = Self {
             face,
@@ -124,7 +124,7 @@ impl FaceLoad {
             height: at(6) / cells * cell,
             cells: cells as u32,
         };
-        // Beside a seam the first cells are those that it leaves free. What spreads less than a cell has no slope.
+        // Next to a seam only cells outside the seam count. Points closer together than a cell do not determine a slope.
         let couple = load.moment - (load.foot - block).cross(force);
         let own = DMat3::IDENTITY * (cell * cell / 12.0);
         load.slope = (load.spread + own).inverse() * -face.normal.cross(couple) / wetted;
@@ -133,8 +133,7 @@ impl FaceLoad {
         load
     }
 
-    /// With the pressure that a body force of `weight` (N/m³) adds between the cells and the face: at a wall the
-    /// pressure rises along its normal by the body force.
+    /// Adds the pressure difference by a body force of `weight` (N/m³) between the cells and the face.
     pub(crate) fn at_face(mut self, weight: DVec3, block: DVec3) -> Self {
         let normal = self.face.normal;
         let force = weight.dot(normal) * self.height * self.wetted * normal;
@@ -144,10 +143,10 @@ impl FaceLoad {
     }
 }
 
-/// Share of a face below which what seams leave of it is rounding.
+/// Fraction of a face below which the area outside seams is a rounding error.
 const SLIVER: f64 = 1e-9;
 
-/// Centroid and area of what `seams` leave of a polygon; the centroid `middle` where that is nothing.
+/// Centroid and area of a polygon outside `seams`; the centroid is `middle` if the area is zero.
 fn outside(corners: &[DVec3], seams: &[Vec<DVec3>], middle: DVec3) -> (DVec3, f64) {
     let (centre, whole) = area_of(corners);
     let whole = whole.length();
@@ -166,7 +165,7 @@ fn outside(corners: &[DVec3], seams: &[Vec<DVec3>], middle: DVec3) -> (DVec3, f6
     }
 }
 
-/// The plane faces of a part, the number `part` of its block, at a pose.
+/// The plane faces of a part at a pose; `part` is its number in the block.
 pub fn plane_faces(part: usize, of: &Part, pose: &Pose) -> Vec<PlaneFace> {
     let Form::Convex(shape) = &of.form else {
         return Vec::new();
@@ -185,7 +184,7 @@ pub fn plane_faces(part: usize, of: &Part, pose: &Pose) -> Vec<PlaneFace> {
     (0..shape.faces().len()).map(face).collect()
 }
 
-/// A box, infinite where it does not end.
+/// A box, infinite along periodic axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Lower corner, m.
@@ -195,7 +194,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// What of a plane polygon lies in it.
+    /// Clips a plane polygon to the box.
     pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
         for axis in 0..3 {
             let [low, high] = [self.low[axis], self.high[axis]];

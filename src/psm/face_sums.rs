@@ -1,4 +1,4 @@
-//! The kernels of loads on faces, and the memory that only they have.
+//! The kernels of loads on faces, with their own buffers.
 
 use super::{
     FACE_LOAD, FaceJob, Plan, Tile, Walk,
@@ -16,10 +16,10 @@ use std::collections::HashMap;
 
 /// Names of the buffers in WGSL.
 const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
-/// What the first kernel reads of those of blocks.
+/// Buffers of blocks that the first kernel reads.
 const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "solid_fractions"];
-/// How far the centre of a cell that counts is from the plane of a face, at most, cells: half the diagonal of a
-/// cell and the thickness of the layer.
+/// Largest distance of the centre of a cell in the layer from the plane of a face, cells: half the diagonal of a
+/// cell plus the thickness of the layer.
 const REACH: f64 = 1.9;
 
 /// Sums over the cells next to the faces of the blocks that request them.
@@ -34,7 +34,7 @@ pub(super) struct FaceSums {
     buffers: [Growing; 4],
     jobs: Vec<FaceJob>,
     face_first: Vec<u32>,
-    /// Of the blocks that request them: along which axes they have images.
+    /// Axes along which the requesting blocks have images.
     imaged: HashMap<usize, [bool; 3]>,
 }
 
@@ -62,7 +62,7 @@ impl FaceSums {
         })
     }
 
-    /// Lays down which tiles each face looks at, makes room for that, and uploads it; `outlines` are those of the
+    /// Lists the tiles of each face, grows the buffers and uploads the lists; `outlines` are those of the
     /// parts of all blocks.
     pub fn lay(
         &mut self,
@@ -106,7 +106,7 @@ impl FaceSums {
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
         }
-        // Their lengths say how many jobs and faces there are.
+        // The kernels take the numbers of jobs and faces from these lengths.
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes).take(2) {
             if buffer.buffer.size() != bytes && bytes > 0 {
                 buffer.buffer = zeroed(device, buffer.label, bytes);
@@ -155,12 +155,12 @@ impl FaceSums {
         }
     }
 
-    /// The sums, [`FACE_LOAD`] numbers a face.
+    /// The sums, [`FACE_LOAD`] numbers per face.
     pub fn loads(&self) -> &wgpu::Buffer {
         &self.buffers[3].buffer
     }
 
-    /// How many numbers there are.
+    /// Number of sums.
     pub fn count(&self) -> usize {
         FACE_LOAD * self.face_first.len().saturating_sub(1)
     }
@@ -174,8 +174,8 @@ impl FaceSums {
     }
 }
 
-/// Whether a cell of a tile may be next to a face of the part about `centre`, until tiles are looked for anew: it may
-/// have gone as far as the skin before and after.
+/// Whether a cell of a tile may be next to a face of the part about `centre` until the next search for tiles: the part may
+/// move by the skin before and after.
 fn reaches(tile: &Tile, brick: [f64; 3], centre: DVec3, (normal, distance): &(DVec3, f64)) -> bool {
     let half = 0.5 * DVec3::from_array(brick);
     let middle = DVec3::from_array(tile.cell.map(f64::from)) + half - centre;

@@ -1,4 +1,4 @@
-//! The border between blocks in SI and the lattice that they are in.
+//! Conversion between blocks in SI and the lattice.
 
 use super::Motion;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 use glam::{DMat3, DVec3};
 
-/// Where the lattice is, and what its units are.
+/// Position and units of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Lower corner of the domain, m.
@@ -18,10 +18,10 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Whether it is a place with units.
+    /// Checks origin and units.
     ///
     /// # Errors
-    /// [`Error::Argument`] if not.
+    /// [`Error::Argument`] if they are invalid.
     pub(super) fn check(&self) -> Result<()> {
         if !self.origin.is_finite() {
             let message = format!("is {}; give a finite place", self.origin);
@@ -30,12 +30,12 @@ impl Frame {
         self.units.check()
     }
 
-    /// A place in cells from the lower corner.
+    /// A point in cells from the lower corner.
     pub fn place(&self, x: DVec3) -> DVec3 {
         (x - self.origin) / self.units.cell
     }
 
-    /// The same as whole cells and the rest.
+    /// The same, split into whole cells and a fraction.
     pub fn split(&self, x: DVec3) -> ([i32; 3], [f32; 3]) {
         let place = self.place(x);
         let base = place.floor();
@@ -60,7 +60,7 @@ impl Frame {
         }
     }
 
-    /// What the device added up for a block, [`super::WRENCH`] numbers, in SI.
+    /// Converts the [`super::WRENCH`] sums of a block to SI.
     pub fn load(&self, wrench: &[f32]) -> Load {
         let at = |n: usize| f64::from(wrench[n]);
         let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
@@ -78,10 +78,10 @@ impl Frame {
     }
 }
 
-/// Farthest place of a block from the domain, cells: whole cells are counted in 32 bits on the device.
+/// Largest distance of a block from the domain, cells: the device counts whole cells in 32 bits.
 pub(super) const MAX_DISTANCE: f64 = 1e9;
 
-/// Whole numbers of cells; what lies beyond all integers is as far away as they go.
+/// Rounds to whole cells, saturating at the range of the integers.
 pub(super) fn whole(base: DVec3) -> [i32; 3] {
     base.to_array().map(|x| x as i32)
 }

@@ -1,4 +1,4 @@
-//! The kernels of blocks in the fluid, and the memory that they share.
+//! The kernels of blocks in the fluid, and their shared buffers.
 
 use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
     lattice::Lattice,
 };
 
-/// A buffer that is made anew when it must hold more.
+/// A buffer that is replaced when it must hold more.
 #[derive(Debug)]
 pub(super) struct Growing {
     pub buffer: wgpu::Buffer,
@@ -27,7 +27,7 @@ impl Growing {
         }
     }
 
-    /// Makes room, and half as much again where there is none; says whether the buffer is another one.
+    /// Makes room, with half as much in reserve when it grows; returns whether the buffer was replaced.
     pub fn hold(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool> {
         if bytes <= self.buffer.size() {
             return Ok(false);
@@ -48,8 +48,8 @@ impl Growing {
     }
 }
 
-/// Iterations of the loops of `hull_fraction` for a part of so many faces: three times through all of them, and again for
-/// each column.
+/// Iterations of the loops of `hull_fraction` for a part of so many faces: three passes through all of them, and one more per
+/// column.
 fn loop_iterations(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));
     let columns = (2 * (8192 / faces).isqrt()).clamp(2, 8);
@@ -83,24 +83,24 @@ const KERNELS: [(&str, Option<&str>); 5] = [
     ("reduce_tiles", None),
     ("reduce_blocks", None),
 ];
-/// Cells of tiles for each at an edge, of blocks of some ten cells: where there are more, an invocation of
-/// `voxelise_edges` does several.
+/// Cells of tiles per cell at an edge, for blocks of some ten cells: if there are more edge cells, an invocation of
+/// `voxelise_edges` computes several.
 const CELLS_AN_EDGE: u64 = 16;
-/// Iterations of all loops of an invocation that every adapter executes: some end loops after 65 535 without an error.
+/// Number of loop iterations per invocation that every adapter executes: some end loops after 65 535 without an error.
 const MAX_LOOP_ITERATIONS: u64 = 60_000;
-/// A place in a list that is not used.
+/// Marks an unused entry of a list.
 const NOTHING: u32 = u32::MAX;
-/// Most workgroups that folding a dispatch of 2³² adds.
+/// Largest number of workgroups that folding a dispatch of 2³² adds.
 const MAX_FOLD_SURPLUS: usize = (u32::MAX / MAX_GROUPS) as usize;
 
-/// Fills up a list that a dispatch of `groups` goes through, `each` a workgroup: a folded one has a few workgroups too many,
-/// which find nothing to do.
+/// Pads a list for a dispatch of `groups` workgroups with `each` entries per workgroup: a folded dispatch has some additional
+/// workgroups, which find unused entries.
 fn pad(list: &mut Vec<u32>, groups: u32, each: usize) {
     let [x, y] = fold(groups);
     list.resize(x as usize * y as usize * each, NOTHING);
 }
 
-/// Kernels with their memory.
+/// Kernels with their buffers.
 #[derive(Debug)]
 pub(super) struct Kernels {
     kernels: Vec<Kernel>,
@@ -110,15 +110,15 @@ pub(super) struct Kernels {
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
     pub walk: Walk,
-    /// Most cells that an invocation of `voxelise_edges` may do.
+    /// Largest number of cells per invocation of `voxelise_edges`.
     at_once: u64,
 }
 
 impl Kernels {
-    /// For parts of these forms, of at most `faces` faces.
+    /// Creates the kernels for parts of these forms, with at most `faces` faces.
     pub fn new(device: &wgpu::Device, lattice: &Lattice, forms: Forms, faces: u32) -> Result<Self> {
         let grid = lattice.grid();
-        // Barriers are slow where a CPU walks through the invocations of a workgroup.
+        // Barriers are slow on a CPU, which processes the invocations of a workgroup one after the other.
         let processor = lattice.setup().processor;
         let walk = match processor.unwrap_or_else(|| Processor::of(&device.adapter_info())) {
             Processor::Cpu => Walk::Serial,
@@ -195,7 +195,7 @@ impl Kernels {
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
         }
-        // Its length says how many blocks there are.
+        // The kernel takes the number of blocks from this length.
         let first = &mut self.buffers[8];
         if first.buffer.size() != words(loaded + 1) {
             first.buffer = zeroed(device, first.label, words(loaded + 1));
@@ -203,7 +203,7 @@ impl Kernels {
         self.bind(device, lattice)
     }
 
-    /// The planes belong to the lattice, which may have made another one.
+    /// Rebinds the planes of the lattice, which may have replaced them.
     fn bind(&mut self, device: &wgpu::Device, lattice: &Lattice) -> Result<()> {
         if lattice.setup().solid_operator.is_none() {
             let message = "the lattice has no solid operator, so that no block may be in it";
@@ -229,8 +229,8 @@ impl Kernels {
         Ok(())
     }
 
-    /// Gives the kernels of cells their work: numbers of tiles, and of lanes of bricks; `anew` where these are others than
-    /// before.
+    /// Sets the work of the kernels of cells: numbers of tiles, and of lanes of bricks; `anew` if they differ from
+    /// those before.
     pub fn set_work(&mut self, queue: &wgpu::Queue, tiles: &[u32], lanes: &[u32], anew: bool) {
         let mark = if anew { WHOLE } else { 0 };
         for (n, list) in [(0, tiles), (2, lanes)] {
@@ -246,12 +246,12 @@ impl Kernels {
         self.no_edges(queue);
     }
 
-    /// Nothing is left to `voxelise_edges` yet: before `voxelise`, which has the work that it had.
+    /// Clears the list of `voxelise_edges`, before `voxelise` with the same work.
     pub fn no_edges(&self, queue: &wgpu::Queue) {
         queue.write_buffer(self.buffer("edges"), 0, &[0; 4]);
     }
 
-    /// Gives the sums their work.
+    /// Sets the work of the sums.
     pub fn set_sums(&mut self, queue: &wgpu::Queue, mut segments: Vec<u32>, block_first: &[u32]) {
         self.groups[3] = self.walk.groups(segments.len() as u32);
         self.groups[4] = block_first.len() as u32 - 1;
@@ -261,7 +261,7 @@ impl Kernels {
         }
     }
 
-    /// Records the kernels `which`, those of them that have work.
+    /// Records those of the kernels `which` that have work.
     pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, which: std::ops::Range<usize>) {
         for n in which {
             if self.groups[n] > 0 {
@@ -270,7 +270,7 @@ impl Kernels {
         }
     }
 
-    /// All of them in their order, each with the workgroups of the coming dispatch.
+    /// All kernels in their order, each with the workgroups of the coming dispatch.
     pub fn all(&self) -> impl Iterator<Item = (&Kernel, u32)> {
         self.kernels.iter().zip(self.groups)
     }

@@ -1,4 +1,4 @@
-//! What the device adds up of blocks in a fluid, and the loads that follow from it.
+//! The sums of the device for blocks in a fluid, and the loads that follow from them.
 
 use super::{
     FACE_LOAD, FaceLoad, Frame, PlaneFace, SolidCells, WRENCH, Window, corners,
@@ -14,26 +14,26 @@ use glam::DVec3;
 const SEAM_GAP: f64 = 1e-3;
 
 impl SolidCells {
-    /// Records the sums of what the fluid did to the blocks, after [`crate::lattice::Lattice::record_psm`].
+    /// Records the sums of the action of the fluid on the blocks, after [`crate::lattice::Lattice::record_psm`].
     pub fn record_loads(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.kernels.record(pass, 3..5);
     }
 
-    /// The sums, [`WRENCH`] f32 for each block with loads: see [`SolidCells::loads`]. Another buffer after
-    /// [`SolidCells::place`], if it had to grow.
+    /// The sums, [`WRENCH`] f32 for each block with loads: see [`SolidCells::loads`]. [`SolidCells::place`]
+    /// replaces the buffer if it has to grow.
     pub fn wrenches(&self) -> &wgpu::Buffer {
         self.kernels.buffer("wrenches")
     }
 
-    /// How many numbers of [`SolidCells::wrenches`] hold sums.
+    /// Number of sums in [`SolidCells::wrenches`].
     pub fn wrench_count(&self) -> usize {
         WRENCH * self.loaded
     }
 
-    /// The loads on all blocks from the numbers of [`SolidCells::wrenches`]: what the fluid did to the solid
-    /// in its cells, without what a body force in these cells and the weight of the water add, and with the inertia of
-    /// the fluid in them: [`Ambient`](crate::coupling::Ambient) and [`InteriorInertia`](crate::coupling::InteriorInertia) make of
-    /// it the load on rock. Blocks without loads have none.
+    /// The loads on all blocks from the numbers of [`SolidCells::wrenches`]: the action of the fluid on the solid
+    /// in its cells, without the contributions of a body force in these cells and of the weight of the water, and with the inertia of
+    /// the fluid in them. [`Ambient`](crate::coupling::Ambient) and [`InteriorInertia`](crate::coupling::InteriorInertia) convert
+    /// it to the load on rock. Blocks without loads have zero.
     ///
     /// # Errors
     /// If there are too few numbers.
@@ -49,7 +49,7 @@ impl SolidCells {
         Ok(self.number.iter().map(load).collect())
     }
 
-    /// Records the sums of what the fluid does to single faces, after [`crate::lattice::Lattice::record_psm`]; nothing unless
+    /// Records the sums of the action of the fluid on single faces, after [`crate::lattice::Lattice::record_psm`]; nothing unless
     /// a block requests them.
     pub fn record_faces(&self, pass: &mut wgpu::ComputePass<'_>) {
         if let Some(faces) = &self.face_sums {
@@ -58,19 +58,19 @@ impl SolidCells {
     }
 
     /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that request them: see [`SolidCells::face_loads`]. `None` unless
-    /// requested; another buffer after [`SolidCells::place`], if it had to grow.
+    /// requested; [`SolidCells::place`] replaces the buffer if it has to grow.
     pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
         self.face_sums.as_ref().map(FaceSums::loads)
     }
 
-    /// How many numbers of [`SolidCells::face_sums`] hold sums.
+    /// Number of sums in [`SolidCells::face_sums`].
     pub fn face_sum_count(&self) -> usize {
         self.face_sums.as_ref().map_or(0, FaceSums::count)
     }
 
-    /// The loads on the faces of all blocks where they were placed last, from the numbers of
-    /// [`SolidCells::face_sums`]; others have none, nor have spheres. Pressures are those in the cells
-    /// next to a face, without the part of a body force over the distance to it.
+    /// The loads on the faces of all blocks at their last placement, from the numbers of
+    /// [`SolidCells::face_sums`]; none for blocks that did not request them and for spheres. Pressures are those in the cells
+    /// next to a face, without the contribution of a body force over the distance to it.
     ///
     /// # Errors
     /// If there are too few numbers.
@@ -118,7 +118,7 @@ impl SolidCells {
             .collect())
     }
 
-    /// The domain, without end along the axes along which a block is `imaged`.
+    /// The domain, infinite along the axes along which a block is `imaged`.
     fn window(&self, imaged: [bool; 3]) -> Window {
         let (cells, _) = self.domain();
         let Frame { origin, units } = self.frame;

@@ -1,17 +1,17 @@
 //! Blocks in the fluid as partially saturated cells (Noble & Torczynski 1998; Gardner & Sitar 2018).
 //!
-//! Every cell that a block reaches knows its solid fraction and how the solid moves there; the
-//! fluid kernel weighs its collision with that, and the reaction, summed over the cells, is the load on
+//! Every cell that a block reaches has a solid fraction and a velocity of the solid. The
+//! fluid kernel weights its collision with the fraction, and the reaction, summed over the cells, is the load on
 //! the block. The device works on tiles: the part of one convex part of a block in one lane of one brick,
 //! which is what a workgroup of the fluid kernel runs.
 //!
 //! 1. `voxelise` and `voxelise_edges` write the solid fraction of one part in each cell of a tile,
 //! 2. `combine_parts` adds the parts that share a cell,
-//! 3. the fluid kernel collides and leaves what each cell does to the solid in it,
-//! 4. `reduce_tiles` and `reduce_blocks` add that up to the load on each block, in a fixed order;
-//! 5. where loads on single faces are requested, `reduce_faces` and `sum_faces` add up the tractions of the fluid in the
-//!    cells along them. The force on cells inside the solid belongs to no face: full ones reflect what was in them
-//!    when they were covered, and only over the whole block that cancels.
+//! 3. the fluid kernel collides and stores the action of each cell on the solid in it,
+//! 4. `reduce_tiles` and `reduce_blocks` sum it to the load on each block, in a fixed order;
+//! 5. if loads on single faces are requested, `reduce_faces` and `sum_faces` sum the tractions of the fluid in the
+//!    cells along them. The force on cells inside the solid belongs to no face: full cells reflect the populations
+//!    that they contained when they were covered, and this cancels only over the whole block.
 //!
 //! ```
 //! use glam::{DQuat, DVec3};

@@ -1,4 +1,4 @@
-//! Convex parts of blocks where they are, in cells, and the cells that lie in one or close to it.
+//! Convex parts of blocks at their positions, in cells, and the cells in or close to them.
 
 use super::{Frame, Part as Row, frame::whole, tiles::Outline};
 use crate::{
@@ -10,17 +10,17 @@ use glam::DVec3;
 /// A cell whose centre lies in a part or close to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearCell {
-    /// Its place in an array over the domain, x fastest.
+    /// Index in an array over the domain, x fastest.
     pub index: u32,
-    /// How far its centre lies from the part, cells; negative inside. Beyond an edge or a corner the
-    /// distance from the nearest plane, which is less.
+    /// Distance of its centre from the part, cells; negative inside. Beyond an edge or a corner the
+    /// distance from the nearest plane, which is smaller.
     pub distance: f64,
     /// Outward normal there.
     pub normal: DVec3,
 }
 
 impl NearCell {
-    /// Its places along x, y and z in a lattice of `cells`.
+    /// Its indices along x, y and z in a lattice of `cells`.
     pub fn ijk(&self, [nx, ny, _]: [u32; 3]) -> [u32; 3] {
         let at = self.index;
         [at % nx, at / nx % ny, at / (nx * ny)]
@@ -61,7 +61,7 @@ pub fn near_cells(
     }
 }
 
-/// Places of the cells on an axis that the box of a part, grown by `reach`, holds.
+/// Indices of the cells on an axis in the box of a part grown by `reach`.
 fn reached(
     outline: &Outline,
     reach: f64,
@@ -74,7 +74,7 @@ fn reached(
     inside(low, high, cells[axis], periodic[axis]).collect()
 }
 
-/// Places of the cells of an axis whose middle lies between two, beyond the domain only where it is
+/// Indices of the cells of an axis whose centres lie between two coordinates, beyond the domain only if the axis is
 /// periodic.
 fn inside(low: f64, high: f64, cells: u32, periodic: bool) -> std::ops::RangeInclusive<i64> {
     let (first, last) = ((low - 0.5).ceil() as i64, (high - 0.5).floor() as i64);
@@ -84,7 +84,7 @@ fn inside(low: f64, high: f64, cells: u32, periodic: bool) -> std::ops::RangeInc
     }
 }
 
-/// The part of the row of cells through `y` and `z` that lies at most `reach` from a part.
+/// The range of the row of cells through `y` and `z` at most `reach` from a part.
 fn row(outline: &Outline, reach: f64, y: i64, z: i64) -> Option<(f64, f64)> {
     let (b, c) = in_plane(0);
     let mut at = DVec3::ZERO;

@@ -1,4 +1,4 @@
-//! Which files and numbers make the kernels of immersed blocks.
+//! The WGSL files and constants of the kernels of blocks in the fluid.
 
 use super::tiles::MAX_SEGMENT;
 use crate::{
@@ -6,28 +6,28 @@ use crate::{
     lattice::{Grid, Lattice, PsmAccess, SolidWeight, psm_storage},
 };
 
-/// Faces that a convex part may have: some adapters end loops after 65 535 turns without a word, and a
+/// Largest number of faces of a convex part: some adapters end loops after 65 535 iterations without an error, and a
 /// cell that many faces cut takes four columns through all of them.
 pub const MAX_FACES: u32 = 8192;
 
-/// Storage buffers of the kernel that has the most of them, `reduce_faces`.
+/// Storage buffers of the kernel with most of them, `reduce_faces`.
 pub const MAX_STORAGE_BUFFERS: u32 = 8;
 
-/// Added to a number in `work`: all of its cells are to be done, as where nothing stands in memory yet, not only those
+/// Added to a number in `work`: all of its cells are computed, as for new memory, not only those
 /// that parts can reach.
 pub const WHOLE: u32 = 1 << 31;
 
-/// Who goes through the cells of a tile. Both give the same numbers, sums up to rounding.
+/// Mapping of invocations to the cells of a tile. Both give the same results, sums up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {
-    /// As few invocations as fill a vector, and one that adds up, without barriers: for CPU adapters, which fetch what
-    /// holds for the whole tile for each invocation anew.
+    /// One vector of invocations per tile, and sums by one invocation without barriers: for CPU adapters, which load the data
+    /// of a tile again for each invocation.
     Serial,
-    /// An invocation a cell, and 64 that add up: for GPUs.
+    /// One invocation per cell, and sums by 64 invocations: for GPUs.
     Parallel,
 }
 
-/// Which forms the parts of blocks have: kernels have no code for the others.
+/// Forms of the parts of blocks: kernels contain no code for other forms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Forms {
     /// Spheres.
@@ -43,7 +43,7 @@ impl Forms {
         polyhedra: true,
     };
 
-    /// The file of a slot for spheres, and that of one for polyhedra.
+    /// The files of the slots for spheres and for polyhedra.
     fn files(self, sphere: &'static str, polyhedron: &'static str) -> [&'static str; 2] {
         [
             if self.spheres { sphere } else { "ball_none" },
@@ -56,9 +56,9 @@ impl Forms {
     }
 }
 
-/// Workgroups that keep a GPU busy.
+/// Number of workgroups that saturates a GPU.
 const BUSY: u32 = 8192;
-/// Invocations that a CPU adapter goes through as one vector.
+/// Number of invocations that a CPU adapter executes as one vector.
 const VECTOR: u32 = 8;
 
 impl Walk {
@@ -75,7 +75,7 @@ impl Walk {
         }
     }
 
-    /// Tiles of a segment, where there are `tiles` of them.
+    /// Tiles per segment, for `tiles` tiles in total.
     pub(super) fn segment(self, tiles: u32) -> u32 {
         match self {
             Self::Serial => 1,
@@ -84,8 +84,8 @@ impl Walk {
     }
 }
 
-/// `voxelise`: a workgroup a tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, of
-/// which the first word must be 0 before, and which has room for a word more than `solid_fractions`.
+/// `voxelise`: one workgroup per tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, whose
+/// first word must be 0 before, and which is one word longer than `solid_fractions`.
 pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
@@ -94,7 +94,7 @@ pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms, weight: SolidWeight) -> P
         .slot("hull_quick", hull)
 }
 
-/// `voxelise_edges`: what `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
+/// `voxelise_edges`: computes the cells that `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
 /// `parts`, `faces`, `solid_fractions`, `edges`.
 pub fn voxelise_edges(grid: &Grid, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("ball_fraction", "hull_fraction");
@@ -121,20 +121,20 @@ pub fn sphere_growth(weight: SolidWeight, tau: f64) -> f64 {
     }
 }
 
-/// A program whose `psm_planes` are spread as those of `lattice`; without this they have one binding.
+/// A program whose `psm_planes` have as many bindings as those of `lattice`; without this they have one binding.
 pub(super) fn spread(program: Program, lattice: &Lattice) -> Program {
     let planes = lattice.bindings().psm_planes;
     program.text("psm_storage", psm_storage(planes, PsmAccess::Tiles))
 }
 
-/// `combine_parts`: a workgroup a lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
+/// `combine_parts`: one workgroup per lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
 /// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes_0`.
 pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
     walked("combine_parts", grid, walk)
 }
 
 /// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`, `segments`,
-/// and `partials`, [`super::WRENCH`] numbers a segment. A segment is tiles of one block that follow one another: the number
+/// and `partials`, [`super::WRENCH`] numbers per segment. A segment is a range of consecutive tiles of one block: the number
 /// of the first + 2²⁸ · (their count - 1), or all bits for none.
 pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
@@ -144,16 +144,16 @@ pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
     base("reduce_tiles", grid).slot("tile_sum", file)
 }
 
-/// `reduce_blocks`: a workgroup a block. Binds `block_first`, the segments before each block and all, `partials`, `wrenches`.
+/// `reduce_blocks`: one workgroup per block. Binds `block_first`, the segments before each block and all, `partials`, `wrenches`.
 pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: [`Walk::groups`] workgroups. Of a face it looks at the layer of cells along it, from where cells no longer
-/// reach through its plane on and a cell thick; a cell counts as fluid unless a wall, a solid or another block
-/// has a share in it, and does not count where another part of its own block lies over the face or has one. What stands there is of the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
-/// a face one after the other), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
-/// `face_partials`, [`super::FACE_LOAD`] numbers a job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
+/// `reduce_faces`: [`Walk::groups`] workgroups. For each face it sums over the layer of cells along it, one cell thick, which begins where cells no longer
+/// intersect its plane. A cell is fluid unless a wall, a solid or another block fills part of it; it is excluded if another part of
+/// the same block lies over the face or fills part of the cell. The state is that at the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
+/// a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
+/// `face_partials`, [`super::FACE_LOAD`] numbers per job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid, walk: Walk) -> Program {
     let file = match walk {
@@ -163,13 +163,13 @@ pub fn reduce_faces(grid: &Grid, walk: Walk) -> Program {
     base("reduce_faces", grid).slot("face_sum", file)
 }
 
-/// `sum_faces`: an invocation a number of a face, 64 a workgroup. Binds `face_first` (jobs before each
+/// `sum_faces`: one invocation per number of a face, 64 per workgroup. Binds `face_first` (jobs before each
 /// face, and all), `face_partials`, `face_loads`.
 pub fn sum_faces() -> Program {
     Program::new("sum_faces")
 }
 
-/// The numbers that all of them take from the grid.
+/// The constants of all kernels that follow from the grid.
 pub fn constants(grid: &Grid) -> Vec<(&'static str, f64)> {
     vec![
         ("BRICK_X", grid.brick[0].into()),

@@ -17,7 +17,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// A block that is put into a fluid.
+/// A block in a fluid.
 #[derive(Clone, Debug)]
 pub struct SolidBlock {
     /// Its shape, m.
@@ -28,14 +28,14 @@ pub struct SolidBlock {
     pub faces: bool,
 }
 
-/// What was computed anew since the start.
+/// Work done since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CellWork {
-    /// Tiles whose solid fractions were.
+    /// Number of tiles whose solid fractions were computed.
     pub tiles: u64,
-    /// Lanes of bricks that were combined.
+    /// Number of lanes of bricks that were combined.
     pub lanes: u64,
-    /// Times that the tiles of blocks were looked for.
+    /// Number of searches for the tiles of blocks.
     pub searches: u64,
 }
 
@@ -43,17 +43,17 @@ pub struct CellWork {
 ///
 /// A step is [`SolidCells::place`] with the poses of the blocks, [`SolidCells::record_cells`],
 /// [`Lattice::record_psm`], [`SolidCells::record_loads`], [`Lattice::record_rest`]; then
-/// [`SolidCells::wrenches`] holds what [`SolidCells::loads`] makes loads of, and with [`SolidCells::record_faces`] beside
-/// the loads [`SolidCells::face_sums`] what [`SolidCells::face_loads`] does. Poses, motions and loads are SI.
+/// [`SolidCells::wrenches`] holds the sums from which [`SolidCells::loads`] computes loads. With [`SolidCells::record_faces`] after
+/// the loads, [`SolidCells::face_sums`] holds those for [`SolidCells::face_loads`]. Poses, motions and loads are SI.
 #[derive(Debug)]
 pub struct SolidCells {
     pub(super) frame: Frame,
     tiling: Tiling,
     /// See [`super::program::sphere_growth`].
     sphere_growth: f64,
-    /// In the order of the device: those with loads first.
+    /// Blocks in the order of the device: those with loads first.
     pub(super) blocks: Vec<SolidBlock>,
-    /// Place of each block in that order.
+    /// Index of each block in that order.
     pub(super) number: Vec<usize>,
     pub(super) loaded: usize,
     /// First part of each block, and first face of each part.
@@ -62,18 +62,18 @@ pub struct SolidCells {
     faces: usize,
     pub(super) poses: Vec<Pose>,
     outlines: Vec<Vec<Outline>>,
-    /// What is on the device of the blocks, in its order.
+    /// Copy of the data of blocks on the device, in its order.
     tables: Tables,
     plan: Plan,
     pub(super) kernels: Kernels,
     /// `None` unless a block requests faces.
     pub(super) face_sums: Option<FaceSums>,
     work: CellWork,
-    /// The work that the device has, unless it is none or all.
+    /// The work lists on the device, unless they are empty or complete.
     listed: Option<Listed>,
 }
 
-/// Tiles and lanes of bricks that some blocks have computed anew.
+/// Tiles and lanes of bricks that moved blocks require.
 #[derive(Debug)]
 struct Listed {
     moved: Vec<usize>,
@@ -88,7 +88,7 @@ impl Listed {
     }
 }
 
-/// What the host passes to the device about blocks, in its order.
+/// Data of blocks for the device, in its order.
 #[derive(Debug, Default)]
 struct Tables {
     parts: Vec<Part>,
@@ -97,11 +97,11 @@ struct Tables {
 }
 
 impl SolidCells {
-    /// Puts blocks into the lattice, which must have a solid operator; they are nowhere until
+    /// Adds blocks to the lattice, which must have a solid operator; they have no position until
     /// [`SolidCells::place`].
     ///
     /// # Errors
-    /// [`Error::Argument`] if the lattice has no solid operator, or the frame no units; [`Error::Limit`] of the device.
+    /// [`Error::Argument`] if the lattice has no solid operator, or the frame is invalid; [`Error::Limit`] of the device.
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
@@ -173,12 +173,12 @@ impl SolidCells {
         })
     }
 
-    /// Puts the blocks where they are now, one pose each, for the coming steps: uploads what has changed
-    /// and lays down what is to be computed anew.
+    /// Places the blocks at `poses`, one per block, for the coming steps: uploads changed data
+    /// and lists the work.
     ///
     /// # Errors
-    /// If the number of poses differs, one is not finite, leaves no volume or is farther away than cells are counted, or the device
-    /// does not hold the cells; then nothing is in place, and the next call does everything anew.
+    /// If the number of poses differs, one is not finite, leaves no volume or is too far away, or the device
+    /// cannot hold the cells; the next call then starts from the beginning.
     pub fn place(
         &mut self,
         device: &wgpu::Device,
@@ -238,7 +238,7 @@ impl SolidCells {
             self.plan.has_strayed(block, &poses[block], radius, cell)
         });
         if strayed {
-            // All blocks: what is found depends on where they are alone.
+            // All blocks: the result depends on their poses only.
             for (block, pose) in poses.iter().enumerate() {
                 let outlines = std::mem::take(&mut self.outlines[block]);
                 self.find(block, pose, &outlines);
@@ -247,7 +247,7 @@ impl SolidCells {
         }
         let anew = start || strayed;
         if anew {
-            // Until all is in place.
+            // Until everything is in place.
             self.poses.clear();
             self.make_room(device, queue, lattice)?;
             self.upload_plan(queue);
@@ -290,7 +290,7 @@ impl SolidCells {
         Ok(())
     }
 
-    /// The poses, or what goes with them, in the order of the device.
+    /// Poses, or data of blocks, in the order of the device.
     fn ordered<T: Copy>(&self, given: &[T]) -> Vec<T> {
         let mut ordered = given.to_vec();
         for (value, &place) in given.iter().zip(&self.number) {
@@ -307,7 +307,7 @@ impl SolidCells {
             .collect()
     }
 
-    /// Finds the tiles of a block anew, if that is due.
+    /// Searches the tiles of a block again, if due.
     fn find(&mut self, block: usize, pose: &Pose, outlines: &[Outline]) {
         let radius = self.blocks[block].shape.radius();
         let at = (pose, radius, self.frame.units.cell);
@@ -332,14 +332,14 @@ impl SolidCells {
         self.kernels.hold(device, lattice, &self.plan, counts)
     }
 
-    /// Where the tiles of each block were found, at or near its present pose; its velocity has no meaning.
+    /// Poses at which the tiles of the blocks were found, at or near the present ones; their velocities have no meaning.
     pub fn tiled(&self) -> Vec<Option<Pose>> {
         let found = self.number.iter();
         found.map(|&place| self.plan.found_at(place)).collect()
     }
 
-    /// Finds the tiles as they were when [`SolidCells::tiled`] gave these poses, so that the loads are summed in
-    /// the same order; the next [`SolidCells::place`] does all else anew.
+    /// Restores the tiles for the poses of [`SolidCells::tiled`], so that the loads are summed in
+    /// the same order; the next [`SolidCells::place`] does everything else again.
     pub fn tile(&mut self, tiled: &[Option<Pose>]) {
         for (block, tiled) in self.ordered(tiled).into_iter().enumerate() {
             self.plan.forget(block);
@@ -373,7 +373,7 @@ impl SolidCells {
         self.kernels.set_sums(queue, segments, &block_first);
     }
 
-    /// Computes the rows of the blocks `changed`, ascending, and uploads them with those between; or all with `anew`.
+    /// Computes the rows of the blocks `changed`, ascending, and uploads the range that contains them; all rows with `anew`.
     fn upload_tables(&mut self, queue: &wgpu::Queue, changed: &[usize], anew: bool) {
         for &block in changed {
             let parts = self.first_part[block] as usize..;
@@ -421,23 +421,23 @@ impl SolidCells {
         }
     }
 
-    /// Records what the solid is in each cell, after [`SolidCells::place`]; nothing where no block has
-    /// changed since the last time.
+    /// Records the computation of the solid in each cell, after [`SolidCells::place`]; nothing if no block has
+    /// changed since the last call.
     pub fn record_cells(&self, pass: &mut wgpu::ComputePass<'_>) {
         self.kernels.record(pass, 0..3);
     }
 
-    /// Bricks that blocks reach.
+    /// Number of bricks that blocks reach.
     pub fn bricks(&self) -> &[u32] {
         &self.plan.bricks
     }
 
-    /// Tiles: parts of blocks in a lane of a brick.
+    /// Number of tiles: parts of blocks in a lane of a brick.
     pub fn tiles(&self) -> usize {
         self.plan.tiles.len()
     }
 
-    /// What was computed anew since the start.
+    /// Work done since the start.
     pub fn work(&self) -> CellWork {
         self.work
     }
@@ -463,7 +463,7 @@ impl SolidCells {
         self.tiling.domain()
     }
 
-    /// Where the lattice is, and its units.
+    /// Position and units of the lattice.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }

@@ -1,12 +1,12 @@
-//! What the host passes to the device about blocks, as it lies in `kernels/psm/tables.wgsl`. Lattice
-//! units: a cell and a step are one.
+//! Data of blocks for the device, with the layout of `kernels/psm/tables.wgsl`, in lattice
+//! units.
 
 use bytemuck::{Pod, Zeroable};
 
 /// Solid fraction of a part in a cell that is inside it, as are all cells within two layers around.
 pub const INTERIOR: f32 = 2.0;
 
-/// Solid fraction of a part in a cell that it leaves empty, but not all of the 26 cells around.
+/// Marks a cell that a part leaves empty, if it does not leave all of the 26 neighbours empty.
 pub const NEAR: f32 = -1.0;
 
 /// The same of a cell whose side lies on a face of the part.
@@ -18,19 +18,19 @@ pub const INTERIOR_SUM: f32 = 8.0;
 /// Added to it in a full cell of a closed joint, in which several blocks meet.
 pub const JOINT_SUM: f32 = 16.0;
 
-/// In place of that where one of them fills the cell, and another one the next cell.
+/// Used instead if one block fills the cell, and another one the next cell.
 pub const FACING_SUM: f32 = 24.0;
 
-/// In place of both where they leave more of it.
+/// Used instead of both in cells that are less full.
 pub const SHARED_SUM: f32 = 32.0;
 
-/// Numbers that each cell of a brick with blocks has on the device.
+/// Number of values per cell of a brick with blocks.
 pub const PLANES: usize = crate::lattice::PSM_PLANES as usize;
 
-/// Numbers that the device adds up for each block.
+/// Number of sums per block.
 pub const WRENCH: usize = 20;
 
-/// Numbers that the device adds up for each face that is requested, over the layer of cells along it: traction
+/// Number of sums per requested face, over the layer of cells along it: traction
 /// (3), its moment about the block's centroid (3), height of the cells' centres over the face, their feet on the face
 /// from that centroid (3) and the products of these (xx, yy, zz, yz, zx, xy), number of cells with fluid, number of
 /// cells.
@@ -50,21 +50,21 @@ pub struct Tile {
     pub slot: u32,
     /// Lane of the brick's elements.
     pub lane: u32,
-    /// Cells an axis, from the lowest, that lie in the domain: [`Tile::pack`]; and which of all the part can reach:
-    /// [`Tile::reaching`].
+    /// Number of cells in the domain along each axis, from the lowest cell ([`Tile::pack`]), and the range that the part can reach
+    /// ([`Tile::reaching`]).
     pub inside: u32,
 }
 
 impl Tile {
-    /// Parts of equal size, but for the last ones, into which the cells of a tile are divided, in the order of the workgroup.
+    /// Number of ranges of equal size, except for the last ones, into which the cells of a tile are divided, in the order of the workgroup.
     pub const EIGHTHS: u32 = 8;
 
-    /// Numbers of cells an axis, at most 255 each, in one word; the part can reach all of them.
+    /// Packs the numbers of cells along each axis, at most 255, into one word; the part can reach all of them.
     pub const fn pack([x, y, z]: [u32; 3]) -> u32 {
         x | y << 8 | z << 16 | Self::EIGHTHS << 28
     }
 
-    /// The same of a part that can reach the eighths from `first` up to `end` alone.
+    /// The same for a part that can reach only the eighths from `first` up to `end`.
     #[must_use]
     pub const fn reaching(self, [first, end]: [u32; 2]) -> Self {
         let inside = self.inside & 0xff_ffff | first << 24 | end << 28;
@@ -72,7 +72,7 @@ impl Tile {
     }
 }
 
-/// Where a convex part is. Its centroid is at `base` + `fraction` (cells), 0 ≤ `fraction` < 1, so that
+/// Position of a convex part. Its centroid is at `base` + `fraction` (cells), 0 ≤ `fraction` < 1, so that
 /// the distance of a cell from `base` is exact.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -95,38 +95,38 @@ pub struct Part {
     pub block: u32,
 }
 
-/// How a block moves. Its material at r (cells) from the centroid has the velocity `velocity` +
+/// Motion of a block. Its material at r (cells) from the centroid has the velocity `velocity` +
 /// `gradient_x` r.x + `gradient_y` r.y + `gradient_z` r.z.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Motion {
     /// Whole cells of the centroid.
     pub base: [i32; 3],
-    /// Not used.
+    /// Padding.
     pub pad0: u32,
     /// Rest of the centroid, cells.
     pub fraction: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad1: u32,
-    /// Velocity of the centroid, cells a step.
+    /// Velocity of the centroid, cells per step.
     pub velocity: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad2: u32,
-    /// Change of the velocity along x, 1 a step.
+    /// Change of the velocity along x, per step.
     pub gradient_x: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad3: u32,
-    /// Change of the velocity along y, 1 a step.
+    /// Change of the velocity along y, per step.
     pub gradient_y: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad4: u32,
-    /// Change of the velocity along z, 1 a step.
+    /// Change of the velocity along z, per step.
     pub gradient_z: [f32; 3],
-    /// Not used.
+    /// Padding.
     pub pad5: u32,
 }
 
-/// What one workgroup of `reduce_faces` does.
+/// A job of `reduce_faces`: a face and a tile.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct FaceJob {

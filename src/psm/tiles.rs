@@ -1,4 +1,4 @@
-//! Which bricks a convex part reaches: the tiles, and which of them are to be computed again.
+//! Tiles: the bricks that convex parts reach, and their update when blocks move.
 
 use super::Tile;
 use crate::{
@@ -8,23 +8,23 @@ use crate::{
 use glam::DVec3;
 use std::ops::Range;
 
-/// A convex part where it is, cells.
+/// A convex part at its position, cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
     /// Centroid, from the lower corner of the domain.
     pub centre: DVec3,
-    /// Corners of the box around it, from the centroid; of a sphere in a fluid, around its effective radius.
+    /// Corners of its bounding box, from the centroid; for a sphere in a fluid, of its effective radius.
     pub low: DVec3,
     /// See `low`.
     pub high: DVec3,
-    /// Outward unit normal and distance from the centroid; none: a sphere.
+    /// Outward unit normals and distances from the centroid; empty for a sphere.
     pub faces: Vec<(DVec3, f64)>,
     /// Radius of a sphere.
     pub radius: f64,
 }
 
 impl Outline {
-    /// With the box of a sphere around its effective radius, which is larger by `growth` (cells²) over the radius.
+    /// The outline with the box of the effective radius of a sphere, which is larger by `growth` (cells²) over the radius.
     pub fn grown(mut self, growth: f64) -> Self {
         if self.faces.is_empty() {
             let effective = self.radius + growth / self.radius.max(LEAST_RADIUS);
@@ -33,7 +33,7 @@ impl Outline {
         self
     }
 
-    /// Corners of the box around the part, a sphere as it is, from the centroid.
+    /// Corners of the bounding box of the part, for a sphere with its true radius, from the centroid.
     fn ends(&self) -> [DVec3; 2] {
         match self.faces.is_empty() {
             true => [-self.radius, self.radius].map(DVec3::splat),
@@ -41,7 +41,7 @@ impl Outline {
         }
     }
 
-    /// Whether a box of half extents `half` around `middle` (from the centroid) lies off it for sure.
+    /// Whether a box of half extents `half` around `middle` (from the centroid) certainly does not touch the part.
     fn is_off(&self, middle: DVec3, half: DVec3) -> bool {
         if (middle + half).cmplt(self.low).any() || (middle - half).cmpgt(self.high).any() {
             return true;
@@ -57,14 +57,14 @@ impl Outline {
     }
 }
 
-/// Radius below which spheres grow no more, cells: `LEAST_RADIUS` of the kernel.
+/// Radius below which the growth of spheres is constant, cells: `LEAST_RADIUS` of the kernel.
 const LEAST_RADIUS: f64 = 2.0;
 
-/// How much longer than a period a block is that has no images, cells: rounding.
+/// Tolerance of the length of a block that fills a period, cells: rounding.
 const LONGER: f64 = 1e-6;
 
-/// Along which of the `periodic` axes of a domain of `cells` cells a block, whose parts are `outlines`, has images:
-/// those that it does not fill. One that is longer than a period is in the domain as it lies there.
+/// The `periodic` axes of a domain of `cells` cells along which a block with the parts `outlines` has images:
+/// those that it does not fill. A block longer than a period has none along that axis.
 pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bool; 3] {
     [0, 1, 2].map(|axis| {
         let ends = |of: &Outline| of.ends().map(|end| of.centre[axis] + end[axis]);
@@ -73,31 +73,31 @@ pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bo
     })
 }
 
-/// The bricks of an axis that an interval reaches.
+/// The bricks along an axis that an interval reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Span {
     brick: u32,
     lane: u32,
     /// Lowest cell, shifted by whole periods.
     cell: i32,
-    /// Its cells that lie in the domain.
+    /// Number of its cells in the domain.
     inside: u32,
 }
 
-/// Where the tiles of a grid are.
+/// The tiling of a grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Tiling {
     grid: Grid,
     periodic: [bool; 3],
-    /// Of a tile that lies in the domain as a whole.
+    /// The eighths of a tile that lies completely in the domain.
     eighths: Eighths,
 }
 
-/// The boxes around the eighths of a tile, in cells from its lowest corner: middle, and half of the edges. Rows that an eighth
-/// holds a part of count as whole ones, and so do layers. None where it has no cell in the domain.
+/// Bounding boxes of the eighths of a tile, in cells from its lowest corner: middle and half extents. Rows and layers that an
+/// eighth contains in part count as complete. `None` without a cell in the domain.
 type Eighths = [Option<[DVec3; 2]>; Tile::EIGHTHS as usize];
 
-/// Of a tile that has `inside` of the cells of a brick in the domain.
+/// The eighths of a tile with `inside` cells in the domain.
 fn eighths(brick: [u32; 3], inside: [u32; 3]) -> Eighths {
     let cells: u32 = brick.iter().product();
     let size = cells.div_ceil(Tile::EIGHTHS);
@@ -141,7 +141,7 @@ impl Tiling {
         (self.grid.cells, self.periodic)
     }
 
-    /// The tiles of a block's parts, each part with its number from 0 and grown by `margin` cells, without their slots,
+    /// The tiles of the parts of a block, with parts numbered from 0 and grown by `margin` cells, without slots,
     /// each with its brick; in the order of parts, bricks and lanes.
     pub fn tiles_of_block(&self, outlines: &[Outline], margin: f64) -> Vec<(u32, Tile)> {
         let imaged = imaged(outlines, self.grid.cells, self.periodic);
@@ -153,7 +153,7 @@ impl Tiling {
         tiles.collect()
     }
 
-    /// The tiles of a part, with its images along axes where it is `imaged`.
+    /// The tiles of a part, with its images along axes that are `imaged`.
     fn tiles(&self, outline: &Outline, margin: f64, imaged: [bool; 3]) -> Vec<(u32, Tile)> {
         let [x, y, z] = [0, 1, 2].map(|axis| {
             let low = outline.centre[axis] + outline.low[axis] - margin;
@@ -207,7 +207,7 @@ impl Tiling {
         Some([first as u32, last as u32 + 1])
     }
 
-    /// Spans of bricks between `low` and `high` on an axis, and periods away where what lies there is `imaged`.
+    /// Ranges of bricks between `low` and `high` on an axis, including periodic images if `imaged`.
     fn spans(&self, axis: usize, [low, high]: [f64; 2], imaged: bool) -> Vec<Span> {
         let cells = i64::from(self.grid.cells[axis]);
         let (first, last) = if imaged {
@@ -225,7 +225,7 @@ impl Tiling {
         let mut spans = Vec::new();
         for image in first..=last {
             for lane in 0..lanes {
-                // One more at each end than rounding leaves out.
+                // One more at each end, against rounding.
                 let from = (image * cells + i64::from(lane * slab)) as f64;
                 let [below, above] =
                     [low, high].map(|end| ((end - from) / f64::from(size)).floor());
@@ -252,35 +252,35 @@ impl Tiling {
     }
 }
 
-/// Distance that a point of a block may go before its tiles are looked for anew, cells. Tiles reach as far
-/// beyond the block, so that a larger one costs tiles that hold nothing, a smaller one searches.
+/// Distance that a point of a block may move before the next search for its tiles, cells. Tiles extend by it
+/// beyond the block: a larger value costs empty tiles, a smaller one searches.
 pub const SKIN: f64 = 1.0;
-/// A block changes how its direct neighbours relax: a cell beyond the block.
+/// A block changes the relaxation of adjacent cells: one cell beyond the block.
 const NEIGHBOURS: f64 = 1.0;
 
 /// Bits of a segment that number its first tile: `SEGMENT_SHIFT` of the kernel. Those above count the tiles after it.
 const SEGMENT_SHIFT: u32 = 28;
-/// Most tiles of a segment.
+/// Largest number of tiles of a segment.
 pub const MAX_SEGMENT: u32 = 1 << (u32::BITS - SEGMENT_SHIFT);
 
 /// Tiles by block, brick and part.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
-    /// Of each block.
+    /// Tiles of each block.
     found: Vec<Found>,
-    /// All of them, by block.
+    /// All tiles, by block.
     pub tiles: Vec<Tile>,
     /// Bricks with blocks.
     pub bricks: Vec<u32>,
     /// Tiles of each block.
     pub block_first: Vec<u32>,
-    /// Tiles of each lane of a brick with blocks, slot · lanes + lane: where they begin in `lane_tiles`.
+    /// Start in `lane_tiles` of the tiles of each lane of a brick with blocks, slot · lanes + lane.
     pub lane_first: Vec<u32>,
     /// Tiles by lane.
     pub lane_tiles: Vec<u32>,
-    /// Lanes of a brick.
+    /// Number of lanes of a brick.
     lanes: u32,
-    /// Place of each brick of the grid in `bricks`.
+    /// Index of each brick of the grid in `bricks`.
     slot_of: Vec<u32>,
 }
 
@@ -294,7 +294,7 @@ struct Found {
 }
 
 impl Plan {
-    /// For some blocks.
+    /// An empty plan for a number of blocks.
     pub fn new(blocks: usize) -> Self {
         Self {
             found: vec![Found::default(); blocks],
@@ -302,12 +302,12 @@ impl Plan {
         }
     }
 
-    /// Whether a block that was found at another pose may have left its tiles.
+    /// Whether a block may have left its tiles since their search.
     pub fn has_strayed(&self, block: usize, pose: &Pose, radius: f64, cell: f64) -> bool {
         self.stray(block, pose, radius, cell) > SKIN
     }
 
-    /// How far a point of the block may have gone since its tiles were found, cells.
+    /// Upper bound of the displacement of the points of a block since the search for its tiles, cells.
     fn stray(&self, block: usize, pose: &Pose, radius: f64, cell: f64) -> f64 {
         let Some(then) = &self.found[block].pose else {
             return f64::INFINITY;
@@ -318,12 +318,12 @@ impl Plan {
         ((pose.centre - then.centre).length() + square.sqrt() * radius) / cell
     }
 
-    /// Where the tiles of a block were found.
+    /// The pose at the last search for the tiles of a block.
     pub fn found_at(&self, block: usize) -> Option<Pose> {
         self.found[block].pose
     }
 
-    /// Forgets the tiles of a block.
+    /// Discards the tiles of a block.
     pub fn forget(&mut self, block: usize) {
         self.found[block] = Found::default();
     }

@@ -505,7 +505,8 @@ impl Simulation {
 }
 
 fn no_lattice() -> Error {
-    let message = "these fields need a fluid on a lattice, and the scene has none; give it fluid.viscosity";
+    let message =
+        "these fields need a fluid on a lattice, and the scene has none; give it fluid.viscosity";
     Error::argument("fluid", message)
 }
 

@@ -198,7 +198,10 @@ impl Watched {
         if watched.is_empty() {
             let names = blocks.iter().filter(|(_, block)| free(block));
             let names: Vec<_> = names.take(20).map(|(_, block)| &*block.name).collect();
-            let message = format!("no free block has this name; there are {}", names.join(", "));
+            let message = format!(
+                "no free block has this name; there are {}",
+                names.join(", ")
+            );
             return Err(Error::argument("--block", message));
         }
         Ok(Self {
